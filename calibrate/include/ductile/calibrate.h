@@ -1,0 +1,187 @@
+// From drawn bodies to joints: split outlines, take every joint's limits from its section, build Box2D
+// worlds.
+//
+// A SceneDef is what a user draws and writes (docs/scene.md describes the same as a file); calibrate() turns
+// it into a Plan, which knows no engine; build() turns a Plan into bodies, fixtures and joints of a b2World.
+// SI units, y up.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ductile/joint.h"
+#include "ductile/section.h"
+
+namespace ductile {
+
+enum class BodyType { static_body, dynamic_body, kinematic_body };
+
+/// How a row of a joint behaves below its cap.
+enum class Elasticity {
+  true_stiffness,    ///< EA/ℓ, κGA/ℓ, EI/ℓ of the material and section (rigid where E is not known)
+  rigid,             ///< as stiff as the step can integrate
+  frequency,         ///< from a frequency and damping ratio of the two bodies, as b2AngularStiffness
+  elastic_rotation,  ///< k = cap/θ; with a frequency: cap = k·θ
+};
+
+/// What a user says of joints instead of leaving it to section and material; unset fields are not overridden.
+struct JointOverrides {
+  std::optional<double> moment, moment_reverse;    ///< N m; unlimited, or 0 for a free row
+  std::optional<double> axial, axial_compression;  ///< N; likewise
+  std::optional<double> shear;                     ///< N; likewise
+  std::optional<Elasticity> elastic;
+  double frequency = 0;                 ///< Hz, with `elastic`
+  std::optional<double> damping_ratio;  ///< ζ
+  double elastic_rotation = 0;          ///< rad, with `elastic`
+  std::optional<double> max_rotation;   ///< rad, accumulated; unlimited: never breaks by it
+  std::optional<double> max_elongation, max_compression, max_slip;  ///< m, accumulated; likewise
+  std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
+};
+
+/// A body as drawn, before it is split.
+struct BodyDef {
+  std::string name = "body";  ///< unique in its scene, without `/ # -`, not "ground"
+  BodyType type = BodyType::dynamic_body;
+  Outline outline;    ///< m
+  double circle = 0;  ///< m: a disc of this radius about the origin instead of an outline; not split
+  std::optional<Material> material;  ///< required for dynamic bodies
+  double depth = 1;                  ///< m, out of plane
+  std::vector<Region> profile;  ///< instead of depth: the section the strip is extruded from (x out of plane)
+  int pieces = 1;               ///< equal parts along `along`; 1: not split
+  std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis
+  std::vector<std::array<Point, 2>>
+      cuts;                     ///< explicit cuts instead: segments that leave the outline at both ends
+  bool automatic = false;       ///< split: number and place of the cuts from the target error
+  JointOverrides joint;         ///< for the joints inside this body
+  Point at;                     ///< m: where the outline's origin is placed
+  double angle = 0;             ///< rad
+  Point velocity;               ///< m/s
+  double angular_velocity = 0;  ///< rad/s
+  std::int16_t group = 0;       ///< collision filter group, as Box2D
+};
+
+/// Two bodies joined wherever their edges overlap.
+struct JointBetweenDef {
+  std::string a, b;  ///< names of bodies
+  double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
+  JointOverrides overrides;
+};
+
+/// Holds the piece under a point to the ground, in world axes.
+struct SupportDef {
+  std::string body;
+  Point at;
+  bool fix_x = false, fix_y = false, fix_angle = false;
+};
+
+/// A force and moment that ride with the piece under a point, in world axes.
+struct LoadDef {
+  std::string body;
+  Point at;
+  Point force;                                ///< N
+  double moment = 0;                          ///< N m
+  double from = 0, ramp = 0, to = unlimited;  ///< s: grows linearly over `ramp` after `from`, zero after `to`
+};
+
+/// A stock b2WheelJoint: a wheel body carried by a chassis body at a point, sprung along an axis of the
+/// chassis.
+struct WheelDef {
+  std::string chassis, wheel;  ///< names of bodies
+  Point at, axis{0, 1};
+  double frequency = 4, damping_ratio = 0.7;  ///< of the spring, Hz
+  double motor_speed = 0;                     ///< rad/s
+  double motor_torque = 0;                    ///< N m
+};
+
+struct SceneDef {
+  Point gravity{0, -9.81};
+  double gravity_ramp = 0;   ///< s over which gravity grows linearly
+  bool sleep = false;        ///< may Box2D put bodies to sleep
+  bool interaction = false;  ///< N–M–Q yield surface instead of independent caps
+  JointOverrides joint;      ///< for all joints
+  std::vector<BodyDef> bodies;
+  std::vector<JointBetweenDef> joints;
+  std::vector<SupportDef> supports;
+  std::vector<LoadDef> loads;
+  std::vector<WheelDef> wheels;
+};
+
+/// A convex fixture polygon of at most 8 vertices, counter-clockwise, relative to its piece's centre.
+using Convex = std::vector<Point>;
+
+/// One rigid part of a split body (or the whole of an unsplit one).
+struct Piece {
+  std::string name;              ///< "beam/0"; "wall" when not split
+  int body = 0;                  ///< index into Plan::bodies
+  double mass = 0;               ///< kg, from the outline, not from the fixtures; 0 unless dynamic
+  double inertia = 0;            ///< kg m², about `center`
+  Point center;                  ///< m, centre of mass, world axes at t = 0
+  Outline outline;               ///< m, world axes at t = 0; empty for a disc
+  double circle = 0;             ///< m, radius of a disc
+  std::vector<Convex> fixtures;  ///< cover the outline exactly; empty for a disc
+};
+
+/// A joint to be: everything a Box2D definition, a limit analysis or a drawing needs of it. Positive N is
+/// tension; positive M turns b counter-clockwise against a and puts the right of the axis in tension.
+struct PlannedJoint {
+  std::string name;                                   ///< "beam/0-beam/1", "wall-beam/0", "support/0"
+  int a = -1, b = -1;                                 ///< indices into Plan::pieces; −1: the ground
+  Point anchor;                                       ///< m, world axes at t = 0
+  Point axis;                                         ///< unit, from a to b
+  double N = 0, Nc = 0, Q = 0, M = 0, M_reverse = 0;  ///< caps, N and N m; unlimited, or 0 for a free row
+  struct Stiffness {
+    double N = 0, Q = 0, M = 0;  ///< N/m, N/m, N m/rad; unlimited: rigid
+  } stiffness;
+  double damping_ratio = 0;
+  double max_rotation = unlimited;    ///< rad, accumulated plastic
+  double max_elongation = unlimited;  ///< m, likewise
+  double max_compression = unlimited, max_slip = unlimited;
+  double hinge_length = 0;  ///< m
+  std::string governed_by;  ///< which input set each value
+  std::optional<Section>
+      section;  ///< with the bending direction d = right of the axis = (+x of the section's plane:
+  Point section_direction;    ///< out of plane, +y: along the cut); null where caps are given
+  double section_anchor = 0;  ///< coordinate of the anchor along section_direction
+};
+
+/// What was left out of a plan, with the error it brings and the time it saves.
+struct LeftOut {
+  std::string what;
+  double error = 0;       ///< relative displacement error that it brings, at most
+  double time_saved = 0;  ///< share of the step's time
+};
+
+/// Calibrated pieces and joints, engine-free.
+struct Plan {
+  Point gravity;
+  double gravity_ramp = 0;
+  bool sleep = false, interaction = false;
+  std::vector<BodyDef> bodies;       ///< as given
+  std::vector<Piece> pieces;         ///< in the order of the bodies, then along the split
+  std::vector<PlannedJoint> joints;  ///< inside bodies, between bodies, supports
+  struct Load {
+    int piece = 0;
+    Point at;  ///< m, world axes at t = 0
+    LoadDef def;
+  };
+  std::vector<Load> loads;
+  struct Wheel {
+    int chassis = 0, wheel = 0;  ///< pieces
+    WheelDef def;
+  };
+  std::vector<Wheel> wheels;
+  std::vector<LeftOut> left_out;
+};
+
+/// Splits, joins and calibrates. Throws InvalidInput with every problem found (`place` names body and
+/// vertex).
+Plan calibrate(const SceneDef& scene);
+
+/// One body alone, with no gravity of its own: the level-load call for a program that has outlines in memory.
+Plan calibrate(const BodyDef& body);
+
+}  // namespace ductile

@@ -1,0 +1,25 @@
+include(GNUInstallDirs)
+
+# Our own code is built with warnings as errors when ductile itself is what is being built; a project that adds
+# ductile keeps its own flags.
+add_library(ductile_options INTERFACE)
+target_compile_features(ductile_options INTERFACE cxx_std_20)
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  target_compile_options(ductile_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Werror
+    -Wno-missing-field-initializers   # designated initialisers leave the rest at its default on purpose
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false alarm of GCC 12 in std::string operator+ (GCC bug 105651)
+endif()
+
+# ductile_room(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one room of the house, as ductile::NAME.
+# Its public headers are in NAME/include/ductile.
+function(ductile_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(ductile_${name} STATIC ${ROOM_SOURCES})
+  add_library(ductile::${name} ALIAS ductile_${name})
+  set_target_properties(ductile_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(ductile_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(ductile_${name} PUBLIC cxx_std_20)
+  target_link_libraries(ductile_${name} PUBLIC ${ROOM_PUBLIC}
+    PRIVATE $<BUILD_INTERFACE:ductile_options> ${ROOM_PRIVATE})
+endfunction()
