@@ -1,0 +1,30 @@
+// Vectors of the plane, for the .cpp files of this room.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "ductile/section.h"
+
+namespace ductile {
+
+constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
+constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+constexpr Point left(Point a) { return {-a.y, a.x}; }
+constexpr Point right(Point a) { return {a.y, -a.x}; }
+constexpr Point middle(Point a, Point b) { return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}; }
+inline double length(Point a) { return std::hypot(a.x, a.y); }
+inline Point unit(Point a) { return (1 / length(a)) * a; }
+
+/// Sign of the doubled area of a, b, c, exactly: +1 where c is left of a→b, 0 where the three are collinear.
+int orientation(Point a, Point b, Point c);
+
+/// For messages: "1.25" and "(1.25, -3)".
+std::string to_string(double number);
+std::string to_string(Point point);
+
+}  // namespace ductile

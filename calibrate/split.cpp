@@ -1,0 +1,368 @@
+#include "split.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+
+#include "moments.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+// The outline and its cuts as one planar map. Every ring edge is a half-edge with the material on its left;
+// every stretch of a cut inside the material (a chord) is a pair of them. What bounds a piece are cycles of
+// `next`. `next` is a permutation whatever the rounding of the points, so tracing it always ends; and since
+// the two halves of a chord cancel, the areas of the pieces always add up to that of the outline.
+class PlanarMap {
+ public:
+  PlanarMap(const Outline& outline, std::span<const Cut> cuts, const std::string& place)
+      : cuts_(cuts), place_(place) {
+    add_ring(outline.outer, false);
+    for (const Ring& hole : outline.holes) add_ring(hole, true);
+    Point low = points_.front(), high = low;
+    for (const Point& p : points_) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    size_ = length(high - low);
+  }
+
+  Split run() {
+    for (std::size_t i = 0; i < cuts_.size(); ++i) find_chords(static_cast<int>(i));
+    same_.resize(points_.size());
+    std::iota(same_.begin(), same_.end(), 0);
+    for (const auto& [a, b] : touching_) unite(a, b);
+    sort(edge_crossings_);
+    find_chord_crossings();
+    sort(chord_crossings_);
+    link_edges();
+    link_chords();
+    refuse_problems();
+    Split result = trace();
+    refuse_problems();
+    return result;
+  }
+
+ private:
+  struct Line {
+    int from, to;  // points
+    int cut = -1;  // −1: an edge of the outline
+  };
+  struct Crossing {
+    int line;
+    double s;  // from 0 to 1 along the line
+    int point;
+  };
+  // A point of a cut at which the depth inside the material changes, just left and just right of the cut.
+  struct Event {
+    double t;
+    int point, left, right;
+  };
+  struct HalfEdge {
+    int from, to;
+    int next = -1;     // along the boundary of the piece on the left
+    int sibling = -1;  // another half-edge that arrives at the same point
+    int cut = -1;
+    int cycle = -1;
+  };
+
+  void add_ring(const Ring& ring, bool clockwise) {
+    const std::size_t n = ring.size() - (ring.size() > 1 && ring.front() == ring.back() ? 1 : 0);
+    const bool reverse = (doubled_area(ring) < 0) != clockwise;
+    const int first = static_cast<int>(points_.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const int at = static_cast<int>(points_.size());
+      points_.push_back(ring[reverse ? n - 1 - i : i]);
+      edges_.push_back({at, i + 1 < n ? at + 1 : first});
+    }
+    vertices_ = points_.size();
+  }
+
+  // The chords of one cut. A vertex on the cut counts once as right of it and once as left, as if the cut were
+  // displaced a little to its left and to its right. Where both displaced cuts run in material, so does the
+  // cut itself; where only one does, it runs along an edge of the outline.
+  void find_chords(int index) {
+    const Cut& cut = cuts_[index];
+    const double extent = length(cut.to - cut.from);
+    const Point w = unit(cut.to - cut.from);
+    offsets_.resize(vertices_);
+    for (std::size_t i = 0; i < vertices_; ++i) {
+      const double offset = cross(w, points_[i] - cut.from);
+      offsets_[i] = std::abs(offset) <= tolerance() ? 0 : offset;
+    }
+    events_.clear();
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto [from, to, _] = edges_[i];
+      const double a = offsets_[from], b = offsets_[to];
+      const int left = (a > 0) == (b > 0) ? 0 : b > 0 ? -1 : 1;  // an edge going left has material before it
+      const int right = (a >= 0) == (b >= 0) ? 0 : b >= 0 ? -1 : 1;
+      if (left == 0 && right == 0) continue;
+      const int point = left != 0 && right != 0 ? cross_line(static_cast<int>(i), a / (a - b), edges_[i])
+                        : a == 0                ? from
+                                                : to;
+      events_.push_back({dot(w, points_[point] - cut.from), point, left, right});
+    }
+    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.t < b.t; });
+    const double slack = 1e-6 * size_;
+    const std::size_t before = chords_.size();
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i + 1 < events_.size(); ++i) {
+      const Event &here = events_[i], &next = events_[i + 1];
+      left += here.left;
+      right += here.right;
+      if (here.point != next.point && points_[here.point] == points_[next.point])
+        touching_.emplace_back(here.point, next.point);
+      else if (left > 0 && right > 0 && here.point != next.point && next.t > slack && here.t < extent - slack) {
+        chords_.push_back({here.point, next.point, index});
+        if (here.t < -slack || next.t > extent + slack)
+          problem(index, "ends inside the outline, at " + to_string(here.t < -slack ? cut.from : cut.to),
+                  "move that end out of the outline");
+      }
+    }
+    if (chords_.size() == before) problem(index, "misses the outline", "let it run from side to side");
+  }
+
+  // The point of an edge at which a cut crosses it.
+  int cross_line(int index, double s, const Line& line) {
+    const Point a = points_[line.from], b = points_[line.to], p = a + s * (b - a);
+    if (p == a) return line.from;
+    if (p == b) return line.to;
+    points_.push_back(p);
+    edge_crossings_.push_back({index, s, static_cast<int>(points_.size()) - 1});
+    return edge_crossings_.back().point;
+  }
+
+  void find_chord_crossings() {
+    if (std::all_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) { return parallel(cut, cuts_.front()); })) return;
+    for (std::size_t i = 0; i < chords_.size(); ++i)
+      for (std::size_t j = i + 1; j < chords_.size(); ++j) {
+        const Line &c = chords_[i], &d = chords_[j];
+        if (c.cut == d.cut || parallel(cuts_[c.cut], cuts_[d.cut])) continue;
+        if (same(c.from) == same(d.from) || same(c.from) == same(d.to) || same(c.to) == same(d.from) ||
+            same(c.to) == same(d.to))
+          continue;
+        const Point a = points_[c.from], b = points_[c.to], p = points_[d.from], q = points_[d.to];
+        if (orientation(a, b, p) * orientation(a, b, q) >= 0 || orientation(p, q, a) * orientation(p, q, b) >= 0)
+          continue;
+        const double across = cross(b - a, q - p);
+        const double s = cross(p - a, q - p) / across, t = cross(p - a, b - a) / across;
+        points_.push_back(a + s * (b - a));
+        same_.push_back(static_cast<int>(points_.size()) - 1);
+        chord_crossings_.push_back({static_cast<int>(i), s, same_.back()});
+        chord_crossings_.push_back({static_cast<int>(j), t, same_.back()});
+      }
+  }
+
+  static bool parallel(const Cut& a, const Cut& b) { return cross(a.to - a.from, b.to - b.from) == 0; }
+
+  // Along each line; crossings of one line nearer than the tolerance become one point. A point of an edge so
+  // moves along that edge only, and a point inside moves with both pieces: no area changes.
+  void sort(std::vector<Crossing>& crossings) {
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+      return a.line != b.line ? a.line < b.line : a.s < b.s;
+    });
+    for (std::size_t i = 1; i < crossings.size(); ++i) {
+      const Crossing &a = crossings[i - 1], &b = crossings[i];
+      if (a.line == b.line && length(points_[a.point] - points_[b.point]) <= tolerance()) unite(a.point, b.point);
+    }
+  }
+
+  int same(int point) const {
+    while (same_[point] != point) point = same_[point];
+    return point;
+  }
+  void unite(int a, int b) { same_[std::max(same(a), same(b))] = std::min(same(a), same(b)); }
+
+  // Calls visit(from, to) for every part of every line between the points that cross it.
+  template <class Visit>
+  void walk(const std::vector<Line>& lines, const std::vector<Crossing>& crossings, Visit visit) {
+    auto crossing = crossings.begin();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      int at = same(lines[i].from);
+      const auto go = [&](int to) {
+        if (to != at) visit(lines[i], at, to);
+        at = to;
+      };
+      for (; crossing != crossings.end() && crossing->line == static_cast<int>(i); ++crossing)
+        go(same(crossing->point));
+      go(same(lines[i].to));
+    }
+  }
+
+  void link_edges() {
+    arrivals_.assign(points_.size(), -1);
+    std::vector<int> departures(points_.size(), -1);
+    std::vector<int> crowded;
+    walk(edges_, edge_crossings_, [&](const Line&, int from, int to) {
+      const int edge = static_cast<int>(half_edges_.size());
+      half_edges_.push_back({from, to, -1, arrivals_[to]});
+      if (arrivals_[to] >= 0) crowded.push_back(to);
+      arrivals_[to] = edge;
+      departures[from] = edge;
+    });
+    for (std::size_t p = 0; p < arrivals_.size(); ++p)
+      if (arrivals_[p] >= 0) half_edges_[arrivals_[p]].next = departures[p];
+    for (int point : crowded) link_crowded(point);
+  }
+
+  // Rings that touch at a point: the boundary that arrives there goes on along the first departure clockwise,
+  // which closes the wedge of material on its left.
+  void link_crowded(int point) {
+    for (int e = arrivals_[point]; e >= 0; e = half_edges_[e].sibling) {
+      const Point back = points_[half_edges_[e].from] - points_[point];
+      double least = 7;
+      for (std::size_t d = 0; d < half_edges_.size(); ++d) {
+        if (half_edges_[d].from != point) continue;
+        const double wedge = turn(points_[half_edges_[d].to] - points_[point], back);
+        if (wedge < least) {
+          least = wedge;
+          half_edges_[e].next = static_cast<int>(d);
+        }
+      }
+    }
+  }
+
+  // Counter-clockwise angle from a to b, in (0, 2π].
+  static double turn(Point a, Point b) {
+    const double angle = std::atan2(cross(a, b), dot(a, b));
+    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+  }
+
+  void link_chords() {
+    walk(chords_, chord_crossings_, [&](const Line& chord, int from, int to) {
+      const int there = static_cast<int>(half_edges_.size()), back = there + 1;
+      const int before = arrival(from, points_[to] - points_[from]);
+      const int after = arrival(to, points_[from] - points_[to]);
+      half_edges_.push_back({from, to, -1, arrivals_[to], chord.cut});
+      half_edges_.push_back({to, from, -1, arrivals_[from], chord.cut});
+      arrivals_[to] = there;
+      arrivals_[from] = back;
+      half_edges_[there].next = after >= 0 ? half_edges_[after].next : back;
+      half_edges_[back].next = before >= 0 ? half_edges_[before].next : there;
+      if (before >= 0) half_edges_[before].next = there;
+      if (after >= 0) half_edges_[after].next = back;
+    });
+  }
+
+  // The half-edge that arrives at a point before the wedge of material into which `direction` points; −1 where
+  // nothing arrives yet.
+  int arrival(int point, Point direction) const {
+    const int first = arrivals_[point];
+    if (first < 0 || half_edges_[first].sibling < 0) return first;
+    for (int e = first; e >= 0; e = half_edges_[e].sibling) {
+      const Point out = points_[half_edges_[half_edges_[e].next].to] - points_[point];
+      if (turn(out, direction) < turn(out, points_[half_edges_[e].from] - points_[point])) return e;
+    }
+    return first;
+  }
+
+  // Counter-clockwise cycles are the outer boundaries of pieces, the others bound holes in them.
+  Split trace() {
+    struct Cycle {
+      Ring ring;
+      int piece = -1;
+    };
+    std::vector<Cycle> cycles;
+    Split result;
+    for (std::size_t start = 0; start < half_edges_.size(); ++start) {
+      if (half_edges_[start].cycle >= 0) continue;
+      Cycle cycle;
+      for (int e = static_cast<int>(start); half_edges_[e].cycle < 0; e = half_edges_[e].next) {
+        half_edges_[e].cycle = static_cast<int>(cycles.size());
+        cycle.ring.push_back(points_[half_edges_[e].from]);
+      }
+      if (doubled_area(cycle.ring) > 0) {
+        cycle.piece = static_cast<int>(result.pieces.size());
+        result.pieces.push_back({cycle.ring, {}});
+      }
+      cycles.push_back(std::move(cycle));
+    }
+    for (Cycle& cycle : cycles) {
+      if (cycle.piece >= 0) continue;
+      for (std::size_t i = 0; i < result.pieces.size() && cycle.piece < 0; ++i)
+        if (result.pieces.size() == 1 || surrounds(result.pieces[i].outer, cycle.ring))
+          cycle.piece = static_cast<int>(i);
+      if (cycle.piece >= 0) result.pieces[cycle.piece].holes.push_back(std::move(cycle.ring));
+    }
+
+    for (std::size_t e = 0; e < half_edges_.size(); ++e) {
+      const HalfEdge& half = half_edges_[e];
+      if (half.cut < 0) continue;
+      ++e;  // its other half
+      const Interval interval{half.cut, cycles[half.cycle].piece, cycles[half_edges_[e].cycle].piece,
+                              points_[half.from], points_[half.to]};
+      if (interval.left < 0 || interval.right < 0) continue;
+      if (interval.left == interval.right) {
+        problem(half.cut, "separates nothing between " + to_string(interval.from) + " and " + to_string(interval.to),
+                "cut the body apart, or leave this cut out");
+        continue;
+      }
+      Interval* last = result.intervals.empty() ? nullptr : &result.intervals.back();
+      if (last && last->cut == interval.cut && last->to == interval.from && last->left == interval.left &&
+          last->right == interval.right)
+        last->to = interval.to;
+      else
+        result.intervals.push_back(interval);
+    }
+    return result;
+  }
+
+  static bool surrounds(const Ring& outer, const Ring& inner) {
+    for (const Point& p : inner)
+      if (const int where = locate(outer, p)) return where > 0;
+    return true;  // touches with all its vertices
+  }
+
+  double tolerance() const { return 1e-9 * size_; }
+  void problem(int cut, std::string what, std::string remedy) {
+    problems_.push_back({place_ + ", cut " + std::to_string(cut), std::move(what), std::move(remedy)});
+  }
+  void refuse_problems() {
+    if (!problems_.empty()) throw InvalidInput(std::move(problems_));
+  }
+
+  std::span<const Cut> cuts_;
+  const std::string& place_;
+  std::vector<Problem> problems_;
+  double size_ = 0;
+  std::vector<Point> points_;  // the rings' vertices, then where cuts cross edges, then where they cross each other
+  std::size_t vertices_ = 0;
+  std::vector<Line> edges_, chords_;
+  std::vector<Crossing> edge_crossings_, chord_crossings_;
+  std::vector<std::pair<int, int>> touching_;
+  std::vector<int> same_;  // union-find over points that are one
+  std::vector<HalfEdge> half_edges_;
+  std::vector<int> arrivals_;  // per point, one half-edge that arrives there; siblings follow
+  std::vector<double> offsets_;
+  std::vector<Event> events_;
+};
+
+}  // namespace
+
+Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
+  return PlanarMap(outline, cuts, place).run();
+}
+
+int locate(const Ring& ring, Point point) {
+  // The half-line from the point to the right crosses the edges that go up or down past it.
+  int winding = 0;
+  Point a = ring.back();
+  for (const Point& b : ring) {
+    if ((a.y <= point.y) != (b.y <= point.y) || (a.y == point.y && b.y == point.y)) {
+      const int side = orientation(a, b, point);
+      if (side == 0) {
+        if (std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x)) return 0;
+      } else if ((a.y <= point.y) != (b.y <= point.y) && (side > 0) == (b.y > a.y)) {
+        winding += side;
+      }
+    } else if (b == point) {
+      return 0;
+    }
+    a = b;
+  }
+  return winding != 0 ? 1 : -1;
+}
+
+}  // namespace ductile

@@ -1,0 +1,260 @@
+// Outlines into pieces into convex parts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "convex.h"
+#include "moments.h"
+#include "plane.h"
+#include "split.h"
+
+namespace {
+using namespace ductile;
+
+Ring rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+double area(const std::vector<Ring>& rings) {
+  double sum = 0;
+  for (const Ring& ring : rings) sum += doubled_area(ring) / 2;
+  return sum;
+}
+
+void expect_convex(const Ring& ring) {
+  EXPECT_GE(ring.size(), 3u);
+  EXPECT_LE(ring.size(), 8u);
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    EXPECT_EQ(orientation(ring[i], ring[(i + 1) % ring.size()], ring[(i + 2) % ring.size()]), 1);
+}
+
+TEST(Moments, Rectangle) {
+  const Moments m = moments({rectangle(1e6, 0, 1e6 + 4, 2), {}});
+  EXPECT_DOUBLE_EQ(m.area, 8);
+  EXPECT_EQ(m.centroid, (Point{1e6 + 2, 1}));
+  EXPECT_DOUBLE_EQ(m.polar, 8.0 * (16 + 4) / 12);
+}
+
+TEST(Moments, RingsOfAnyOrientation) {
+  // A square tube: ∫ r² dA = (a⁴ − b⁴)/6.
+  Outline tube{rectangle(-2, -2, 2, 2), {rectangle(-1, -1, 1, 1)}};
+  EXPECT_DOUBLE_EQ(moments(tube).polar, (256.0 - 16.0) / 6);
+  std::reverse(tube.outer.begin(), tube.outer.end());
+  EXPECT_DOUBLE_EQ(moments(tube).polar, (256.0 - 16.0) / 6);
+  EXPECT_DOUBLE_EQ(moments(tube).area, 12);
+}
+
+TEST(Moments, RightTriangle) {
+  // Legs b, h: centroid at a third, ∫ r² dA = bh(b² + h²)/36.
+  const Moments m = moments({{{0, 0}, {3, 0}, {0, 5}}, {}});
+  EXPECT_DOUBLE_EQ(m.area, 7.5);
+  EXPECT_DOUBLE_EQ(m.centroid.x, 1);
+  EXPECT_DOUBLE_EQ(m.centroid.y, 5.0 / 3);
+  EXPECT_DOUBLE_EQ(m.polar, 15.0 * 34 / 36);
+}
+
+TEST(Split, BeamInThree) {
+  const std::vector<Cut> cuts{{{1, 9}, {1, -9}}, {{2, 9}, {2, -9}}};
+  const Split s = split({rectangle(0, 0, 3, 1), {}}, cuts, "beam");
+  ASSERT_EQ(s.pieces.size(), 3u);
+  ASSERT_EQ(s.intervals.size(), 2u);
+  for (const Outline& piece : s.pieces) EXPECT_DOUBLE_EQ(moments(piece).area, 1);
+  EXPECT_EQ(s.intervals[0].from, (Point{1, 1}));
+  EXPECT_EQ(s.intervals[0].to, (Point{1, 0}));
+}
+
+TEST(Split, WindowGivesTwoIntervals) {
+  const std::vector<Cut> cuts{{{2, -9}, {2, 9}}};
+  const Split s = split({rectangle(0, 0, 4, 3), {rectangle(1, 1, 3, 2)}}, cuts, "frame");
+  ASSERT_EQ(s.pieces.size(), 2u);
+  ASSERT_EQ(s.intervals.size(), 2u);
+  EXPECT_EQ(s.intervals[0].to, (Point{2, 1}));
+  EXPECT_EQ(s.intervals[1].from, (Point{2, 2}));
+  EXPECT_DOUBLE_EQ(moments(s.pieces[0]).area, 5);
+}
+
+TEST(Split, WindowBetweenTheCutsStaysAHole) {
+  const std::vector<Cut> cuts{{{1, -9}, {1, 9}}, {{9, -9}, {9, 9}}};
+  const Split s = split({rectangle(0, 0, 10, 3), {rectangle(2, 1, 3, 2), rectangle(4, 1, 5, 2)}}, cuts, "frame");
+  ASSERT_EQ(s.pieces.size(), 3u);
+  std::size_t holes = 0;
+  for (const Outline& piece : s.pieces) holes += piece.holes.size();
+  EXPECT_EQ(holes, 2u);
+}
+
+// A portal cut along the underside of its beam: the cut runs along an edge between the columns.
+TEST(Split, CutAlongAnEdge) {
+  const Ring portal{{0, 0}, {1, 0}, {1, 4}, {5, 4}, {5, 0}, {6, 0}, {6, 5}, {0, 5}};
+  for (const Cut& cut : {Cut{{-1, 4}, {7, 4}}, Cut{{7, 4}, {-1, 4}}}) {
+    const Split s = split({portal, {}}, std::vector{cut}, "portal");
+    ASSERT_EQ(s.pieces.size(), 3u);
+    ASSERT_EQ(s.intervals.size(), 2u);
+    for (const Interval& i : s.intervals) EXPECT_DOUBLE_EQ(length(i.to - i.from), 1);
+  }
+}
+
+// Where a hole touches the cut with a corner, both sides of that point are still one interval.
+TEST(Split, HoleTouchesTheCut) {
+  const Outline body{rectangle(0, 0, 4, 4), {{{2, 2}, {1, 2.5}, {1, 1.5}}}};
+  const Split s = split(body, std::vector{Cut{{2, -1}, {2, 5}}}, "body");
+  ASSERT_EQ(s.pieces.size(), 2u);
+  ASSERT_EQ(s.intervals.size(), 1u);
+  EXPECT_DOUBLE_EQ(length(s.intervals[0].to - s.intervals[0].from), 4);
+  EXPECT_DOUBLE_EQ(moments(s.pieces[0]).area + moments(s.pieces[1]).area, 15.5);
+}
+
+TEST(Split, CrossingCutsMakeAGrid) {
+  std::vector<Cut> cuts;
+  for (int i = 1; i < 5; ++i) cuts.push_back({{i * 1.0, -1}, {i * 1.0, 6}});
+  for (int i = 1; i < 5; ++i) cuts.push_back({{-1, i * 1.0}, {6, i * 1.0}});
+  const Split s = split({rectangle(0, 0, 5, 5), {}}, cuts, "grid");
+  EXPECT_EQ(s.pieces.size(), 25u);
+  EXPECT_EQ(s.intervals.size(), 40u);
+  for (const Outline& piece : s.pieces) EXPECT_DOUBLE_EQ(moments(piece).area, 1);
+}
+
+TEST(Split, ThreeCutsThroughOnePoint) {
+  const std::vector<Cut> cuts{{{-9, 0}, {9, 0}}, {{0, -9}, {0, 9}}, {{-9, -8.1}, {9, 8.1}}};
+  const Split s = split({rectangle(-1, -1, 1, 1), {}}, cuts, "square");
+  EXPECT_EQ(s.pieces.size(), 6u);
+  EXPECT_EQ(s.intervals.size(), 6u);
+}
+
+TEST(Split, BothLegsOfAU) {
+  const Ring u{{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}};
+  const Split whole = split({u, {}}, std::vector{Cut{{-1, 2}, {6, 2}}}, "u");
+  EXPECT_EQ(whole.pieces.size(), 3u);
+  EXPECT_EQ(whole.intervals.size(), 2u);
+  const Split one = split({u, {}}, std::vector{Cut{{-1, 2}, {2, 2}}}, "u");
+  EXPECT_EQ(one.pieces.size(), 2u);
+  EXPECT_EQ(one.intervals.size(), 1u);
+  // Ends on the outline count as outside.
+  EXPECT_EQ(split({u, {}}, std::vector{Cut{{0, 2}, {1, 2}}}, "u").intervals.size(), 1u);
+}
+
+TEST(Split, RefusesCutsThatDoNotCut) {
+  const Outline ring{rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}};
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 5}, {5, 5}}}, "ring"), InvalidInput);      // misses
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {0.5, 2}}}, "ring"), InvalidInput);    // ends inside
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {2, 2}}}, "ring"), InvalidInput);      // still one piece
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 0}, {5, 0}}}, "ring"), InvalidInput);      // along an edge
+  EXPECT_NO_THROW(split(ring, std::vector{Cut{{-1, 2}, {5, 2}}}, "ring"));
+}
+
+TEST(ConvexParts, FewForPlainShapes) {
+  EXPECT_EQ(convex_parts({rectangle(0, 0, 4, 1), {}}, 8).size(), 1u);
+  const Ring l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  EXPECT_EQ(convex_parts({l, {}}, 8).size(), 2u);
+  EXPECT_EQ(convex_parts({rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}}, 8).size(), 4u);
+  // Collinear vertices are not corners.
+  const Ring dotted{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 1}, {3, 1}, {2, 1}, {1, 1}, {0, 1}, {0, 0.5}};
+  EXPECT_LE(convex_parts({dotted, {}}, 8).size(), 2u);
+  Ring disc;
+  for (int i = 0; i < 64; ++i) disc.push_back({std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32)});
+  EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
+}
+
+// --- random outlines ---
+
+using Random = std::mt19937_64;
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+// A ring around a point, star-shaped from it.
+Ring star(Random& random, Point centre, double inner, double outer, int n) {
+  std::vector<double> angles;
+  for (int i = 0; i < n; ++i) angles.push_back((i + uniform(random, 0.05, 0.95)) * 2 * std::numbers::pi / n);
+  Ring ring;
+  for (const double a : angles) {
+    const double r = uniform(random, inner, outer);
+    ring.push_back({centre.x + r * std::cos(a), centre.y + r * std::sin(a)});
+  }
+  if (random() % 2) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+// Stars with star-shaped holes, some stretched to slivers, on coarse grids (so that much is collinear), far from
+// the origin, large or small.
+Outline random_outline(Random& random) {
+  const int n = 3 + static_cast<int>(random() % 40);
+  Outline outline{star(random, {}, 0.5, random() % 2 ? 0.6 : 3, std::max(n, 12)), {}};
+  const int holes = static_cast<int>(random() % 5);
+  for (int i = 0; i < holes; ++i) {
+    const Point c{-0.3 + 0.15 * i, uniform(random, -0.1, 0.1)};
+    outline.holes.push_back(star(random, c, 0.02, 0.07, 3 + static_cast<int>(random() % 12)));
+  }
+  const double stretch = random() % 3 ? 1 : std::pow(10, uniform(random, -3, 0)), angle = uniform(random, 0, 7);
+  const double size = std::pow(10, uniform(random, -1, 3));
+  const Point at = random() % 3 ? Point{} : Point{uniform(random, -1e3, 1e3) * size, uniform(random, -1e3, 1e3) * size};
+  const auto place = [&](Ring& ring) {
+    for (Point& p : ring) {
+      const Point q{size * p.x, size * stretch * p.y};
+      p = at + std::cos(angle) * q + std::sin(angle) * left(q);
+    }
+  };
+  place(outline.outer);
+  for (Ring& hole : outline.holes) place(hole);
+  return outline;
+}
+
+std::vector<Cut> random_cuts(Random& random, const Outline& outline) {
+  // Through pairs of points of the outline (vertices, so that cuts meet them exactly, or middles), lengthened.
+  std::vector<Point> points = outline.outer;
+  for (const Ring& hole : outline.holes) points.insert(points.end(), hole.begin(), hole.end());
+  std::vector<Cut> cuts;
+  const int n = static_cast<int>(random() % 6);
+  const Point along = points[random() % points.size()] - points[random() % points.size()];
+  for (int i = 0; i < n; ++i) {
+    const Point p = middle(points[random() % points.size()], points[random() % points.size()]);
+    Point d = random() % 2 ? left(along) : points[random() % points.size()] - points[random() % points.size()];
+    if (!(length(d) > 0)) continue;
+    Point low = points[0], high = low;
+    for (const Point& q : points)
+      low = {std::min(low.x, q.x), std::min(low.y, q.y)}, high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+    d = 2 * length(high - low) * unit(d);
+    cuts.push_back({p - d, p + d});
+  }
+  return cuts;
+}
+
+int rounds(int few) {
+  const char* text = std::getenv("DUCTILE_ROUNDS");
+  return text ? std::atoi(text) : few;
+}
+
+TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
+  for (int seed = 0, n = rounds(3000); seed < n && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const Outline outline = random_outline(random);
+    std::vector<Cut> cuts = random_cuts(random, outline);
+    const Moments whole = moments(outline);
+    Split s;
+    for (;;) try {
+        s = split(outline, cuts, "body");
+        break;
+      } catch (const InvalidInput&) {
+        ASSERT_FALSE(cuts.empty());
+        cuts.pop_back();  // a cut that touches only a vertex, say
+      }
+    double sum = 0;
+    for (const Outline& piece : s.pieces) {
+      const double own = moments(piece).area;
+      EXPECT_GT(own, 0);
+      sum += own;
+      const std::vector<Ring> parts = convex_parts(piece, 8);
+      for (const Ring& part : parts) expect_convex(part);
+      EXPECT_NEAR(area(parts), own, 1e-9 * whole.area);
+    }
+    // Where an outline lies far from the origin, the points that a cut makes are rounded to its coordinates.
+    double coordinate = 0;
+    for (const Point& p : outline.outer) coordinate = std::max(coordinate, length(p));
+    const double rounding = 2.2e-16 * coordinate * length(outline.outer[0] - whole.centroid) * 10;
+    EXPECT_NEAR(sum, whole.area, 1e-12 * whole.area + rounding);
+    for (const Interval& i : s.intervals) EXPECT_NE(i.left, i.right);
+  }
+}
+
+}  // namespace
