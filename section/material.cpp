@@ -13,20 +13,6 @@ double Material::shear() const {
 }
 
 namespace materials {
-namespace {
-constexpr Material steel(double fy, double fu) {
-  return {.yield_stress = fy,
-          .youngs_modulus = 210e9,
-          .criterion = Criterion::von_mises,
-          .density = 7850,
-          .ultimate_stress = fu};
-}
-}  // namespace
-
-const Material S235 = steel(235e6, 360e6);
-const Material S275 = steel(275e6, 430e6);
-const Material S355 = steel(355e6, 490e6);
-
 std::span<const NamedMaterial> all() {
   static const std::array list{
       NamedMaterial{"S235", S235, "EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm"},

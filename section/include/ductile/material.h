@@ -44,7 +44,21 @@ namespace materials {
 std::span<const NamedMaterial> all();
 /// The material of that name, or nullptr.
 const Material* find(std::string_view name);
-extern const Material S235, S275, S355;  ///< structural steels, EN 1993-1-1 Table 3.1
+
+namespace detail {
+constexpr Material structural_steel(double fy, double fu) {
+  return {.yield_stress = fy,
+          .youngs_modulus = 210e9,
+          .criterion = Criterion::von_mises,
+          .density = 7850,
+          .ultimate_stress = fu};
+}
+}  // namespace detail
+
+/// Structural steels, EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm; E clause 3.2.6, density EN 1991-1-1 Table A.4.
+inline constexpr Material S235 = detail::structural_steel(235e6, 360e6);
+inline constexpr Material S275 = detail::structural_steel(275e6, 430e6);
+inline constexpr Material S355 = detail::structural_steel(355e6, 490e6);
 }  // namespace materials
 
 }  // namespace ductile

@@ -1,0 +1,102 @@
+// The plastic neutral axis: the root of the falling, piecewise quadratic G(s) of Cut.
+//
+// Between two neighbouring vertex coordinates G is one quadratic, known exactly from a single pass over the
+// edges. So each trial solves that quadratic; a root that falls within its range is the answer, any other is
+// a Newton step with curvature, kept inside a bracket by bisection.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "section_data.h"
+
+namespace ductile {
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+template <class Real>
+struct Root {
+  Real s, F;
+  double chord;  // c there; infinite in the middle of a gap, which is not a root to be found
+};
+
+template <class Real>
+Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start) {
+  constexpr bool is_double = std::is_same_v<Real, double>;
+  // N: what the rounding of the coordinates as given may do to G. Two parts of equal strength with a gap
+  // between them are meant to be equal when they differ by no more.
+  const double rounding = 4 * epsilon * boundary.reach * (boundary.magnitude + boundary.radius);
+  const double ulp = (is_double ? epsilon : epsilon * epsilon) * boundary.radius;
+  const auto in_gap = [&](const Cut<Real>& cut) {
+    return !cut.inside && std::abs(to_double(cut.difference - target)) <= rounding;
+  };
+  const auto middle = [&](const Cut<Real>& cut, Real s0) -> Root<Real> {
+    const double up = std::isinf(cut.above) ? -cut.below : cut.above;
+    const double down = std::isinf(cut.below) ? -cut.above : cut.below;
+    const Real t = (up - down) / 2;
+    return {s0 + t, cut.moment - cut.difference * t, std::numeric_limits<double>::infinity()};
+  };
+
+  Real low = -boundary.radius, high = boundary.radius, s0 = start;
+  double step = 2 * boundary.radius, step_before = step;
+  for (;;) {
+    const Cut<Real> here = cut<Real>(boundary, d, s0);
+    const bool exhausted = to_double(high - low) <= ulp;
+    if (in_gap(here) || (exhausted && !here.inside)) return middle(here, s0);
+    const double rest = to_double(here.difference - target);
+    (rest > 0 ? low : high) = s0;
+
+    // rest − 2ct − c't² = 0, in the form that does not cancel.
+    const double c = here.chord, discriminant = c * c + here.chord_slope * rest;
+    const double t = discriminant >= 0 ? rest / (c + std::sqrt(discriminant)) : rest / (2 * c);
+    const bool in_range = discriminant >= 0 && -here.below <= t && t <= here.above && t * rest >= 0;
+    const bool fine =
+        is_double || std::abs(t) <= 1e-6 * boundary.radius;  // t has the digits of a double only
+    if (here.inside && (exhausted || std::abs(t) <= ulp || (in_range && fine))) {
+      const Real s = s0 + Real(t);
+      // Near a vertex the root may be the rim of a gap in which G stays at the target.
+      const double near = std::min(rounding / (2 * c), boundary.radius) + 4 * epsilon * boundary.radius;
+      if (here.above - t <= near || here.below + t <= near) {
+        for (const double side : {4 * near, -4 * near}) {
+          const Cut<Real> probe = cut<Real>(boundary, d, s + Real(side));
+          if (in_gap(probe)) return middle(probe, s + Real(side));
+        }
+      }
+      return {s, here.moment - (here.difference - Real((c + here.chord_slope * t / 3) * t)) * Real(t), c};
+    }
+
+    Real next = s0 + Real(t);
+    const bool newton = here.inside && low < next && next < high && 2 * std::abs(t) < step_before;
+    if (!newton) next = (low + high) * Real(0.5);
+    step_before = step;
+    step = std::abs(to_double(next - s0));
+    s0 = next;
+  }
+}
+}  // namespace
+
+NeutralAxis Section::Data::neutral_axis(Point direction, DoubleDouble target) const {
+  const double H = to_double(strength.A);
+  const auto d = unit<double>(direction);
+  // A rectangle of the same centroid and radius of gyration has its axis here.
+  const double centroid = (to_double(strength.Sx) * d.x + to_double(strength.Sy) * d.y) / H;
+  const double second = to_double(strength.Jxx) * d.x * d.x + 2 * to_double(strength.Jxy) * d.x * d.y +
+                        to_double(strength.Jyy) * d.y * d.y;
+  const double gyration = std::sqrt(std::max(second / H - centroid * centroid, 0.0));
+  const double start = centroid - to_double(target) / H * std::sqrt(3.0) * gyration;
+  const Root<double> quick = search<double>(boundary, d, to_double(target), start);
+
+  // First-order bounds of rounding. A thin or ragged section that cancels too much is finished at twice the
+  // precision.
+  const double error_G = epsilon * boundary.reach * boundary.radius;
+  const double error_s = quick.chord > 0 ? error_G / (2 * quick.chord) : boundary.radius;
+  const double tolerance = 5e-14 * std::abs(quick.F);
+  const Point o = boundary.origin;
+  if (error_s * H <= tolerance && error_G * boundary.radius <= tolerance)
+    return {quick.s, quick.F, o.x * d.x + o.y * d.y + quick.s, false};
+  const auto dd = unit<DoubleDouble>(direction);
+  const Root<DoubleDouble> fine = search<DoubleDouble>(boundary, dd, target, quick.s);
+  return {fine.s, fine.F, to_double(dd.x * o.x + dd.y * o.y + fine.s), true};
+}
+
+}  // namespace ductile
