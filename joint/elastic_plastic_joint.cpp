@@ -1,4 +1,8 @@
-#include "ductile/joint.h"
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "structure.h"
 
 namespace ductile {
 
@@ -13,7 +17,166 @@ void ElasticPlasticJointDef::Initialize(b2Body* a, b2Body* b, const b2Vec2& anch
   localAnchorA = a->GetLocalPoint(anchor);
   localAnchorB = b->GetLocalPoint(anchor);
   referenceAngle = b->GetAngle() - a->GetAngle();
-  axisAngle = b2Atan2(axis.y, axis.x) - 0.5f * (a->GetAngle() + b->GetAngle());
+  axisAngle = b2Atan2(axis.y, axis.x) - a->GetAngle();
+}
+
+void check(const ElasticPlasticJointDef& def) {
+  std::string wrong;
+  const auto require = [&](bool good, const std::string& text) {
+    if (!good) wrong += (wrong.empty() ? "" : "\n") + ("elastic-plastic joint: " + text);
+  };
+  require(def.bodyA != nullptr && def.bodyB != nullptr, "bodyA and bodyB must be set; call Initialize");
+  require(def.bodyA != def.bodyB || def.bodyA == nullptr,
+          "joins a body with itself; bodyA and bodyB must differ");
+  require(def.localAnchorA.IsValid() && def.localAnchorB.IsValid() && std::isfinite(def.axisAngle) &&
+              std::isfinite(def.referenceAngle),
+          "anchors and angles must be finite");
+  require(def.axisFollow >= 0 && def.axisFollow <= 1, "axisFollow must be within [0, 1]");
+  static const char* const names[] = {"axial", "shear", "rotation"};
+  for (int i = 0; i < 3; ++i) {
+    const RowDef& row = def.rows[i];
+    const std::string name = std::string(names[i]) + " row: ";
+    require(row.stiffness > 0,
+            name + "stiffness is " + std::to_string(row.stiffness) + "; must be > 0 (or rigid)");
+    require(row.damping_ratio >= 0 && std::isfinite(row.damping_ratio),
+            name + "damping_ratio must be ≥ 0 and finite");
+    require(row.cap >= 0 && row.cap_reverse >= 0,
+            name + "caps must be ≥ 0 (0: free, unlimited: never yields)");
+    require(row.hardening >= 0 && row.hardening < row.stiffness,
+            name + "hardening must be in [0, stiffness)");
+  }
+  for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
+    require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
+  }
+  if (!wrong.empty()) throw std::invalid_argument(wrong);
+}
+
+ElasticPlasticJoint* ElasticPlasticJoint::cast(b2Joint* joint) {
+  return dynamic_cast<ElasticPlasticJoint*>(joint);
+}
+
+namespace {
+const SolverJoint none{};
+}
+
+const SolverJoint& ElasticPlasticJoint::state() const { return member_ != nullptr ? member_->data() : none; }
+
+std::uint32_t ElasticPlasticJoint::id() const { return member_ != nullptr ? member_->id : UINT32_MAX; }
+
+b2Vec2 ElasticPlasticJoint::axis() const {
+  const SolverJoint& j = state();
+  const double relative = double{m_bodyB->GetAngle()} - double{m_bodyA->GetAngle()} - j.reference;
+  const double angle = m_bodyA->GetAngle() + std::atan2(j.axis.s, j.axis.c) + j.follow * relative;
+  return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+}
+
+double ElasticPlasticJoint::force(Row row) const {
+  return member_ != nullptr && member_->component != nullptr ? member_->component->solver.force(state())[row]
+                                                             : 0;
+}
+
+double ElasticPlasticJoint::cap(Row row, bool reverse) const {
+  return (reverse ? state().cap_reverse : state().cap)[row];
+}
+
+double ElasticPlasticJoint::usage(Row row) const {
+  const double f = force(row), limit = cap(row, f < 0);
+  if (std::isinf(limit)) return NAN;
+  return limit > 0 ? std::abs(f) / limit : 0;
+}
+
+double ElasticPlasticJoint::elastic(Row row) const { return state().gap[row] - state().neutral[row]; }
+double ElasticPlasticJoint::plastic(Row row) const { return state().plastic[row]; }
+
+double ElasticPlasticJoint::accumulated_rotation() const {
+  return state().flowed_forward[rotation] + state().flowed_back[rotation];
+}
+double ElasticPlasticJoint::elongation() const { return state().flowed_forward[axial]; }
+double ElasticPlasticJoint::compression() const { return state().flowed_back[axial]; }
+double ElasticPlasticJoint::slip() const {
+  return state().flowed_forward[shear] + state().flowed_back[shear];
+}
+
+double ElasticPlasticJoint::capacity_used() const {
+  if (member_ == nullptr) return 0;
+  const auto share = [](double value, double limit) { return value > 0 ? value / limit : 0; };
+  return std::max({share(accumulated_rotation(), member_->max_rotation),
+                   share(elongation(), member_->max_elongation),
+                   share(compression(), member_->max_compression), share(slip(), member_->max_slip)});
+}
+
+bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_->broken; }
+
+double ElasticPlasticJoint::dissipated() const {
+  const Rows& d = state().dissipated;
+  return d[0] + d[1] + d[2];
+}
+
+double ElasticPlasticJoint::elastic_energy() const {
+  const SolverJoint& j = state();
+  double sum = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const double e = j.gap[i] - j.neutral[i];
+    sum += j.spring[i] * e * e / 2;
+  }
+  return sum;
+}
+
+bool ElasticPlasticJoint::stiffness_limited(Row row) const {
+  const SolverJoint& j = state();
+  return std::isfinite(j.stiffness[row]) && j.spring[row] > 0 && j.spring[row] < j.stiffness[row];
+}
+
+void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
+  if (!(cap >= 0 && cap_reverse >= 0)) throw std::invalid_argument("elastic-plastic joint: caps must be ≥ 0");
+  if (member_ == nullptr || member_->broken) return;
+  member_->data().cap[row] = cap;
+  member_->data().cap_reverse[row] = cap_reverse;
+  wake();
+}
+
+void ElasticPlasticJoint::set_stiffness(Row row, double stiffness, double damping_ratio) {
+  if (!(stiffness > 0 && damping_ratio >= 0 && std::isfinite(damping_ratio))) {
+    throw std::invalid_argument("elastic-plastic joint: stiffness must be > 0 and damping_ratio ≥ 0");
+  }
+  if (member_ == nullptr) return;
+  member_->data().stiffness[row] = stiffness;
+  member_->data().damping_ratio[row] = damping_ratio;
+  wake();
+}
+
+void ElasticPlasticJoint::set_limits(double max_rotation, double max_elongation, double max_compression,
+                                     double max_slip) {
+  if (!(max_rotation >= 0 && max_elongation >= 0 && max_compression >= 0 && max_slip >= 0)) {
+    throw std::invalid_argument("elastic-plastic joint: maxima must be ≥ 0");
+  }
+  if (member_ == nullptr) return;
+  member_->max_rotation = max_rotation;
+  member_->max_elongation = max_elongation;
+  member_->max_compression = max_compression;
+  member_->max_slip = max_slip;
+}
+
+void ElasticPlasticJoint::wake() {
+  if (member_->component != nullptr) member_->component->solver.laws_changed();
+  m_bodyA->SetAwake(true);
+  m_bodyB->SetAwake(true);
+}
+
+b2Vec2 ElasticPlasticJoint::GetReactionForce(float inv_dt) const {
+  if (member_ == nullptr) return b2WeldJoint::GetReactionForce(inv_dt);
+  const b2Vec2 t = axis(), n{-t.y, t.x};
+  const Rows& s = state().impulse;
+  return -inv_dt * (static_cast<float>(s[axial]) * t + static_cast<float>(s[shear]) * n);
+}
+
+float ElasticPlasticJoint::GetReactionTorque(float inv_dt) const {
+  if (member_ == nullptr) return b2WeldJoint::GetReactionTorque(inv_dt);
+  return -inv_dt * static_cast<float>(state().impulse[rotation]);
+}
+
+void ElasticPlasticJoint::ShiftOrigin(const b2Vec2& newOrigin) {
+  if (member_ != nullptr) member_->structure->shift_origin(newOrigin, *member_);
 }
 
 }  // namespace ductile

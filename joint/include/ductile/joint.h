@@ -16,6 +16,7 @@
 #include <box2d/box2d.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -30,7 +31,10 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 class ElasticPlasticJoint;
 class Structure;
+struct Member;
+struct SolverJoint;
 
+/// Index of a row.
 enum Row : int { axial, shear, rotation };
 
 /// The law of one row.
@@ -65,8 +69,10 @@ struct ElasticPlasticJointDef : b2JointDef {
 
   b2Vec2 localAnchorA{0, 0};  ///< relative to body A's origin, m
   b2Vec2 localAnchorB{0, 0};  ///< relative to body B's origin, m
-  float axisAngle = 0;        ///< of the axis in the frame of the two bodies' mean angle at rest, rad
-  float referenceAngle = 0;   ///< angle of B minus angle of A at rest, rad
+  float axisAngle = 0;        ///< of the axis in body A's frame, rad
+  float axisFollow =
+      0.5f;  ///< share of B's turn against A that the axis follows: ½: mean of both; 0: fixed to A
+  float referenceAngle = 0;  ///< angle of B minus angle of A at rest, rad
 
   RowDef rows[3];                      ///< axial, shear, rotation
   double max_rotation = unlimited;     ///< rad: breaks where accumulated plastic rotation exceeds it
@@ -77,6 +83,133 @@ struct ElasticPlasticJointDef : b2JointDef {
   /// with the origin inside, counter-clockwise in the (N, M) plane. Empty: independent caps.
   std::vector<AxialMoment> interaction;
   int break_group = 0;  ///< joints of one group ≠ 0 break together
+};
+
+/// A joint of a Structure. The world owns it as it owns every joint: b2World::DestroyJoint and DestroyBody
+/// just work, and so do its base class's calls; GetType() says e_weldJoint (use ElasticPlasticJoint::cast).
+class ElasticPlasticJoint : public b2WeldJoint {
+ public:
+  /// The joint as what it is, or nullptr when it is another one.
+  static ElasticPlasticJoint* cast(b2Joint* joint);
+
+  std::uint32_t id() const;  ///< unique in its structure, never used again
+  b2Vec2 axis() const;       ///< unit, world
+
+  // Forces of the last step, tension positive.
+  double force(Row row) const;  ///< N, N, N m
+  /// |force| / cap of its direction; 0 for a free row, NaN for an unlimited one.
+  double usage(Row row) const;
+  double cap(Row row, bool reverse = false) const;  ///< N, N, N m; grows with hardening
+
+  // Deformation.
+  double elastic(Row row) const;        ///< m, m, rad: the elastic part now
+  double plastic(Row row) const;        ///< m, m, rad: net plastic offset, b against a
+  double accumulated_rotation() const;  ///< rad: Σ|plastic rotation|
+  double elongation() const;            ///< m: Σ plastic lengthening
+  double compression() const;           ///< m: Σ plastic shortening
+  double slip() const;                  ///< m: Σ|plastic shear|
+  /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break.
+  double capacity_used() const;
+  bool broken() const;  ///< carries nothing any more; gone after Structure::update()
+
+  // Energy.
+  double dissipated() const;      ///< J: plastic work so far
+  double elastic_energy() const;  ///< J: ½ k e² of its rows now
+
+  /// The row's cap was lowered because the stiffness asked for is more than the step can integrate
+  /// (mechanics: κ).
+  bool stiffness_limited(Row row) const;
+
+  /// Changes a row while the world is not stepping; wakes the bodies.
+  void set_caps(Row row, double cap, double cap_reverse);
+  void set_stiffness(Row row, double stiffness, double damping_ratio);
+  void set_limits(double max_rotation, double max_elongation, double max_compression, double max_slip);
+
+  b2Vec2 GetReactionForce(float inv_dt) const override;
+  float GetReactionTorque(float inv_dt) const override;
+  void ShiftOrigin(const b2Vec2& newOrigin) override;
+
+ protected:
+  void InitVelocityConstraints(const b2SolverData& data) override;
+  void SolveVelocityConstraints(const b2SolverData& data) override;
+  bool SolvePositionConstraints(const b2SolverData& data) override;
+
+ private:
+  friend class Structure;
+  static ElasticPlasticJoint* put_in_place(b2WeldJoint* weld, Member* member);
+  ElasticPlasticJoint(const b2WeldJoint& weld, Member* member);
+  ~ElasticPlasticJoint() override;
+
+  const SolverJoint& state() const;
+  void wake();
+
+  Member* member_;
+};
+
+/// How a structure finds its joints' impulses.
+enum class SolverKind {
+  direct,     ///< all joints of a structure together, exactly
+  iterative,  ///< joint by joint in Box2D's iterations, as in the paper: for lone joints, or to compare
+};
+
+/// What a structure reports after a step.
+struct JointEvent {
+  enum Kind { yield, flow, broke } kind = yield;
+  enum Mode { tension, compression, shear, rotation } mode = rotation;
+  ElasticPlasticJoint* joint = nullptr;  ///< valid during the call; a broken one is destroyed right after it
+  double force = 0;                      ///< N or N m, of the row that gave the event
+  double energy = 0;                     ///< J dissipated by the joint so far
+};
+
+struct StructureDef {
+  SolverKind solver = SolverKind::direct;
+};
+
+/// What the last b2World::Step cost, over all islands.
+struct StepReport {
+  int solves = 0;   ///< solutions of the structure's problem
+  int skipped = 0;  ///< Box2D iterations before which nothing had touched the structure
+  int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
+  int factorisations = 0;
+  int projections = 0;  ///< pushes by contacts that were spread through the structure
+  int bounds_hit = 0;   ///< solves that did not end in time and coasted; 0 in every scene that we know of
+  double residual = 0;  ///< largest relative residual of a solve
+};
+
+/// The joints of one world that are kept honest together. It finds by itself which bodies hang together, and
+/// anew when joints break, come or go and when bodies change. Make one per world (or as many as you like),
+/// before its joints; destroy it before the world or after it, as you like.
+class Structure {
+ public:
+  explicit Structure(b2World& world, const StructureDef& def = {});
+  ~Structure();
+  Structure(Structure&&) noexcept;
+  Structure& operator=(Structure&&) noexcept;
+
+  /// A new joint in the world. Throws std::invalid_argument that names every wrong field.
+  ElasticPlasticJoint* create_joint(const ElasticPlasticJointDef& def);
+  /// Makes an existing weld, which keeps its address, anchors and user data, one of this structure's. The
+  /// def's bodies and anchors are ignored.
+  ElasticPlasticJoint* adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def);
+
+  /// Call after b2World::Step: delivers events and destroys broken joints.
+  void update();
+
+  /// Called by update() for every event. It may destroy any joint or body.
+  void on_event(std::function<void(const JointEvent&)> handler);
+  /// Asked inside the step whether a joint whose maximum is exceeded may break; must not change the world.
+  void may_break(std::function<bool(const ElasticPlasticJoint&)> veto);
+
+  /// All joints, in the order of creation.
+  std::span<ElasticPlasticJoint* const> joints() const;
+
+  const StepReport& report() const;  ///< of the last step
+  std::size_t bytes() const;         ///< memory held
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace ductile

@@ -1,0 +1,61 @@
+// H = L D Lᵀ for a sparse symmetric positive definite matrix of 3×3 blocks whose pattern is "which bodies
+// touch".
+//
+// The pattern is analysed once per topology; afterwards factor() and solve() neither allocate nor search.
+// Rows and columns are numbered in the order of elimination, which order_for() finds (approximate minimum
+// degree: a chain or a tree eliminates without fill).
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "vec3.h"
+
+namespace ductile {
+
+/// A 3×3 block, row by row.
+struct Block {
+  double a[9];
+};
+
+class BlockLdlt {
+ public:
+  /// Elimination order of n bodies joined by `edges`: result[k] is the body to eliminate as number k.
+  static std::vector<int> order_for(int n, std::span<const std::pair<int, int>> edges);
+
+  /// Prepares for n bodies in elimination order; edges (i, j), i ≠ j, may repeat. Allocates.
+  void analyse(int n, std::span<const std::pair<int, int>> edges);
+
+  /// Where the block of row i and column j (i > j) is stored; it must be in the pattern.
+  int slot(int i, int j) const;
+
+  /// Assembly: everything zero, then add to diagonal(i) (its lower triangle counts) and to block(slot).
+  void clear();
+  Block& diagonal(int i) { return diagonal_[static_cast<std::size_t>(i)]; }
+  Block& block(int slot) { return lower_[static_cast<std::size_t>(slot)]; }
+
+  /// Factors what was assembled, in place.
+  void factor();
+
+  /// x ← H⁻¹ x with the last factor.
+  void solve(std::span<Vec3> x) const;
+
+  int size() const { return static_cast<int>(diagonal_.size()); }
+  /// Block products of one factorisation and of one solve: what each costs.
+  std::size_t factor_work() const { return targets_.size() + lower_.size() + diagonal_.size(); }
+  std::size_t solve_work() const { return (2 * lower_.size() + diagonal_.size()) / 3; }
+  std::size_t bytes() const;
+
+ private:
+  // Column j holds the blocks lower_[column_[j]] … lower_[column_[j + 1]) in rows row_[…], ascending.
+  std::vector<int> column_, row_;
+  std::vector<Block> lower_;
+  std::vector<Block> diagonal_;  // after factor(): L₃ and 1/D₃ of the block's own scalar L D Lᵀ
+  // For each column and each pair p ≥ q of its blocks, where L_p D L_qᵀ is subtracted: a slot of lower_, or
+  // −1 − row for a diagonal block.
+  std::vector<int> targets_;
+  std::vector<Block> unscaled_;  // the column at hand before it is divided by D
+};
+
+}  // namespace ductile

@@ -1,0 +1,304 @@
+// The only file that knows Box2D's insides: how a joint of ours lives in a slot that b2World made for a weld,
+// and how a component reads and writes the island it is in. Written against Box2D 2.4.1.
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "structure.h"
+
+namespace ductile {
+
+namespace {
+
+// A body's index in the island at hand is private to b2Body and its friends.
+// b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine, a cosine and a matrix inverse
+// per joint; explicit instantiation may name private members ([temp.spec.general]/6) and fetches it at the
+// cost of a load per body.
+template <int32 b2Body::*member>
+struct Reveal {
+  friend int32 island_index(const b2Body* body) { return body->*member; }
+};
+int32 island_index(const b2Body* body);
+template struct Reveal<&b2Body::m_islandIndex>;
+
+// Floats that differ by no more than their own rounding say the same: nothing pushed the body.
+bool same(float a, float b) { return std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
+
+bool same(const b2Position& a, const b2Position& b) {
+  return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
+}
+
+constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+Vec3 into_own_frame(const Turn& turn, double x, double y, double w) {
+  return {turn.c * x + turn.s * y, turn.c * y - turn.s * x, w};
+}
+
+b2Velocity to_box2d(const Turn& turn, const Vec3& v) {
+  return {{static_cast<float>(turn.c * v.x - turn.s * v.y), static_cast<float>(turn.s * v.x + turn.c * v.y)},
+          static_cast<float>(v.w)};
+}
+
+}  // namespace
+
+// The world's lists point at the weld that b2World made; a copy of it carries the links, so a derived object
+// put in its place is, for the world, the same joint.
+ElasticPlasticJoint* ElasticPlasticJoint::put_in_place(b2WeldJoint* weld, Member* member) {
+  static_assert(sizeof(b2WeldJoint) > 256 && sizeof(ElasticPlasticJoint) <= 320,
+                "b2World's block for a weld");
+  const ElasticPlasticJoint copy(*weld, nullptr);
+  auto* joint = new (weld) ElasticPlasticJoint(copy, member);
+  joint->m_impulse.SetZero();
+  return joint;
+}
+
+ElasticPlasticJoint::ElasticPlasticJoint(const b2WeldJoint& weld, Member* member)
+    : b2WeldJoint(weld), member_(member) {}
+
+ElasticPlasticJoint::~ElasticPlasticJoint() {
+  if (member_ != nullptr) member_->structure->forget(*member_);
+}
+
+// A joint whose structure is gone goes on as the weld that it was.
+void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
+  if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
+  member_->structure->enlist(*member_);
+}
+
+void ElasticPlasticJoint::SolveVelocityConstraints(const b2SolverData& data) {
+  if (member_ == nullptr) return b2WeldJoint::SolveVelocityConstraints(data);
+  member_->structure->velocity(*member_, data);
+}
+
+bool ElasticPlasticJoint::SolvePositionConstraints(const b2SolverData& data) {
+  if (member_ == nullptr) return b2WeldJoint::SolvePositionConstraints(data);
+  member_->structure->position(*member_, data);
+  return true;
+}
+
+// ~b2World runs no joint destructors, but those of all shapes: a shape of ours in the world tells when it is
+// gone. It hangs on a disabled static body, which no query, ray or contact sees.
+class WorldWatch : public b2CircleShape {
+ public:
+  static b2Body* post(b2World& world, Structure::Impl& structure) {
+    static_assert(sizeof(b2CircleShape) > 16 && sizeof(WorldWatch) <= 32, "b2World's block for a circle");
+    b2BodyDef def;
+    def.enabled = false;
+    b2Body* body = world.CreateBody(&def);
+    b2CircleShape circle;
+    b2Shape* shape = body->CreateFixture(&circle, 0)->GetShape();
+    new (shape) WorldWatch(circle, structure);
+    return body;
+  }
+  WorldWatch(const b2CircleShape& circle, Structure::Impl& structure)
+      : b2CircleShape(circle), structure_(&structure) {}
+  WorldWatch(const WorldWatch&) = delete;
+  ~WorldWatch() override { structure_->world_is_gone(); }
+
+ private:
+  Structure::Impl* structure_;
+};
+
+b2Body* watch_world(b2World& world, Structure::Impl& structure) { return WorldWatch::post(world, structure); }
+
+Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known)
+    : members(std::move(enlisted_members)) {
+  // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
+  std::unordered_map<b2Body*, int> number;
+  std::vector<b2Body*> bodies, others;
+  for (const Member* m : members) {
+    for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
+      if (!number.try_emplace(body, 0).second) continue;
+      (body->GetType() == b2_dynamicBody ? bodies : others).push_back(body);
+    }
+  }
+  const std::size_t free_bodies = bodies.size();
+  for (std::size_t i = 0; i < free_bodies; ++i) number[bodies[i]] = static_cast<int>(i);
+  std::vector<std::pair<int, int>> edges;
+  for (const Member* m : members) {
+    b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
+    if (a->GetType() == b2_dynamicBody && b->GetType() == b2_dynamicBody)
+      edges.emplace_back(number[a], number[b]);
+  }
+  const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
+  std::vector<b2Body*> ordered;
+  for (const int i : order) ordered.push_back(bodies[z(i)]);
+  ordered.insert(ordered.end(), others.begin(), others.end());
+
+  // Poses are kept relative to a place nearby, so that doubles resolve strains anywhere in the world.
+  const b2Vec2 near = ordered.front()->GetWorldCenter();
+  origin_x = std::round(near.x);
+  origin_y = std::round(near.y);
+  mirrors.resize(ordered.size());
+  solver.bodies.resize(ordered.size());
+  goal.resize(ordered.size());
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    b2Body* body = ordered[i];
+    number[body] = static_cast<int>(i);
+    Mirror& mirror = mirrors[i];
+    mirror.body = body;
+    mirror.left = {body->GetWorldCenter(), body->GetAngle()};
+    mirror.type = body->GetType();
+    read_mass(i);
+    Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
+    if (const auto found = known.find(body); found != known.end()) {
+      const b2Position left{{static_cast<float>(found->second.x), static_cast<float>(found->second.y)},
+                            static_cast<float>(found->second.angle)};
+      if (same(left, mirror.left)) pose = found->second;
+    }
+    Solver::place(solver.bodies[i], {pose.x - origin_x, pose.y - origin_y, pose.angle});
+  }
+
+  solver.joints.reserve(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Member& m = *members[i];
+    SolverJoint& j = solver.joints.emplace_back(m.own);
+    m.component = this;
+    m.index = i;
+    j.a = number[m.joint->GetBodyA()];
+    j.b = number[m.joint->GetBodyB()];
+    const b2Vec2 a = m.joint->GetLocalAnchorA() - m.joint->GetBodyA()->GetLocalCenter();
+    const b2Vec2 b = m.joint->GetLocalAnchorB() - m.joint->GetBodyB()->GetLocalCenter();
+    j.ax = a.x, j.ay = a.y, j.bx = b.x, j.by = b.y;
+  }
+  solver.form(free_bodies);
+  solver.locate();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (!std::exchange(members[i]->fresh, false)) continue;
+    solver.joints[i].neutral = solver.joints[i].gap;
+  }
+}
+
+void Component::read_mass(std::size_t i) {
+  Mirror& m = mirrors[i];
+  m.mass = m.body->GetMass();
+  m.inertia = m.body->GetInertia();
+  m.local_center = m.body->GetLocalCenter();
+  const double offset = m.local_center.LengthSquared();
+  solver.bodies[i].mass = m.mass;
+  solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
+}
+
+bool Component::still_fits() {
+  bool masses = true;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& m = mirrors[i];
+    if (m.body->GetType() != m.type) return false;
+    if (m.type != b2_dynamicBody) continue;
+    masses &= m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia;
+  }
+  return masses;
+}
+
+void Component::first_velocity(const b2SolverData& data) {
+  bool moved = false;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    Mirror& m = mirrors[i];
+    SolverBody& b = solver.bodies[i];
+    if (m.type == b2_staticBody) {
+      const b2Position at{m.body->GetWorldCenter(), m.body->GetAngle()};
+      goal[i] = same(at, m.left) ? b.pose : relative(at);
+      moved |= !same(at, m.left);
+      m.left = at;
+      continue;
+    }
+    m.island_index = island_index(m.body);
+    const b2Position& at = data.positions[m.island_index];
+    goal[i] = b.pose;
+    if (!same(at, m.left)) {
+      goal[i] = relative(at);
+      moved = true;
+    }
+    m.given = data.velocities[m.island_index];
+  }
+  if (moved) {
+    // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
+    // it.
+    solver.begin(data.step.dt);
+    solver.project(goal, true);
+    write_poses(data);
+    ++report->projections;
+  }
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const b2Velocity& v = mirrors[i].given;
+    SolverBody& b = solver.bodies[i];
+    const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.v.x, v.v.y, v.w);
+    (mirrors[i].type == b2_dynamicBody ? b.v_free : b.v) = own;
+  }
+  solver.begin(data.step.dt);
+  solve(data);
+}
+
+void Component::next_velocity(const b2SolverData& data) {
+  bool touched = false;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const b2Velocity& now = data.velocities[mirrors[i].island_index];
+    b2Velocity& given = mirrors[i].given;
+    if (now.v == given.v && now.w == given.w) continue;
+    touched = true;
+    SolverBody& b = solver.bodies[i];
+    b.v_free += into_own_frame(b.turn, double{now.v.x} - given.v.x, double{now.v.y} - given.v.y,
+                               double{now.w} - given.w);
+    given = now;
+  }
+  if (touched) {
+    solve(data);
+  } else {
+    ++report->skipped;
+  }
+}
+
+void Component::solve(const b2SolverData& data) {
+  SolveReport solved;
+  solver.solve(solved);
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const SolverBody& b = solver.bodies[i];
+    data.velocities[mirrors[i].island_index] = mirrors[i].given = to_box2d(b.turn, b.v);
+  }
+  ++report->solves;
+  report->rounds += solved.rounds;
+  report->factorisations += solved.factorisations;
+  report->bounds_hit += solved.bound_hit ? 1 : 0;
+  report->residual = std::max(report->residual, solved.residual);
+}
+
+void Component::position(const b2SolverData& data) {
+  bool pushed = false;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const b2Position& at = data.positions[mirrors[i].island_index];
+    const bool kept = same(at, box2d_pose(i));
+    goal[i] = kept ? solver.bodies[i].pose : relative(at);
+    pushed |= !kept;
+  }
+  if (pushed) {
+    for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
+    solver.project(goal, false);
+    ++report->projections;
+  }
+  write_poses(data);
+}
+
+b2Position Component::box2d_pose(std::size_t i) const {
+  const Pose& p = solver.bodies[i].pose;
+  return {{static_cast<float>(p.x + origin_x), static_cast<float>(p.y + origin_y)},
+          static_cast<float>(p.angle)};
+}
+
+Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }
+
+void Component::write_poses(const b2SolverData& data) {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    data.positions[mirrors[i].island_index] = mirrors[i].left = box2d_pose(i);
+  }
+}
+
+// After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
+// Box2D.
+void Component::advance() {
+  solver.advance();
+  for (std::size_t i = 0; i < mirrors.size(); ++i) mirrors[i].left = box2d_pose(i);
+}
+
+}  // namespace ductile

@@ -1,0 +1,89 @@
+// The joints that hang together in one Box2D island, and the bodies that they join.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "ductile/joint.h"
+#include "solver.h"
+
+namespace ductile {
+
+struct Component;
+
+void check(const ElasticPlasticJointDef& def);
+b2Body* watch_world(b2World& world, Structure::Impl& structure);
+
+/// One joint of a structure.
+struct Member {
+  ElasticPlasticJoint* joint = nullptr;
+  Structure::Impl* structure = nullptr;
+  std::uint32_t id = 0;
+  std::uint64_t batch = 0;         // the island that it was last initialised in
+  Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
+  std::size_t index = 0;           // in component->solver.joints
+  SolverJoint own;                 // configuration and state while it is in no component
+  bool fresh = true;               // never solved: its neutral position is where it is first seen
+  bool broken = false;
+  bool yielded = false;
+  double max_rotation = unlimited, max_elongation = unlimited, max_compression = unlimited,
+         max_slip = unlimited;
+  int break_group = 0;
+  std::unique_ptr<YieldSurface> surface;
+
+  SolverJoint& data();
+  const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }
+};
+
+/// Poses in double survive the re-forming of components here.
+using KnownPoses = std::unordered_map<const b2Body*, Pose>;
+
+struct Component {
+  /// What Box2D knows of a body of the solver.
+  struct Mirror {
+    b2Body* body = nullptr;
+    b2Position left{};   // pose as we left it
+    b2Velocity given{};  // velocity as we left it
+    float mass = 0, inertia = 0;
+    b2Vec2 local_center{0, 0};
+    b2BodyType type = b2_staticBody;
+    int32 island_index = 0;
+  };
+
+  Component(std::vector<Member*> enlisted, const KnownPoses& known);
+
+  /// Whether the bodies are still what the component was formed for.
+  bool still_fits();
+  /// Takes poses and velocities from Box2D, solves, gives velocities back.
+  void first_velocity(const b2SolverData& data);
+  void next_velocity(const b2SolverData& data);
+  /// After the last velocity call: poses move, what has flowed is booked.
+  void advance();
+  void position(const b2SolverData& data);
+
+  Pose relative(const b2Position& at) const;  // to the origin
+  b2Position box2d_pose(std::size_t body) const;
+
+  Solver solver;
+  std::vector<Member*> members;       // as solver.joints
+  std::vector<Mirror> mirrors;        // as solver.bodies
+  double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
+  StepReport* report = nullptr;
+  std::uint64_t batch = 0;   // island at hand
+  std::size_t enlisted = 0;  // joints of it that this island has
+
+ private:
+  void read_mass(std::size_t body);
+  void solve(const b2SolverData& data);
+  void write_poses(const b2SolverData& data);
+
+  std::vector<Pose> goal;
+};
+
+inline SolverJoint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }
+
+}  // namespace ductile

@@ -1,0 +1,495 @@
+#include "solver.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace ductile {
+
+namespace {
+
+constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+Turn turn_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+}  // namespace
+
+void Solver::form(std::size_t free_bodies) {
+  free_ = free_bodies;
+  std::vector<std::pair<int, int>> edges;
+  const auto is_free = [&](int body) { return z(body) < free_; };
+  for (const SolverJoint& j : joints) {
+    if (is_free(j.a) && is_free(j.b)) edges.emplace_back(j.a, j.b);
+  }
+  ldlt_.analyse(static_cast<int>(free_), edges);
+  for (auto* v : {&g_, &d_, &z_, &g0_, &v0_}) v->assign(bodies.size(), {});
+  poses_.assign(bodies.size(), {});
+  factored_ = false;
+  mass_ = 0;
+  for (std::size_t i = 0; i < free_; ++i) mass_ += bodies[i].mass;
+  for (SolverJoint& j : joints) {
+    if (is_free(j.a) && is_free(j.b)) j.block = ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b));
+    // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
+    const auto inverse_mass = [&](int body) { return z(body) < free_ ? 1 / bodies[z(body)].mass : 0; };
+    const auto inverse_inertia = [&](int body) {
+      const SolverBody& b = bodies[z(body)];
+      return z(body) < free_ && b.inertia > 0 ? 1 / b.inertia : 0;
+    };
+    const double ma = inverse_mass(j.a), mb = inverse_mass(j.b), ia = inverse_inertia(j.a),
+                 ib = inverse_inertia(j.b);
+    const Turn in_a = j.axis, in_b = in_a * turn_of(-j.reference);
+    const auto cross = [](double x, double y, const Turn& t) { return x * t.s - y * t.c; };
+    const auto along = [](double x, double y, const Turn& t) { return x * t.c + y * t.s; };
+    const double ca = cross(j.ax, j.ay, in_a), cb = cross(j.bx, j.by, in_b);
+    const double la = along(j.ax, j.ay, in_a), lb = along(j.bx, j.by, in_b);
+    const Rows inverse_m{ma + mb + ia * ca * ca + ib * cb * cb, ma + mb + ia * la * la + ib * lb * lb,
+                         ia + ib};
+    for (unsigned i = 0; i < 3; ++i) j.m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
+  }
+  h_ = 0;
+}
+
+void Solver::locate(SolverJoint& j) const {
+  const SolverBody &a = bodies[z(j.a)], &b = bodies[z(j.b)];
+  const Turn relative = inverse(a.turn) * b.turn;
+  j.gap[2] = b.pose.angle - a.pose.angle - j.reference;
+  j.axis_a = j.follow == 0 ? j.axis : j.axis * turn_of(j.follow * j.gap[2]);
+  j.axis_b = j.axis_a * inverse(relative);
+  // From anchor to anchor, in A's frame and then along and across the axis.
+  const double wx = b.pose.x - a.pose.x, wy = b.pose.y - a.pose.y;
+  const double dx = a.turn.c * wx + a.turn.s * wy + relative.c * j.bx - relative.s * j.by - j.ax;
+  const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * j.bx + relative.c * j.by - j.ay;
+  const double u = j.axis_a.c * dx + j.axis_a.s * dy;
+  const double v = -j.axis_a.s * dx + j.axis_a.c * dy;
+  j.gap[0] = u;
+  j.gap[1] = v;
+  // J of u and v with the frame turning at (1 − follow)·ω_a + follow·ω_b: the entries ±v, ∓u take J at the
+  // midpoint of the two anchors, without which a spin with a plastic set gains energy.
+  j.au = -(j.ax * j.axis_a.s - j.ay * j.axis_a.c) + (1 - j.follow) * v;
+  j.av = -(j.ax * j.axis_a.c + j.ay * j.axis_a.s) - (1 - j.follow) * u;
+  j.bu = j.bx * j.axis_b.s - j.by * j.axis_b.c + j.follow * v;
+  j.bv = j.bx * j.axis_b.c + j.by * j.axis_b.s - j.follow * u;
+}
+
+void Solver::locate() {
+  for (SolverJoint& j : joints) locate(j);
+}
+
+void Solver::set_law(SolverJoint& j) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    RowLaw& law = j.law;
+    const double limit = rigid_ratio * j.m_eff[i];
+    if (!(j.stiffness[i] > 0) || !(limit > 0) || (j.cap[i] <= 0 && j.cap_reverse[i] <= 0)) {
+      law.G[i] = law.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = j.spring[i] =
+          j.damping[i] = 0;
+      continue;
+    }
+    double k = j.stiffness[i], c = 0;
+    if (h_ * h_ * k < limit) {
+      c = std::min(2 * j.damping_ratio[i] * std::sqrt(k * j.m_eff[i]), (limit - h_ * h_ * k) / h_);
+    } else {
+      k = limit / (h_ * h_);
+    }
+    const double G = h_ * h_ * k + h_ * c;
+    j.spring[i] = k;
+    j.damping[i] = c;
+    law.G[i] = G;
+    law.bias[i] = h_ * k * (j.gap[i] - j.neutral[i]) / G;
+    law.cap[i] = h_ * j.cap[i];
+    law.cap_reverse[i] = h_ * j.cap_reverse[i];
+    law.after_yield[i] = std::min(j.hardening[i] / k, 0.99);
+  }
+}
+
+void Solver::begin(double h) {
+  if (h != h_) factored_ = false;
+  h_ = h;
+  for (SolverJoint& j : joints) set_law(j);
+}
+
+// ∇f at bodies' v, into g_; returns |∇f|² in the norm of M⁻¹.
+double Solver::evaluate() {
+  scale_ = speed_ = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    const Vec3 given = b.v - b.v_free;
+    g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
+    scale_ += dot(given, g_[i]);
+    speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+  }
+  changed_ = 0;
+  crossed_ = flows_ = false;
+  for (SolverJoint& j : joints) {
+    j.x0 = j.x;
+    const Vec3 &a = bodies[z(j.a)].v, &b = bodies[z(j.b)].v;
+    j.x = {j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w +
+               j.bu * b.w + j.law.bias[0],
+           -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w +
+               j.bv * b.w + j.law.bias[1],
+           b.w - a.w + j.law.bias[2]};
+    const unsigned piece = respond(j.law, j.x, j.impulse);
+    crossed_ |= piece != j.piece;
+    flows_ |= piece != 0;
+    j.piece = static_cast<std::uint8_t>(piece);
+    changed_ += std::popcount(((piece | piece >> 3) ^ j.factored) & 7u);
+    scatter(j, j.impulse);
+  }
+  return norm_of_gradient();
+}
+
+// g_ += Jᵀ s
+void Solver::scatter(const SolverJoint& j, const Rows& s) {
+  g_[z(j.a)] += {-j.axis_a.c * s[0] + j.axis_a.s * s[1], -j.axis_a.s * s[0] - j.axis_a.c * s[1],
+                 j.au * s[0] + j.av * s[1] - s[2]};
+  g_[z(j.b)] += {j.axis_b.c * s[0] - j.axis_b.s * s[1], j.axis_b.s * s[0] + j.axis_b.c * s[1],
+                 j.bu * s[0] + j.bv * s[1] + s[2]};
+}
+
+// |g_|² in the norm of M⁻¹; bodies that do not rotate take no moment.
+double Solver::norm_of_gradient() {
+  double norm = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    if (b.inertia == 0) g_[i].w = 0;
+    norm += (g_[i].x * g_[i].x + g_[i].y * g_[i].y) / b.mass +
+            (b.inertia > 0 ? g_[i].w * g_[i].w / b.inertia : 0);
+  }
+  return norm;
+}
+
+// f at the last evaluation. By Moreau's identity φ(x) = s·x − ½ s²/G in every state of a row.
+double Solver::objective() const {
+  double f = scale_ / 2;
+  for (const SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (j.law.G[i] > 0) f += j.impulse[i] * (j.x[i] - j.impulse[i] / (2 * j.law.G[i]));
+    }
+  }
+  return f;
+}
+
+void Solver::factor() {
+  ldlt_.clear();
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    double* d = ldlt_.diagonal(static_cast<int>(i)).a;
+    d[0] = d[4] = b.mass;
+    d[8] = b.inertia > 0 ? b.inertia : 1;
+  }
+  for (SolverJoint& j : joints) {
+    Rows G;
+    for (unsigned i = 0; i < 3; ++i) {
+      G[i] = tangent(j.law, j.piece, i);
+      if (short_step_ && flows(j.piece, i)) G[i] = std::max(G[i], j.impulse[i] / j.x[i]);
+    }
+    j.factored = static_cast<std::uint8_t>((j.piece | j.piece >> 3) & 7);
+    const bool free_a = z(j.a) < free_, free_b = z(j.b) < free_;
+    const double rot_a = bodies[z(j.a)].inertia > 0 ? 1 : 0, rot_b = bodies[z(j.b)].inertia > 0 ? 1 : 0;
+    const double A[9] = {-j.axis_a.c, -j.axis_a.s, rot_a * j.au, j.axis_a.s, -j.axis_a.c, rot_a * j.av,
+                         0,           0,           -rot_a};
+    const double B[9] = {j.axis_b.c, j.axis_b.s, rot_b * j.bu, -j.axis_b.s, j.axis_b.c, rot_b * j.bv,
+                         0,          0,          rot_b};
+    const auto add = [&G](double* block, const double* left, const double* right) {
+      for (unsigned r = 0; r < 3; ++r) {
+        for (unsigned c = 0; c < 3; ++c) {
+          for (unsigned i = 0; i < 3; ++i) block[3 * r + c] += left[3 * i + r] * G[i] * right[3 * i + c];
+        }
+      }
+    };
+    if (free_a) add(ldlt_.diagonal(j.a).a, A, A);
+    if (free_b) add(ldlt_.diagonal(j.b).a, B, B);
+    if (j.block >= 0) {
+      if (j.a > j.b) {
+        add(ldlt_.block(j.block).a, A, B);
+      } else {
+        add(ldlt_.block(j.block).a, B, A);
+      }
+    }
+  }
+  ldlt_.factor();
+  factored_ = true;
+  changed_ = 0;
+}
+
+// Zero of f'(t) = ∇f(v0 + t d)·d, which rises monotonically and is piecewise linear. Called after evaluate()
+// at t = 1, with every row's x at t = 0 and 1 and f' at both; leaves bodies' v there. False when they were
+// there already.
+bool Solver::line_search(double slope0, double slope1) {
+  const auto move_to = [this](double t) {
+    for (std::size_t i = 0; i < free_; ++i) bodies[i].v = v0_[i] + t * d_[i];
+  };
+  double t = slope0 / (slope0 - slope1);
+  short_step_ = false;
+  if (!crossed_ && std::abs(t - 1) < 0.01) return false;
+  if (!crossed_ && t > 0 && t < 1) {
+    move_to(t);
+    return true;
+  }
+  double at_rest = 0, curvature = 0;  // f' = at_rest + t·curvature + Σ y s(x0 + t y)
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    const Vec3 md{b.mass * d_[i].x, b.mass * d_[i].y, b.inertia * d_[i].w};
+    at_rest += dot(md, v0_[i] - b.v_free);
+    curvature += dot(md, d_[i]);
+  }
+  double low = slope1 > 0 ? 0 : 1, high = slope1 > 0 ? 1 : std::numeric_limits<double>::infinity();
+  if (!(t > low && t < high)) t = 2;
+  for (int i = 0; i < 60; ++i) {
+    double slope = at_rest + t * curvature, rise = curvature;
+    for (const SolverJoint& j : joints) {
+      Rows x, y, s;
+      for (unsigned r = 0; r < 3; ++r) {
+        y[r] = j.x[r] - j.x0[r];
+        x[r] = j.x0[r] + t * y[r];
+      }
+      const unsigned piece = respond(j.law, x, s);
+      for (unsigned r = 0; r < 3; ++r) {
+        slope += y[r] * s[r];
+        rise += y[r] * y[r] * tangent(j.law, piece, r);
+      }
+    }
+    if (std::abs(slope) <= 1e-9 * std::abs(slope0)) break;
+    (slope < 0 ? low : high) = t;
+    const double newton = t - slope / rise;
+    if (newton > low && newton < high) {
+      t = newton;
+    } else if (std::isinf(high)) {
+      t *= 2;
+    } else {
+      t = (low + high) / 2;
+    }
+    if (high - low <= 1e-15 * high) break;
+  }
+  short_step_ = t < 0.1;
+  move_to(t);
+  return true;
+}
+
+bool Solver::solve(SolveReport& report) {
+  // The structure's impulses to `tolerance` of themselves, or to what rounding leaves: in a rigid row the
+  // velocity's last bits are multiplied by κ.
+  constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
+  const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
+  double norm = evaluate();
+  if (norm > target() && flows_) {
+    // Start from the lower of the last solution and v*.
+    const double f_last = objective();
+    for (std::size_t i = 0; i < free_; ++i) v0_[i] = bodies[i].v, bodies[i].v = bodies[i].v_free;
+    norm = evaluate();
+    if (objective() > f_last) {
+      for (std::size_t i = 0; i < free_; ++i) bodies[i].v = v0_[i];
+      norm = evaluate();
+    }
+  }
+
+  // Preconditioned conjugate gradients on f with an exact line search; the preconditioner is the factor at
+  // hand. With a fresh factor a round is a Newton step.
+  const double round_work = static_cast<double>(ldlt_.solve_work() + 3 * joints.size());
+  const double factor_work = static_cast<double>(ldlt_.factor_work() + 3 * joints.size());
+  bool newton = false;     // the factor is of this step: tangents, not secants
+  bool conjugate = false;  // d_ continues the last one
+  bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
+  double zg = 0;
+  int round = 0;
+  short_step_ = false;
+  for (; norm > target() && round < round_bound; ++round) {
+    // Rounds that the factor at hand would still need: one per row that changed its state, or by its
+    // contraction.
+    const double by_rate = rate_ < 1 ? std::log(norm / target()) / (-2 * std::log(rate_)) : factor_work;
+    const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
+    const bool stale = !newton || changed_ > 0 || short_step_;
+    if (!factored_ || searched || (stale && (expected - 1) * round_work > factor_work)) {
+      factor();
+      ++report.factorisations;
+      newton = !short_step_;
+      conjugate = false;
+    }
+    std::copy_n(g_.begin(), free_, z_.begin());
+    ldlt_.solve({z_.data(), free_});
+    double zg_new = 0, z_dg = 0;
+    for (std::size_t i = 0; i < free_; ++i) {
+      zg_new += dot(z_[i], g_[i]);
+      z_dg += dot(z_[i], g_[i] - g0_[i]);
+    }
+    const double beta = conjugate ? std::max(0.0, z_dg / zg) : 0;
+    double slope0 = 0;
+    for (std::size_t i = 0; i < free_; ++i) {
+      d_[i] = beta * d_[i] - z_[i];
+      slope0 += dot(g_[i], d_[i]);
+      g0_[i] = g_[i];
+      v0_[i] = bodies[i].v;
+      bodies[i].v += d_[i];
+    }
+    zg = zg_new;
+    conjugate = true;
+    const bool exact = newton && beta == 0 && changed_ == 0;
+    const double before = norm;
+    norm = evaluate();
+    searched = crossed_;
+    if (exact && !searched) {
+      ++round;
+      break;  // a Newton step within one linear piece: this is the solution, as far as rounding allows
+    }
+    if (norm > target()) {
+      double slope1 = 0;
+      for (std::size_t i = 0; i < free_; ++i) slope1 += dot(g_[i], d_[i]);
+      if (line_search(slope0, slope1)) norm = evaluate();
+    }
+    rate_ = std::min(1.0, std::sqrt(norm / before));
+  }
+  report.rounds += round;
+  if (round == round_bound) {
+    report.bound_hit = true;
+    coast();
+  }
+  report.residual = scale_ > 0 ? std::sqrt(norm / scale_) : 0;
+  return round > 0;
+}
+
+// The safe way out of a solve that did not end: the structure exerts nothing for a step. What its gaps do
+// meanwhile becomes neutral in advance(), so that no energy is stored or given.
+void Solver::coast() {
+  for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
+  for (SolverJoint& j : joints) j.impulse = {};
+  coasting_ = true;
+}
+
+void Solver::advance() {
+  for (SolverBody& b : bodies) displace(b, h_ * b.v);
+  for (SolverJoint& j : joints) {
+    const Rows before = j.gap;
+    locate(j);
+    if (coasting_) {
+      for (unsigned i = 0; i < 3; ++i) j.neutral[i] += j.gap[i] - before[i];
+    } else if (j.piece != 0) {
+      flow(j, before);
+    }
+  }
+  coasting_ = false;
+}
+
+// The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
+// elastic part; the plastic offset is incremented.
+void Solver::flow(SolverJoint& j, const Rows& before) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!flows(j.piece, i)) continue;
+    const double G = j.law.G[i], s = j.impulse[i];
+    // Spring and damper in series with the slider: s/h = k e' + c (e' − e)/h.
+    const double elastic = h_ * (s + j.damping[i] * (before[i] - j.neutral[i])) / G;
+    const double increment = j.gap[i] - j.neutral[i] - elastic;
+    if (!(increment * j.x[i] > 0)) continue;
+    j.neutral[i] += increment;
+    j.plastic[i] += increment;
+    (increment > 0 ? j.flowed_forward : j.flowed_back)[i] += std::abs(increment);
+    j.dissipated[i] += s / h_ * increment;
+    if (j.hardening[i] > 0) {
+      // Isotropic: the cap reached is the cap from now on, in both directions.
+      const double growth = std::abs(s) / h_ - (s > 0 ? j.cap : j.cap_reverse)[i];
+      j.cap[i] += growth;
+      j.cap_reverse[i] += growth;
+    }
+  }
+}
+
+// ∇ of ½|x − goal|²_M + ½ Σ G (gap − x0)² over the rows that hold, into g_; the second term's value is
+// returned.
+double Solver::evaluate_poses(std::span<const Pose> goal) {
+  double strain = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y;
+    g_[i] = {b.mass * (b.turn.c * dx + b.turn.s * dy), b.mass * (b.turn.c * dy - b.turn.s * dx),
+             b.inertia * (b.pose.angle - goal[i].angle)};
+  }
+  for (SolverJoint& j : joints) {
+    locate(j);
+    Rows s;
+    for (unsigned i = 0; i < 3; ++i) {
+      s[i] = tangent(j.law, j.piece, i) * (j.gap[i] - j.x0[i]);
+      strain += s[i] * (j.gap[i] - j.x0[i]) / 2;
+    }
+    scatter(j, s);
+  }
+  return strain;
+}
+
+bool Solver::project(std::span<const Pose> goal, bool try_goal) {
+  if (changed_ > 0 || !factored_) factor();
+  double reach = 0, given = 0;  // farthest coordinate; ½|goal − x|²_M
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y, dw = b.pose.angle - goal[i].angle;
+    given += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
+    reach = std::max({reach, std::abs(b.pose.x), std::abs(b.pose.y), 1.0});
+  }
+  for (SolverJoint& j : joints) j.x0 = j.gap;
+  for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
+  double strain = 0;
+  if (try_goal) {
+    // Where all of it was moved alike, the goal itself is the better start.
+    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose, place(bodies[i], goal[i]);
+    strain = evaluate_poses(goal);
+    if (strain > given) {
+      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
+      strain = evaluate_poses(goal);
+    }
+  } else {
+    strain = evaluate_poses(goal);
+  }
+  // Gauss–Newton; what rounding of the poses leaves of a rigid row's gap is multiplied by κ.
+  const double rounding = rigid_ratio * std::numeric_limits<double>::epsilon() * reach;
+  const double target = 1e-12 * given + rounding * rounding * mass_;
+  double norm = norm_of_gradient();
+  for (int round = 0; round < 10 && norm > target; ++round) {
+    std::copy_n(g_.begin(), free_, d_.begin());
+    ldlt_.solve({d_.data(), free_});
+    double slope0 = 0, slope1 = 0;
+    for (std::size_t i = 0; i < free_; ++i) {
+      slope0 -= dot(g_[i], d_[i]);
+      displace(bodies[i], -1.0 * d_[i]);
+    }
+    evaluate_poses(goal);
+    for (std::size_t i = 0; i < free_; ++i) slope1 -= dot(g_[i], d_[i]);
+    const double t = slope0 / (slope0 - slope1);
+    if (std::abs(t - 1) > 0.1 && t > 0 && t < 2) {
+      for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], (1 - t) * d_[i]);
+      evaluate_poses(goal);
+    }
+    norm = norm_of_gradient();
+  }
+  // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no
+  // energy.
+  const bool kept = norm <= 1e4 * target;
+  for (SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (kept && !flows(j.piece, i)) continue;
+      j.neutral[i] += j.gap[i] - j.x0[i];
+      j.plastic[i] += j.gap[i] - j.x0[i];
+    }
+  }
+  return kept;
+}
+
+void Solver::place(SolverBody& b, const Pose& at) {
+  if (at.angle != b.pose.angle) b.turn = turn_of(at.angle);
+  b.pose = at;
+}
+
+void Solver::displace(SolverBody& b, const Vec3& by) {
+  place(b, {b.pose.x + b.turn.c * by.x - b.turn.s * by.y, b.pose.y + b.turn.s * by.x + b.turn.c * by.y,
+            b.pose.angle + by.w});
+}
+
+Rows Solver::force(const SolverJoint& j) const {
+  if (!(h_ > 0)) return {};
+  return {j.impulse[0] / h_, j.impulse[1] / h_, j.impulse[2] / h_};
+}
+
+std::size_t Solver::bytes() const {
+  return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
+         (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity() + v0_.capacity()) * sizeof(Vec3) +
+         poses_.capacity() * sizeof(Pose);
+}
+
+}  // namespace ductile

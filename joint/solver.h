@@ -1,0 +1,154 @@
+// One time step of a whole structure as one convex problem: pieces joined by elastic-plastic rows. Knows no
+// engine.
+//
+//   f(v) = ½ (v − v*)ᵀ M (v − v*) + Σ φ(J v + b)
+//
+// v* are the velocities without the structure's impulses, φ the potentials of row.h. f is strictly convex, so
+// the solution exists and is unique whatever the mass ratio, loop or yield pattern. Each piece's unknowns are
+// in its own frame: H = M + Jᵀ G J then depends on relative rotations only, and its factor survives tumbling
+// and rest.
+//
+// Poses are kept here in double, beside the engine's floats: one float ulp at 20 m times the stiffness of
+// steel is 10⁸ N. A step is: write v* and call solve() (as often as something else changed velocities), then
+// advance().
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "block_ldlt.h"
+#include "row.h"
+#include "vec3.h"
+
+namespace ductile {
+
+/// Of a centre of mass: m from the structure's origin, rad.
+struct Pose {
+  double x = 0, y = 0, angle = 0;
+};
+
+struct SolverBody {
+  Pose pose;
+  Turn turn;                     // of the angle
+  double mass = 1, inertia = 1;  // kg, kg m² about the centre of mass; inertia 0: does not rotate
+  Vec3 v_free;                   // v*: m/s and rad/s in the body's own frame
+  Vec3 v;                        // the solution; also where the next solve starts
+};
+
+/// A joint as the solver sees it: two bodies and three rows.
+struct SolverJoint {
+  // Configuration.
+  int a = 0, b = 0;                       // bodies
+  double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
+  Turn axis;                              // in A's frame at rest
+  double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
+  double reference = 0;  // angle of B against A at rest
+  Rows stiffness{};      // N/m, N/m, N m/rad; infinite: rigid; 0: free
+  Rows damping_ratio{};
+  Rows cap{}, cap_reverse{};  // N, N, N m
+  Rows hardening{};           // N/m, N/m, N m/rad
+  const YieldSurface* surface = nullptr;
+
+  // State.
+  Rows neutral{};                        // gap at which the row is stress-free: grows by plastic flow
+  Rows impulse{};                        // s of the last solve, N s
+  Rows plastic{};                        // net plastic offset
+  Rows flowed_forward{}, flowed_back{};  // accumulated plastic offset by sign, ≥ 0
+  Rows dissipated{};                     // J
+  std::uint8_t piece = 0;  // of the law in the last solve: which rows flow, and which way (row.h)
+
+  // Of the step at hand.
+  Turn axis_a, axis_b;                    // the axis in A's and B's own frames
+  Rows gap{};                             // u, v, θ at the current poses
+  double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
+  RowLaw law;
+  Rows spring{};              // the stiffness that the step can integrate (≤ stiffness)
+  Rows damping{};             // c, N s/m or N m s
+  Rows x{}, x0{};             // J v + b at the last evaluation and the one before
+  Rows m_eff{};               // effective masses of the rows at rest
+  int block = -1;             // of H, when both bodies are free
+  std::uint8_t factored = 0;  // rows that were flowing in the factor at hand
+};
+
+struct SolveReport {
+  int rounds = 0;  // directions computed
+  int factorisations = 0;
+  double residual = 0;  // |∇f| over |M (v − v*)|, both in the norm of M⁻¹
+  bool bound_hit = false;
+};
+
+class Solver {
+ public:
+  /// Rigid rows are G = κ m_eff; true stiffness is capped there too, which bounds the condition of H for any
+  /// size, any E and any dt. Below 1e8 a rigid cantilever of 80 pieces is soft enough to overshoot and flow
+  /// at 0.999 of its cap when gravity sets in at once; at 1e10 nothing is lost yet in double precision.
+  static constexpr double rigid_ratio = 1e9;
+  /// Relative residual at which a solve ends: root moments good to 1e-8.
+  static constexpr double tolerance = 1e-8;
+  static constexpr int round_bound = 100;
+
+  /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
+  /// others (static and kinematic bodies): their v is known.
+  std::vector<SolverBody> bodies;
+  std::vector<SolverJoint> joints;
+
+  /// After bodies and joints were filled in or their masses changed. Allocates.
+  void form(std::size_t free_bodies);
+  std::size_t free_bodies() const { return free_; }
+
+  /// Prepares a step of h seconds from the current poses.
+  void begin(double h);
+  /// Velocities from v_free; false when nothing had to be done.
+  bool solve(SolveReport& report);
+  /// Moves poses by h v, books plastic flow.
+  void advance();
+  /// Moves the bodies toward poses that something else pushed them to, in such a way that no joint is
+  /// strained by it: least ½|x − goal|²_M with the gaps of all rows that hold kept. With `try_goal` the goal
+  /// itself is tried first: right where all of it may have been moved alike. False where gaps could not be
+  /// kept.
+  bool project(std::span<const Pose> goal, bool try_goal);
+
+  /// Caps or stiffness were edited.
+  void laws_changed() { factored_ = false; }
+  /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
+  static void place(SolverBody& body, const Pose& at);
+  void locate();
+  /// Of the last solve, N, N, N m.
+  Rows force(const SolverJoint& joint) const;
+  double step() const { return h_; }
+  std::size_t bytes() const;
+
+ private:
+  void locate(SolverJoint& joint) const;
+  void set_law(SolverJoint& joint) const;
+  void factor();
+  double evaluate();
+  double evaluate_poses(std::span<const Pose> goal);
+  void scatter(const SolverJoint& joint, const Rows& s);
+  double norm_of_gradient();
+  bool line_search(double slope0, double slope1);
+  double objective() const;
+  void coast();
+  void flow(SolverJoint& joint, const Rows& before) const;
+  static void displace(SolverBody& body, const Vec3& by);
+
+  std::size_t free_ = 0;
+  double mass_ = 0;  // of all free bodies
+  double h_ = 0;
+  BlockLdlt ldlt_;
+  bool factored_ = false;
+  double rate_ = 1;          // contraction of the residual by the last round
+  bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
+  bool coasting_ = false;
+  // Of the last evaluation:
+  double scale_ = 0;      // |v − v*|²_M
+  double speed_ = 0;      // |v|²_M
+  int changed_ = 0;       // rows whose state is not the factor's
+  bool crossed_ = false;  // rows changed their state since the evaluation before
+  bool flows_ = false;    // any row is beyond its cap
+  std::vector<Vec3> g_, d_, z_, g0_, v0_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace ductile

@@ -1,0 +1,299 @@
+// Which joints hang together, when that changed, and what is told of it after the step.
+
+#include "structure.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace ductile {
+
+Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(watch_world(w, *this)) {}
+
+Structure::Impl::~Impl() {
+  if (world == nullptr) return;
+  for (const auto& m : members) m->joint->member_ = nullptr;
+  std::vector<ElasticPlasticJoint*> broken;
+  for (const auto& m : members) {
+    if (m->broken) broken.push_back(m->joint);
+  }
+  for (ElasticPlasticJoint* joint : broken) world->DestroyJoint(joint);
+  world->DestroyBody(std::exchange(watch, nullptr));
+}
+
+void Structure::Impl::world_is_gone() {
+  // Destroying the watch by hand comes here too: the joints, still there, go on as welds.
+  if (watch == nullptr) return;
+  for (const auto& m : members) m->joint->member_ = nullptr;
+  members.clear();
+  joints.clear();
+  components.clear();
+  pending_.clear();
+  watch = nullptr;
+  world = nullptr;
+}
+
+ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlasticJointDef& d) {
+  auto member = std::make_unique<Member>();
+  Member& m = *member;
+  m.structure = this;
+  m.id = next_id++;
+  m.max_rotation = d.max_rotation;
+  m.max_elongation = d.max_elongation;
+  m.max_compression = d.max_compression;
+  m.max_slip = d.max_slip;
+  m.break_group = d.break_group;
+  for (unsigned i = 0; i < 3; ++i) {
+    const RowDef& row = d.rows[i];
+    m.own.stiffness[i] = row.stiffness;
+    m.own.damping_ratio[i] = row.damping_ratio;
+    m.own.cap[i] = row.cap;
+    m.own.cap_reverse[i] = row.cap_reverse;
+    m.own.hardening[i] = row.hardening;
+  }
+  m.own.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
+  m.own.follow = d.axisFollow;
+  m.own.reference = weld->GetReferenceAngle();
+  b2Body *a = weld->GetBodyA(), *b = weld->GetBodyB();
+  m.joint = ElasticPlasticJoint::put_in_place(weld, &m);
+  members.push_back(std::move(member));
+  joints.push_back(m.joint);
+  enlisted_.reserve(members.capacity());
+  active_.reserve(members.capacity());
+  pending_.reserve(4 * members.capacity());
+  a->SetAwake(true);
+  b->SetAwake(true);
+  return m.joint;
+}
+
+void Structure::Impl::forget(Member& member) {
+  if (member.component != nullptr) {
+    // The others carry on with what they were; the next island finds them in no component and forms anew.
+    Component& component = *member.component;
+    dissolve(component, known_);
+    std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
+  }
+  std::erase(joints, member.joint);
+  std::erase_if(members, [&](const auto& m) { return m.get() == &member; });
+}
+
+void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
+  for (Member* m : component.members) {
+    m->own = component.solver.joints[m->index];
+    m->component = nullptr;
+  }
+  for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
+    const Pose& p = component.solver.bodies[i].pose;
+    poses[component.mirrors[i].body] = {p.x + component.origin_x, p.y + component.origin_y, p.angle};
+  }
+}
+
+void Structure::Impl::enlist(Member& member) {
+  if (!enlisting_ || member.batch == batch_) {
+    enlisting_ = true;
+    incomplete_ = false;
+    ++batch_;
+    enlisted_.clear();
+    active_.clear();
+    velocity_calls_ = 0;
+    if (std::exchange(stepped_, true) == false) report = {};
+  }
+  member.batch = batch_;
+  enlisted_.push_back(&member);
+  Component* component = member.component;
+  if (component == nullptr) {
+    incomplete_ = true;
+    return;
+  }
+  if (component->batch != batch_) {
+    component->batch = batch_;
+    component->enlisted = 0;
+    active_.push_back(component);
+  }
+  ++component->enlisted;
+}
+
+void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
+  // Joints are solved in the order in which they were initialised: the first does the work of all.
+  if (enlisted_.empty() || enlisted_.front() != &caller) return;
+  enlisting_ = false;
+  if (velocity_calls_++ == 0) {
+    bool fits = !incomplete_;
+    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->still_fits();
+    if (!fits) form();
+    for (Component* c : active_) c->first_velocity(data);
+  } else {
+    for (Component* c : active_) c->next_velocity(data);
+  }
+  if (velocity_calls_ < data.step.velocityIterations) return;
+  for (Component* c : active_) {
+    c->advance();
+    look_for_breaks(*c);
+  }
+}
+
+void Structure::Impl::position(const Member& caller, const b2SolverData& data) {
+  if (enlisted_.empty() || enlisted_.front() != &caller) return;
+  enlisting_ = false;
+  if (velocity_calls_ == 0) return;
+  for (Component* c : active_) c->position(data);
+}
+
+// Forms components of the joints of this island, keeping what is known of their bodies and strains.
+void Structure::Impl::form() {
+  for (Component* c : active_) dissolve(*c, known_);
+  std::erase_if(components, [&](const auto& c) {
+    return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
+  });
+  active_.clear();
+
+  // Contacts change the order of joints between steps; elimination must not depend on it.
+  std::vector<Member*> all = enlisted_;
+  std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
+  std::unordered_map<const b2Body*, std::size_t> first_joint;
+  std::vector<std::size_t> root(all.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const b2Body* body : {all[i]->joint->GetBodyA(), all[i]->joint->GetBodyB()}) {
+      if (body->GetType() != b2_dynamicBody) continue;
+      const std::size_t other = find(first_joint.try_emplace(body, i).first->second), mine = find(i);
+      root[std::max(other, mine)] = std::min(other, mine);
+    }
+  }
+  std::vector<std::vector<Member*>> groups(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
+  for (auto& group : groups) {
+    if (group.empty()) continue;
+    components.push_back(std::make_unique<Component>(std::move(group), known_));
+    Component* c = components.back().get();
+    c->report = &report;
+    c->batch = batch_;
+    c->enlisted = c->members.size();
+    active_.push_back(c);
+  }
+  known_.clear();
+}
+
+void Structure::Impl::look_for_breaks(Component& component) {
+  for (Member* m : component.members) {
+    SolverJoint& j = component.solver.joints[m->index];
+    if (j.piece == 0 || m->broken) continue;
+    const Rows force = component.solver.force(j);
+    const auto row = static_cast<unsigned>(std::countr_zero(static_cast<unsigned>(j.piece))) % 3;
+    const double energy = j.dissipated[0] + j.dissipated[1] + j.dissipated[2];
+    const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
+                      : row == shear ? JointEvent::shear
+                                     : JointEvent::rotation;
+    if (!std::exchange(m->yielded, true)) say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
+    const bool exceeded = m->joint->capacity_used() > 1;
+    if (!exceeded || (veto && !veto(*m->joint))) continue;
+    break_joint(*m);
+    say(*m, {JointEvent::broke, mode, m->joint, force[row], energy});
+  }
+}
+
+void Structure::Impl::say(const Member& member, const JointEvent& event) {
+  // Never allocates inside a step: what finds no room is not said.
+  if (pending_.size() < pending_.capacity()) pending_.push_back({member.id, event});
+}
+
+// Until update() destroys it, a broken joint has no caps. Its group goes with it.
+void Structure::Impl::break_joint(Member& member) {
+  member.broken = true;
+  SolverJoint& j = member.data();
+  j.cap = j.cap_reverse = {};
+  if (member.break_group == 0) return;
+  for (const auto& other : members) {
+    if (other->break_group == member.break_group && !other->broken) break_joint(*other);
+  }
+}
+
+void Structure::Impl::update() {
+  stepped_ = false;
+  // The handler may destroy anything: joints are looked up by id each time.
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    const Pending p = pending_[i];
+    if (handler && member(p.id) != nullptr) handler(p.event);
+    if (world == nullptr) return;
+  }
+  pending_.clear();
+  for (std::size_t i = members.size(); i-- > 0;) {
+    if (i < members.size() && members[i]->broken) world->DestroyJoint(members[i]->joint);
+  }
+}
+
+const Member* Structure::Impl::member(std::uint32_t id) const {
+  const auto found = std::lower_bound(members.begin(), members.end(), id,
+                                      [](const auto& m, std::uint32_t value) { return m->id < value; });
+  return found != members.end() && (*found)->id == id ? found->get() : nullptr;
+}
+
+void Structure::Impl::shift_origin(const b2Vec2& new_origin, const Member& caller) {
+  // Called for every joint; each component is shifted by its first.
+  Component* c = caller.component;
+  if (c == nullptr || caller.index != 0) return;
+  c->origin_x -= new_origin.x;
+  c->origin_y -= new_origin.y;
+  for (Component::Mirror& m : c->mirrors) m.left.c -= new_origin;
+}
+
+std::size_t Structure::Impl::bytes() const {
+  std::size_t sum = sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
+                    joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending);
+  for (const auto& c : components) {
+    sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
+           c->mirrors.capacity() * sizeof(Component::Mirror);
+  }
+  return sum;
+}
+
+Structure::Structure(b2World& world, const StructureDef& def) : impl_(std::make_unique<Impl>(world, def)) {}
+Structure::~Structure() = default;
+Structure::Structure(Structure&&) noexcept = default;
+Structure& Structure::operator=(Structure&&) noexcept = default;
+
+ElasticPlasticJoint* Structure::create_joint(const ElasticPlasticJointDef& def) {
+  check(def);
+  if (impl_->world == nullptr)
+    throw std::invalid_argument("structure: its world is gone; make a new structure");
+  b2WeldJointDef weld;
+  static_cast<b2JointDef&>(weld) = def;
+  weld.type = e_weldJoint;
+  weld.localAnchorA = def.localAnchorA;
+  weld.localAnchorB = def.localAnchorB;
+  weld.referenceAngle = def.referenceAngle;
+  b2Joint* joint = impl_->world->CreateJoint(&weld);
+  if (joint == nullptr)
+    throw std::invalid_argument("structure: the world is stepping; create joints between steps");
+  return impl_->take(static_cast<b2WeldJoint*>(joint), def);
+}
+
+ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def) {
+  ElasticPlasticJointDef own = def;
+  own.bodyA = weld->GetBodyA();
+  own.bodyB = weld->GetBodyB();
+  check(own);
+  if (ElasticPlasticJoint::cast(weld) != nullptr) {
+    throw std::invalid_argument(
+        "structure: the weld is an elastic-plastic joint already; adopt stock welds only");
+  }
+  return impl_->take(weld, own);
+}
+
+void Structure::update() { impl_->update(); }
+void Structure::on_event(std::function<void(const JointEvent&)> handler) {
+  impl_->handler = std::move(handler);
+}
+void Structure::may_break(std::function<bool(const ElasticPlasticJoint&)> veto) {
+  impl_->veto = std::move(veto);
+}
+std::span<ElasticPlasticJoint* const> Structure::joints() const { return impl_->joints; }
+const StepReport& Structure::report() const { return impl_->report; }
+std::size_t Structure::bytes() const { return impl_->bytes(); }
+
+}  // namespace ductile

@@ -1,0 +1,66 @@
+// What a Structure keeps: its joints, and the components that they form.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "component.h"
+
+namespace ductile {
+
+struct Structure::Impl {
+  Impl(b2World& w, const StructureDef& d);
+  ~Impl();
+
+  ElasticPlasticJoint* take(b2WeldJoint* weld, const ElasticPlasticJointDef& joint_def);
+  void forget(Member& member);
+  void world_is_gone();
+
+  // The phases of an island in b2World::Step, called by its joints.
+  void enlist(Member& member);
+  void velocity(const Member& caller, const b2SolverData& data);
+  void position(const Member& caller, const b2SolverData& data);
+
+  void update();
+  void shift_origin(const b2Vec2& new_origin, const Member& caller);
+  std::size_t bytes() const;
+
+  b2World* world;  // nullptr once it is gone
+  StructureDef def;
+  b2Body* watch;
+  std::uint32_t next_id = 0;
+  std::vector<std::unique_ptr<Member>> members;  // by id
+  std::vector<ElasticPlasticJoint*> joints;      // as members
+  std::vector<std::unique_ptr<Component>> components;
+  std::function<void(const JointEvent&)> handler;
+  std::function<bool(const ElasticPlasticJoint&)> veto;
+  StepReport report;
+
+ private:
+  void form();
+  void dissolve(Component& component, KnownPoses& poses);
+  void look_for_breaks(Component& component);
+  void break_joint(Member& member);
+  void say(const Member& member, const JointEvent& event);
+  const Member* member(std::uint32_t id) const;
+
+  // The island at hand.
+  std::vector<Member*> enlisted_;
+  std::vector<Component*> active_;
+  std::uint64_t batch_ = 0;
+  int velocity_calls_ = 0;
+  bool enlisting_ = false;
+  bool incomplete_ = false;  // some enlisted joint is in no component
+  bool stepped_ = true;      // since the last update()
+
+  KnownPoses known_;  // of bodies whose component was dissolved
+
+  struct Pending {
+    std::uint32_t id;
+    JointEvent event;
+  };
+  std::vector<Pending> pending_;
+};
+
+}  // namespace ductile

@@ -1,0 +1,26 @@
+// Three numbers of one planar body: velocity (vx, vy, ω), momentum, or displacement, in the body's own frame.
+#pragma once
+
+namespace ductile {
+
+struct Vec3 {
+  double x = 0, y = 0, w = 0;
+
+  Vec3& operator+=(const Vec3& o) { return x += o.x, y += o.y, w += o.w, *this; }
+  Vec3& operator-=(const Vec3& o) { return x -= o.x, y -= o.y, w -= o.w, *this; }
+};
+
+inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+inline Vec3 operator*(double t, const Vec3& a) { return {t * a.x, t * a.y, t * a.w}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.w * b.w; }
+
+/// A turn by an angle.
+struct Turn {
+  double c = 1, s = 0;
+};
+
+inline Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
+inline Turn inverse(const Turn& a) { return {a.c, -a.s}; }
+
+}  // namespace ductile

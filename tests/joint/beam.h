@@ -1,0 +1,98 @@
+// A steel beam of n pieces, welded by elastic-plastic joints to a static block at its left end.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "ductile/joint.h"
+
+namespace ductile {
+
+struct BeamDef {
+  int pieces = 10;
+  double length = 20, height = 1;
+  double density = 7800;          // kg/m², depth 1
+  double youngs_modulus = 0;      // 0: rigid
+  double moment_cap = unlimited;  // of every joint
+  double gravity = 10;
+  double angle = 0;     // of the beam's axis
+  double x = 0, y = 0;  // of its root
+  SolverKind solver = SolverKind::direct;
+};
+
+struct Beam {
+  explicit Beam(const BeamDef& d)
+      : def(d), world({0, -static_cast<float>(d.gravity)}), structure(world, {d.solver}) {
+    world.SetAllowSleeping(false);
+    const b2Vec2 axis{static_cast<float>(std::cos(d.angle)), static_cast<float>(std::sin(d.angle))};
+    b2BodyDef ground;
+    ground.position.Set(static_cast<float>(d.x), static_cast<float>(d.y));
+    wall = world.CreateBody(&ground);
+    const double l = d.length / d.pieces;
+    b2Body* previous = wall;
+    for (int i = 0; i < d.pieces; ++i) {
+      b2BodyDef body;
+      body.type = b2_dynamicBody;
+      body.angle = static_cast<float>(d.angle);
+      body.position = point((i + 0.5) * l);
+      b2Body* piece = world.CreateBody(&body);
+      b2PolygonShape box;
+      box.SetAsBox(static_cast<float>(l / 2), static_cast<float>(d.height / 2));
+      b2FixtureDef fixture;
+      fixture.shape = &box;
+      fixture.density = static_cast<float>(d.density);
+      fixture.filter.groupIndex = -1;
+      piece->CreateFixture(&fixture);
+      const double mass = d.density * l * d.height;
+      b2MassData data{
+          static_cast<float>(mass), {0, 0}, static_cast<float>(mass * (l * l + d.height * d.height) / 12)};
+      piece->SetMassData(&data);
+      ElasticPlasticJointDef joint;
+      joint.Initialize(previous, piece, point(i * l), axis);
+      if (d.youngs_modulus > 0) {
+        const double span = i == 0 ? l / 2 : l;
+        const double A = d.height, I = std::pow(d.height, 3) / 12, G = d.youngs_modulus / 2.6;
+        joint.rows[axial].stiffness = d.youngs_modulus * A / span;
+        joint.rows[shear].stiffness = 5.0 / 6 * G * A / span;
+        joint.rows[rotation].stiffness = d.youngs_modulus * I / span;
+      }
+      joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = d.moment_cap;
+      joints.push_back(structure.create_joint(joint));
+      pieces.push_back(piece);
+      previous = piece;
+    }
+  }
+
+  b2Vec2 point(double s) const {
+    return {static_cast<float>(def.x + s * std::cos(def.angle)),
+            static_cast<float>(def.y + s * std::sin(def.angle))};
+  }
+  void run(double seconds, double dt = 1.0 / 60) {
+    const int steps = static_cast<int>(std::lround(seconds / dt));
+    for (int i = 0; i < steps; ++i) {
+      world.Step(static_cast<float>(dt), 8, 3);
+      rounds += structure.report().rounds;
+      factorisations += structure.report().factorisations;
+      bounds_hit += structure.report().bounds_hit;
+      structure.update();
+    }
+  }
+  double mass() const { return def.density * def.length * def.height; }
+  // Moment of the pieces' weights about the root, where they are now.
+  double root_moment() const {
+    double sum = 0;
+    for (b2Body* piece : pieces) sum += piece->GetMass() * def.gravity * (piece->GetWorldCenter().x - def.x);
+    return -sum;
+  }
+
+  BeamDef def;
+  b2World world;
+  Structure structure;
+  b2Body* wall;
+  std::vector<b2Body*> pieces;
+  std::vector<ElasticPlasticJoint*> joints;
+  int rounds = 0, factorisations = 0, bounds_hit = 0;
+};
+
+}  // namespace ductile
