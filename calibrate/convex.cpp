@@ -149,7 +149,8 @@ class EarClipping {
       }
       start = node;
     }
-    if (orientation(at(previous(start)), at(start), at(next(start))) > 0) triangles_.push_back(triangle(start));
+    if (orientation(at(previous(start)), at(start), at(next(start))) > 0)
+      triangles_.push_back(triangle(start));
   }
 
   int count(int start) const {
@@ -291,7 +292,8 @@ class Parts {
   // Is d inside the circle through a, b, c (counter-clockwise)?
   bool in_circle(int a, int b, int c, int d) const {
     const Point p = points_[a] - points_[d], q = points_[b] - points_[d], r = points_[c] - points_[d];
-    const double one = dot(p, p) * cross(q, r), two = dot(q, q) * cross(r, p), three = dot(r, r) * cross(p, q);
+    const double one = dot(p, p) * cross(q, r), two = dot(q, q) * cross(r, p),
+                 three = dot(r, r) * cross(p, q);
     return one + two + three > 1e-12 * (std::abs(one) + std::abs(two) + std::abs(three));
   }
 

@@ -14,7 +14,7 @@ double doubled_area(const Ring& ring) {
 
 Moments moments(const Outline& outline) {
   // Green's theorem over the edges, about a vertex of the outline itself.
-  double area = 0, polar = 0;
+  Moments m;
   Point first{};
   const Point origin = outline.outer.empty() ? Point{} : outline.outer.front();
   const auto add = [&](const Ring& ring, double sign) {
@@ -24,17 +24,24 @@ Moments moments(const Outline& outline) {
     for (const Point& vertex : ring) {
       const Point q = vertex - origin;
       const double c = sign * cross(p, q);
-      area += c / 2;
+      m.area += c / 2;
       first = first + (c / 6) * (p + q);
-      polar += c / 12 * (dot(p, p) + dot(p, q) + dot(q, q));
+      m.xx += c / 12 * (p.x * p.x + p.x * q.x + q.x * q.x);
+      m.yy += c / 12 * (p.y * p.y + p.y * q.y + q.y * q.y);
+      m.xy += c / 24 * (2 * p.x * p.y + p.x * q.y + q.x * p.y + 2 * q.x * q.y);
       p = q;
     }
   };
   add(outline.outer, 1);
   for (const Ring& hole : outline.holes) add(hole, -1);
-  if (!(area > 0)) return {area, origin, 0};
-  const Point centre = (1 / area) * first;
-  return {area, origin + centre, polar - area * dot(centre, centre)};
+  m.centroid = origin;
+  if (!(m.area > 0)) return m;
+  const Point c = (1 / m.area) * first;
+  m.centroid = origin + c;
+  m.xx -= m.area * c.x * c.x;
+  m.yy -= m.area * c.y * c.y;
+  m.xy -= m.area * c.x * c.y;
+  return m;
 }
 
 }  // namespace ductile

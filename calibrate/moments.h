@@ -6,9 +6,10 @@
 namespace ductile {
 
 struct Moments {
-  double area = 0;   ///< m²
-  Point centroid;    ///< m
-  double polar = 0;  ///< m⁴, ∫ r² dA about the centroid
+  double area = 0;                ///< m²
+  Point centroid;                 ///< m
+  double xx = 0, yy = 0, xy = 0;  ///< m⁴, ∫ x² dA, ∫ y² dA, ∫ xy dA about the centroid
+  double polar() const { return xx + yy; }
 };
 
 /// Of an outline, whatever the orientation of its rings; rounding grows with the outline's size, not with its

@@ -80,9 +80,9 @@ class PlanarMap {
     vertices_ = points_.size();
   }
 
-  // The chords of one cut. A vertex on the cut counts once as right of it and once as left, as if the cut were
-  // displaced a little to its left and to its right. Where both displaced cuts run in material, so does the
-  // cut itself; where only one does, it runs along an edge of the outline.
+  // The chords of one cut. A vertex on the cut counts once as right of it and once as left, as if the cut
+  // were displaced a little to its left and to its right. Where both displaced cuts run in material, so does
+  // the cut itself; where only one does, it runs along an edge of the outline.
   void find_chords(int index) {
     const Cut& cut = cuts_[index];
     const double extent = length(cut.to - cut.from);
@@ -114,7 +114,8 @@ class PlanarMap {
       right += here.right;
       if (here.point != next.point && points_[here.point] == points_[next.point])
         touching_.emplace_back(here.point, next.point);
-      else if (left > 0 && right > 0 && here.point != next.point && next.t > slack && here.t < extent - slack) {
+      else if (left > 0 && right > 0 && here.point != next.point && next.t > slack &&
+               here.t < extent - slack) {
         chords_.push_back({here.point, next.point, index});
         if (here.t < -slack || next.t > extent + slack)
           problem(index, "ends inside the outline, at " + to_string(here.t < -slack ? cut.from : cut.to),
@@ -135,7 +136,8 @@ class PlanarMap {
   }
 
   void find_chord_crossings() {
-    if (std::all_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) { return parallel(cut, cuts_.front()); })) return;
+    if (std::all_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) { return parallel(cut, cuts_.front()); }))
+      return;
     for (std::size_t i = 0; i < chords_.size(); ++i)
       for (std::size_t j = i + 1; j < chords_.size(); ++j) {
         const Line &c = chords_[i], &d = chords_[j];
@@ -144,7 +146,8 @@ class PlanarMap {
             same(c.to) == same(d.to))
           continue;
         const Point a = points_[c.from], b = points_[c.to], p = points_[d.from], q = points_[d.to];
-        if (orientation(a, b, p) * orientation(a, b, q) >= 0 || orientation(p, q, a) * orientation(p, q, b) >= 0)
+        if (orientation(a, b, p) * orientation(a, b, q) >= 0 ||
+            orientation(p, q, a) * orientation(p, q, b) >= 0)
           continue;
         const double across = cross(b - a, q - p);
         const double s = cross(p - a, q - p) / across, t = cross(p - a, b - a) / across;
@@ -165,7 +168,8 @@ class PlanarMap {
     });
     for (std::size_t i = 1; i < crossings.size(); ++i) {
       const Crossing &a = crossings[i - 1], &b = crossings[i];
-      if (a.line == b.line && length(points_[a.point] - points_[b.point]) <= tolerance()) unite(a.point, b.point);
+      if (a.line == b.line && length(points_[a.point] - points_[b.point]) <= tolerance())
+        unite(a.point, b.point);
     }
   }
 
@@ -246,8 +250,8 @@ class PlanarMap {
     });
   }
 
-  // The half-edge that arrives at a point before the wedge of material into which `direction` points; −1 where
-  // nothing arrives yet.
+  // The half-edge that arrives at a point before the wedge of material into which `direction` points; −1
+  // where nothing arrives yet.
   int arrival(int point, Point direction) const {
     const int first = arrivals_[point];
     if (first < 0 || half_edges_[first].sibling < 0) return first;
@@ -295,7 +299,8 @@ class PlanarMap {
                               points_[half.from], points_[half.to]};
       if (interval.left < 0 || interval.right < 0) continue;
       if (interval.left == interval.right) {
-        problem(half.cut, "separates nothing between " + to_string(interval.from) + " and " + to_string(interval.to),
+        problem(half.cut,
+                "separates nothing between " + to_string(interval.from) + " and " + to_string(interval.to),
                 "cut the body apart, or leave this cut out");
         continue;
       }
@@ -327,7 +332,8 @@ class PlanarMap {
   const std::string& place_;
   std::vector<Problem> problems_;
   double size_ = 0;
-  std::vector<Point> points_;  // the rings' vertices, then where cuts cross edges, then where they cross each other
+  std::vector<Point>
+      points_;  // the rings' vertices, then where cuts cross edges, then where they cross each other
   std::size_t vertices_ = 0;
   std::vector<Line> edges_, chords_;
   std::vector<Crossing> edge_crossings_, chord_crossings_;

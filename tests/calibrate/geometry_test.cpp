@@ -14,7 +14,9 @@
 namespace {
 using namespace ductile;
 
-Ring rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+Ring rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
 
 double area(const std::vector<Ring>& rings) {
   double sum = 0;
@@ -33,15 +35,15 @@ TEST(Moments, Rectangle) {
   const Moments m = moments({rectangle(1e6, 0, 1e6 + 4, 2), {}});
   EXPECT_DOUBLE_EQ(m.area, 8);
   EXPECT_EQ(m.centroid, (Point{1e6 + 2, 1}));
-  EXPECT_DOUBLE_EQ(m.polar, 8.0 * (16 + 4) / 12);
+  EXPECT_DOUBLE_EQ(m.polar(), 8.0 * (16 + 4) / 12);
 }
 
 TEST(Moments, RingsOfAnyOrientation) {
   // A square tube: ∫ r² dA = (a⁴ − b⁴)/6.
   Outline tube{rectangle(-2, -2, 2, 2), {rectangle(-1, -1, 1, 1)}};
-  EXPECT_DOUBLE_EQ(moments(tube).polar, (256.0 - 16.0) / 6);
+  EXPECT_DOUBLE_EQ(moments(tube).polar(), (256.0 - 16.0) / 6);
   std::reverse(tube.outer.begin(), tube.outer.end());
-  EXPECT_DOUBLE_EQ(moments(tube).polar, (256.0 - 16.0) / 6);
+  EXPECT_DOUBLE_EQ(moments(tube).polar(), (256.0 - 16.0) / 6);
   EXPECT_DOUBLE_EQ(moments(tube).area, 12);
 }
 
@@ -51,7 +53,8 @@ TEST(Moments, RightTriangle) {
   EXPECT_DOUBLE_EQ(m.area, 7.5);
   EXPECT_DOUBLE_EQ(m.centroid.x, 1);
   EXPECT_DOUBLE_EQ(m.centroid.y, 5.0 / 3);
-  EXPECT_DOUBLE_EQ(m.polar, 15.0 * 34 / 36);
+  EXPECT_DOUBLE_EQ(m.polar(), 15.0 * 34 / 36);
+  EXPECT_DOUBLE_EQ(m.xy, -9.0 * 25 / 72);  // −b²h²/72
 }
 
 TEST(Split, BeamInThree) {
@@ -76,7 +79,8 @@ TEST(Split, WindowGivesTwoIntervals) {
 
 TEST(Split, WindowBetweenTheCutsStaysAHole) {
   const std::vector<Cut> cuts{{{1, -9}, {1, 9}}, {{9, -9}, {9, 9}}};
-  const Split s = split({rectangle(0, 0, 10, 3), {rectangle(2, 1, 3, 2), rectangle(4, 1, 5, 2)}}, cuts, "frame");
+  const Split s =
+      split({rectangle(0, 0, 10, 3), {rectangle(2, 1, 3, 2), rectangle(4, 1, 5, 2)}}, cuts, "frame");
   ASSERT_EQ(s.pieces.size(), 3u);
   std::size_t holes = 0;
   for (const Outline& piece : s.pieces) holes += piece.holes.size();
@@ -135,10 +139,10 @@ TEST(Split, BothLegsOfAU) {
 
 TEST(Split, RefusesCutsThatDoNotCut) {
   const Outline ring{rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}};
-  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 5}, {5, 5}}}, "ring"), InvalidInput);      // misses
-  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {0.5, 2}}}, "ring"), InvalidInput);    // ends inside
-  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {2, 2}}}, "ring"), InvalidInput);      // still one piece
-  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 0}, {5, 0}}}, "ring"), InvalidInput);      // along an edge
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 5}, {5, 5}}}, "ring"), InvalidInput);    // misses
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {0.5, 2}}}, "ring"), InvalidInput);  // ends inside
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 2}, {2, 2}}}, "ring"), InvalidInput);    // still one piece
+  EXPECT_THROW(split(ring, std::vector{Cut{{-1, 0}, {5, 0}}}, "ring"), InvalidInput);    // along an edge
   EXPECT_NO_THROW(split(ring, std::vector{Cut{{-1, 2}, {5, 2}}}, "ring"));
 }
 
@@ -151,7 +155,8 @@ TEST(ConvexParts, FewForPlainShapes) {
   const Ring dotted{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 1}, {3, 1}, {2, 1}, {1, 1}, {0, 1}, {0, 0.5}};
   EXPECT_LE(convex_parts({dotted, {}}, 8).size(), 2u);
   Ring disc;
-  for (int i = 0; i < 64; ++i) disc.push_back({std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32)});
+  for (int i = 0; i < 64; ++i)
+    disc.push_back({std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32)});
   EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
 }
 
@@ -175,8 +180,8 @@ Ring star(Random& random, Point centre, double inner, double outer, int n) {
   return ring;
 }
 
-// Stars with star-shaped holes, some stretched to slivers, on coarse grids (so that much is collinear), far from
-// the origin, large or small.
+// Stars with star-shaped holes, some stretched to slivers, on coarse grids (so that much is collinear), far
+// from the origin, large or small.
 Outline random_outline(Random& random) {
   const int n = 3 + static_cast<int>(random() % 40);
   Outline outline{star(random, {}, 0.5, random() % 2 ? 0.6 : 3, std::max(n, 12)), {}};
@@ -185,9 +190,11 @@ Outline random_outline(Random& random) {
     const Point c{-0.3 + 0.15 * i, uniform(random, -0.1, 0.1)};
     outline.holes.push_back(star(random, c, 0.02, 0.07, 3 + static_cast<int>(random() % 12)));
   }
-  const double stretch = random() % 3 ? 1 : std::pow(10, uniform(random, -3, 0)), angle = uniform(random, 0, 7);
+  const double stretch = random() % 3 ? 1 : std::pow(10, uniform(random, -3, 0)),
+               angle = uniform(random, 0, 7);
   const double size = std::pow(10, uniform(random, -1, 3));
-  const Point at = random() % 3 ? Point{} : Point{uniform(random, -1e3, 1e3) * size, uniform(random, -1e3, 1e3) * size};
+  const Point at =
+      random() % 3 ? Point{} : Point{uniform(random, -1e3, 1e3) * size, uniform(random, -1e3, 1e3) * size};
   const auto place = [&](Ring& ring) {
     for (Point& p : ring) {
       const Point q{size * p.x, size * stretch * p.y};
@@ -200,7 +207,8 @@ Outline random_outline(Random& random) {
 }
 
 std::vector<Cut> random_cuts(Random& random, const Outline& outline) {
-  // Through pairs of points of the outline (vertices, so that cuts meet them exactly, or middles), lengthened.
+  // Through pairs of points of the outline (vertices, so that cuts meet them exactly, or middles),
+  // lengthened.
   std::vector<Point> points = outline.outer;
   for (const Ring& hole : outline.holes) points.insert(points.end(), hole.begin(), hole.end());
   std::vector<Cut> cuts;
@@ -208,11 +216,13 @@ std::vector<Cut> random_cuts(Random& random, const Outline& outline) {
   const Point along = points[random() % points.size()] - points[random() % points.size()];
   for (int i = 0; i < n; ++i) {
     const Point p = middle(points[random() % points.size()], points[random() % points.size()]);
-    Point d = random() % 2 ? left(along) : points[random() % points.size()] - points[random() % points.size()];
+    Point d =
+        random() % 2 ? left(along) : points[random() % points.size()] - points[random() % points.size()];
     if (!(length(d) > 0)) continue;
     Point low = points[0], high = low;
     for (const Point& q : points)
-      low = {std::min(low.x, q.x), std::min(low.y, q.y)}, high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+      low = {std::min(low.x, q.x), std::min(low.y, q.y)},
+      high = {std::max(high.x, q.x), std::max(high.y, q.y)};
     d = 2 * length(high - low) * unit(d);
     cuts.push_back({p - d, p + d});
   }

@@ -50,9 +50,12 @@ struct BodyDef {
   double circle = 0;  ///< m: a disc of this radius about the origin instead of an outline; not split
   std::optional<Material> material;  ///< required for dynamic bodies
   double depth = 1;                  ///< m, out of plane
-  std::vector<Region> profile;  ///< instead of depth: the section the strip is extruded from (x out of plane)
-  int pieces = 1;               ///< equal parts along `along`; 1: not split
-  std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis
+  std::vector<Region> profile;   ///< instead of depth: the section that the strip is extruded from, x out of
+                                 ///< plane, y across the strip, its centroid at the cut's middle; its height
+                                 ///< fits each cut within 1 %
+  int pieces = 1;                ///< equal parts along `along`; 1: not split
+  std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis. As
+                                 ///< `cuts`, in the outline's own coordinates
   std::vector<std::array<Point, 2>>
       cuts;                     ///< explicit cuts instead: segments that leave the outline at both ends
   bool automatic = false;       ///< split: number and place of the cuts from the target error
@@ -141,11 +144,8 @@ struct PlannedJoint {
   double max_elongation = unlimited;  ///< m, likewise
   double max_compression = unlimited, max_slip = unlimited;
   double hinge_length = 0;  ///< m
-  std::string governed_by;  ///< which input set each value
-  std::optional<Section>
-      section;  ///< with the bending direction d = right of the axis = (+x of the section's plane:
-  Point section_direction;    ///< out of plane, +y: along the cut); null where caps are given
-  double section_anchor = 0;  ///< coordinate of the anchor along section_direction
+  double height = 0;        ///< m, length of the interval along which the pieces touch; 0 for supports
+  std::string governed_by;  ///< which input set each value: "N, Nc, Q: section of beam; M: joint; …"
 };
 
 /// What was left out of a plan, with the error it brings and the time it saves.
@@ -176,6 +176,12 @@ struct Plan {
   std::vector<Wheel> wheels;
   std::vector<LeftOut> left_out;
 };
+
+/// The section of a joint on the side of `piece` (PlannedJoint::a or b), for N–M curves and drawings: x out
+/// of the scene's plane, y to the left of the joint's axis, the anchor at the origin, so that the joint's M
+/// is the section's about d = right of the axis = (0, −1), with the reference line at 0. None for the ground
+/// and for a body without material.
+std::optional<Section> section_at(const Plan& plan, const PlannedJoint& joint, int piece);
 
 /// Splits, joins and calibrates. Throws InvalidInput with every problem found (`place` names body and
 /// vertex).

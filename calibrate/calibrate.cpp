@@ -1,0 +1,579 @@
+#include "ductile/calibrate.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "caps.h"
+#include "convex.h"
+#include "moments.h"
+#include "plane.h"
+#include "split.h"
+#include "strip.h"
+#include "touching.h"
+
+namespace ductile {
+namespace {
+
+constexpr int most_pieces = 100'000;
+constexpr int most_fixture_vertices = 8;  // b2_maxPolygonVertices
+
+std::string body_place(const BodyDef& body) { return "body '" + body.name + "'"; }
+
+// Where a body's outline is put: turned, then moved.
+struct Placement {
+  Point at;
+  double cosine, sine;
+  explicit Placement(const BodyDef& body)
+      : at(body.at), cosine(std::cos(body.angle)), sine(std::sin(body.angle)) {}
+  Point turned(Point p) const { return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y}; }
+  Point operator()(Point p) const { return at + turned(p); }
+  void place(Ring& ring) const {
+    for (Point& p : ring) p = (*this)(p);
+  }
+};
+
+struct Box {
+  Point low, high;
+  double diagonal() const { return length(high - low); }
+};
+
+Box box_of(const Outline& outline) {
+  Box box{outline.outer.front(), outline.outer.front()};
+  for (const Point& p : outline.outer) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+// From end to end of the outline through its centroid, along the axis about which its area is most slender;
+// in the direction of x, then of y.
+std::array<Point, 2> long_axis(const Outline& outline) {
+  const Moments m = moments(outline);
+  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
+  const Point u = std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1};
+  double low = 0, high = 0;
+  for (const Point& p : outline.outer) {
+    low = std::min(low, dot(p - m.centroid, u));
+    high = std::max(high, dot(p - m.centroid, u));
+  }
+  return {m.centroid + low * u, m.centroid + high * u};
+}
+
+// The direction in which a body's strip runs, in the world.
+Point strip_direction(const BodyDef& body) {
+  std::array<Point, 2> line = body.along;
+  if (body.cuts.size() > 1)
+    line = {middle(body.cuts.front()[0], body.cuts.front()[1]),
+            middle(body.cuts.back()[0], body.cuts.back()[1])};
+  if (line[0] == line[1]) line = long_axis(body.outline);
+  return Placement(body).turned(line[1] - line[0]);
+}
+
+// --- what is wrong with a scene ---
+
+class Check {
+ public:
+  std::vector<Problem> problems;
+
+  void scene(const SceneDef& s) {
+    finite(s.gravity, "scene", "gravity");
+    at_least_zero(s.gravity_ramp, "scene", "gravity_ramp");
+    overrides(s.joint, "scene");
+    std::set<std::string_view> names;
+    for (const BodyDef& b : s.bodies) {
+      if (!names.insert(b.name).second)
+        add(body_place(b), "the name is taken", "give every body its own name");
+      body(b);
+    }
+    const auto known = [&](const std::string& name, const std::string& place) {
+      if (!names.contains(name))
+        add(place, "there is no body '" + name + "'", "name one of the scene's bodies");
+    };
+    std::set<std::pair<std::string_view, std::string_view>> pairs;
+    for (std::size_t i = 0; i < s.joints.size(); ++i) {
+      const JointBetweenDef& j = s.joints[i];
+      const std::string place = "joint " + std::to_string(i);
+      known(j.a, place);
+      known(j.b, place);
+      if (j.a == j.b) add(place, "joins '" + j.a + "' to itself", "name two bodies");
+      if (!pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
+        add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
+      at_least_zero(j.gap, place, "gap");
+      overrides(j.overrides, place);
+    }
+    for (std::size_t i = 0; i < s.supports.size(); ++i) {
+      const std::string place = "support " + std::to_string(i);
+      known(s.supports[i].body, place);
+      finite(s.supports[i].at, place, "at");
+    }
+    for (std::size_t i = 0; i < s.loads.size(); ++i) {
+      const LoadDef& l = s.loads[i];
+      const std::string place = "load " + std::to_string(i);
+      known(l.body, place);
+      finite(l.at, place, "at");
+      finite(l.force, place, "force");
+      finite({l.moment, l.from}, place, "moment or start");
+      at_least_zero(l.ramp, place, "ramp");
+      if (!(l.to >= l.from)) add(place, "ends before it starts", "let `to` be after `from`");
+    }
+    for (std::size_t i = 0; i < s.wheels.size(); ++i) {
+      const WheelDef& w = s.wheels[i];
+      const std::string place = "wheel " + std::to_string(i);
+      known(w.chassis, place);
+      known(w.wheel, place);
+      if (w.chassis == w.wheel) add(place, "carries itself", "name two bodies");
+      finite(w.at, place, "at");
+      finite(w.axis, place, "axis");
+      if (w.axis == Point{}) add(place, "the axis has no direction", "give it a length above 0");
+      at_least_zero(w.frequency, place, "frequency");
+      at_least_zero(w.damping_ratio, place, "damping_ratio");
+      at_least_zero(w.motor_torque, place, "motor_torque");
+      finite({w.motor_speed, 0}, place, "motor_speed");
+    }
+  }
+
+ private:
+  void add(const std::string& place, std::string what, std::string remedy) {
+    problems.push_back({place, std::move(what), std::move(remedy)});
+  }
+  // Nothing that is multiplied later may overflow; no number of a scene comes near this.
+  static constexpr double most = 1e30;
+
+  void finite(Point p, const std::string& place, const char* name) {
+    if (!(std::abs(p.x) <= most && std::abs(p.y) <= most))
+      add(place, std::string(name) + " is not finite", "give a finite number");
+  }
+  // Also refuses NaN. Unlimited is for caps and maxima only.
+  void at_least_zero(double value, const std::string& place, const char* name,
+                     bool may_be_unlimited = false) {
+    if (!(value >= 0 && value <= most) && !(may_be_unlimited && value == unlimited))
+      add(place, std::string(name) + " is " + to_string(value), "it must be finite and not below 0");
+  }
+  void above_zero(double value, const std::string& place, const char* name) {
+    if (!(value > 0 && value <= most))
+      add(place, std::string(name) + " is " + to_string(value), "it must be finite and above 0");
+  }
+
+  void overrides(const JointOverrides& o, const std::string& place) {
+    const auto cap = [&](const std::optional<double>& value, const char* name) {
+      if (value) at_least_zero(*value, place, name, true);
+    };
+    cap(o.moment, "moment");
+    cap(o.moment_reverse, "moment_reverse");
+    cap(o.axial, "axial");
+    cap(o.axial_compression, "axial_compression");
+    cap(o.shear, "shear");
+    cap(o.max_rotation, "max_rotation");
+    cap(o.max_elongation, "max_elongation");
+    cap(o.max_compression, "max_compression");
+    cap(o.max_slip, "max_slip");
+    if (o.damping_ratio) at_least_zero(*o.damping_ratio, place, "damping_ratio");
+    if (o.hinge_length) above_zero(*o.hinge_length, place, "hinge_length");
+    if (o.elastic == Elasticity::frequency) above_zero(o.frequency, place, "frequency");
+    if (o.elastic == Elasticity::elastic_rotation) {
+      above_zero(o.elastic_rotation, place, "elastic_rotation");
+      at_least_zero(o.frequency, place, "frequency");
+    }
+  }
+
+  void material(const Material& m, const std::string& place, bool dynamic) {
+    above_zero(m.yield_stress, place, "fy");
+    at_least_zero(m.yield_stress_compression, place, "fyc");
+    at_least_zero(m.shear_yield_stress, place, "tau");
+    at_least_zero(m.youngs_modulus, place, "E");
+    at_least_zero(m.ultimate_stress, place, "fu");
+    at_least_zero(m.fracture_strain, place, "fracture_strain", true);
+    at_least_zero(m.damping_ratio, place, "damping_ratio");
+    at_least_zero(m.friction, place, "friction");
+    at_least_zero(m.restitution, place, "restitution");
+    if (dynamic) above_zero(m.density, place, "density");
+  }
+
+  void body(const BodyDef& b) {
+    const std::string place = body_place(b);
+    if (b.name.empty() || b.name == "ground" || b.name.find_first_of("/#-") != std::string::npos)
+      add(place, "is not a name that a body can have", "use one without / # -, that is not 'ground'");
+    finite(b.at, place, "at");
+    finite({b.angle, b.angular_velocity}, place, "angle or angular_velocity");
+    finite(b.velocity, place, "velocity");
+    overrides(b.joint, place);
+
+    const bool dynamic = b.type == BodyType::dynamic_body;
+    if (b.material)
+      material(*b.material, place, dynamic && b.profile.empty());
+    else if (dynamic)
+      add(place, "has no material", "give it one, or make it static");
+    if (b.profile.empty()) {
+      above_zero(b.depth, place, "depth");
+    } else {
+      for (Problem& p : validate(b.profile)) add(place + ", profile " + p.place, p.what, p.remedy);
+      for (const Region& region : b.profile)
+        if (dynamic && !(region.material.density > 0) && !(b.material && b.material->density > 0))
+          add(place, "its profile has no density", "give the body a material");
+    }
+
+    const bool is_split = b.pieces != 1 || !b.cuts.empty() || b.automatic;
+    if (b.circle != 0) {
+      above_zero(b.circle, place, "circle");
+      if (!b.outline.outer.empty()) add(place, "has both an outline and a circle", "leave one of them out");
+      if (is_split) add(place, "is a circle and cannot be split", "give it an outline of vertices");
+    } else {
+      for (Problem& p : validate(b.outline, place)) problems.push_back(std::move(p));
+      for (const Point& p : b.outline.outer)
+        if (!(std::max(std::abs(p.x), std::abs(p.y)) < 1e12)) {
+          add(place, "reaches out to " + to_string(p), "keep the outline within 1e12 m of its origin");
+          break;
+        }
+    }
+    if ((b.pieces != 1) + !b.cuts.empty() + b.automatic > 1)
+      add(place, "is split in more than one way", "give one of pieces, cuts and auto");
+    if (b.pieces < 1 || b.pieces > most_pieces)
+      add(place, "cannot be split into " + std::to_string(b.pieces) + " pieces",
+          "give 1 to " + std::to_string(most_pieces));
+    finite(b.along[0], place, "along");
+    finite(b.along[1], place, "along");
+    for (std::size_t i = 0; i < b.cuts.size(); ++i) {
+      const std::string at = place + ", cut " + std::to_string(i);
+      finite(b.cuts[i][0], at, "its start");
+      finite(b.cuts[i][1], at, "its end");
+      if (b.cuts[i][0] == b.cuts[i][1]) add(at, "has no length", "give two different points");
+    }
+    if (is_split && b.group > 0)
+      add(place, "has a positive collision group, in which its pieces would collide with each other",
+          "give a split body a negative group or none");
+  }
+};
+
+// --- from a scene to a plan ---
+
+class Planner {
+ public:
+  explicit Planner(const SceneDef& scene) : scene_(scene) {}
+
+  Plan run() {
+    Check check;
+    check.scene(scene_);
+    problems_ = std::move(check.problems);
+    refuse_problems();
+    plan_.gravity = scene_.gravity;
+    plan_.gravity_ramp = scene_.gravity_ramp;
+    plan_.sleep = scene_.sleep;
+    plan_.interaction = scene_.interaction;
+    plan_.bodies = scene_.bodies;
+    strips_.reserve(plan_.bodies.size());
+    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) add_body(static_cast<int>(i));
+    refuse_problems();  // what follows needs all pieces
+    for (const JointBetweenDef& joint : scene_.joints) join(joint);
+    for (std::size_t i = 0; i < scene_.supports.size(); ++i) support(static_cast<int>(i));
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) load(static_cast<int>(i));
+    for (const WheelDef& wheel : scene_.wheels)
+      plan_.wheels.push_back({nearest_piece(wheel.chassis, wheel.at), pieces_of(wheel.wheel).first, wheel});
+    refuse_problems();
+    return std::move(plan_);
+  }
+
+ private:
+  void refuse_problems() {
+    if (!problems_.empty()) throw InvalidInput(std::move(problems_));
+  }
+
+  // --- bodies ---
+
+  void add_body(int index) {
+    const BodyDef& body = plan_.bodies[index];
+    strips_.emplace_back(body);
+    const int first = static_cast<int>(plan_.pieces.size());
+    first_piece_.push_back(first);
+    if (body.circle > 0) {
+      add_disc(index);
+      return;
+    }
+    std::vector<Cut> cuts = cuts_of(body);
+    try {
+      add_pieces(index, split(body.outline, cuts, body_place(body)), cuts);
+    } catch (const InvalidInput& e) {
+      problems_.insert(problems_.end(), e.problems().begin(), e.problems().end());
+    }
+  }
+
+  void add_disc(int index) {
+    const BodyDef& body = plan_.bodies[index];
+    Piece& piece = plan_.pieces.emplace_back();
+    piece.name = body.name;
+    piece.body = index;
+    piece.center = body.at;
+    piece.circle = body.circle;
+    if (body.type == BodyType::dynamic_body) {
+      const double r2 = body.circle * body.circle;
+      piece.mass = strips_.back().mass_per_area() * std::numbers::pi * r2;
+      piece.inertia = piece.mass * r2 / 2;
+    }
+  }
+
+  // The cuts of a body, in its outline's coordinates.
+  static std::vector<Cut> cuts_of(const BodyDef& body) {
+    std::vector<Cut> cuts;
+    for (const auto& [from, to] : body.cuts) cuts.push_back({from, to});
+    if (body.pieces > 1) {
+      const auto [from, to] = body.along[0] == body.along[1] ? long_axis(body.outline) : body.along;
+      double reach = 0;
+      for (const Point& p : body.outline.outer) reach = std::max(reach, length(p - from));
+      const Point across = (2 * reach) * left(unit(to - from));
+      for (int k = 1; k < body.pieces; ++k) {
+        const Point at = from + (static_cast<double>(k) / body.pieces) * (to - from);
+        cuts.push_back({at - across, at + across});
+      }
+    }
+    return cuts;
+  }
+
+  void add_pieces(int index, Split parts, const std::vector<Cut>& cuts) {
+    const BodyDef& body = plan_.bodies[index];
+    const Placement place(body);
+    const Strip& strip = strips_.back();
+    const int first = static_cast<int>(plan_.pieces.size()), n = static_cast<int>(parts.pieces.size());
+    std::vector<Moments> area;
+    for (const Outline& piece : parts.pieces) area.push_back(moments(piece));
+
+    const std::vector<int> order = order_of(body, cuts, area);
+    std::vector<int> rank(order.size());
+    for (int i = 0; i < n; ++i) rank[order[i]] = i;
+    for (int i = 0; i < n; ++i) {
+      Outline& outline = parts.pieces[order[i]];
+      const Moments& m = area[order[i]];
+      Piece& piece = plan_.pieces.emplace_back();
+      piece.name = cuts.empty() ? body.name : body.name + '/' + std::to_string(i);
+      piece.body = index;
+      piece.center = place(m.centroid);
+      if (body.type == BodyType::dynamic_body) {
+        piece.mass = strip.mass_per_area() * m.area;
+        piece.inertia = strip.mass_per_area() * m.polar() + strip.excess_inertia(m.area);
+      }
+      piece.fixtures = convex_parts(outline, most_fixture_vertices);
+      for (Convex& fixture : piece.fixtures)
+        for (Point& p : fixture) p = place.turned(p - m.centroid);
+      place.place(outline.outer);
+      for (Ring& hole : outline.holes) place.place(hole);
+      piece.outline = std::move(outline);
+    }
+    add_joints(index, parts.intervals, rank, first, place);
+  }
+
+  // Pieces by their projection on the line of the split, then across it; where the split has no line, by
+  // lower x, then lower y in the world. What differs by less than 1e-6 of the body's size is level.
+  std::vector<int> order_of(const BodyDef& body, const std::vector<Cut>& cuts,
+                            const std::vector<Moments>& area) {
+    std::vector<int> order(area.size());
+    std::iota(order.begin(), order.end(), 0);
+    if (cuts.empty()) return order;
+    const auto middle_of = [](const Cut& cut) { return middle(cut.from, cut.to); };
+    Point u = body.pieces > 1 ? right(cuts.front().to - cuts.front().from)
+                              : middle_of(cuts.back()) - middle_of(cuts.front());
+    if (body.automatic || u == Point{}) u = {std::cos(body.angle), -std::sin(body.angle)};  // the world's x
+    u = unit(u);
+    const double level = 1e-6 * box_of(body.outline).diagonal();
+    std::vector<std::pair<double, double>> key;
+    for (const Moments& m : area)
+      key.emplace_back(std::round(dot(m.centroid, u) / level), std::round(dot(m.centroid, left(u)) / level));
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return key[i] < key[j]; });
+    return order;
+  }
+
+  // --- joints ---
+
+  void add_joints(int index, std::vector<Interval>& intervals, const std::vector<int>& rank, int first,
+                  const Placement& place) {
+    for (Interval& i : intervals) {
+      i.left = rank[i.left];
+      i.right = rank[i.right];
+      // From the lower piece on the left to the higher one on the right.
+      if (i.left > i.right) {
+        std::swap(i.left, i.right);
+        std::swap(i.from, i.to);
+      }
+    }
+    std::stable_sort(intervals.begin(), intervals.end(), [](const Interval& i, const Interval& j) {
+      return std::pair(i.left, i.right) < std::pair(j.left, j.right);
+    });
+    const BodyDef& body = plan_.bodies[index];
+    const std::array overriding{Overriding{"body", &body.joint}, Overriding{"scene", &scene_.joint}};
+    for (std::size_t k = 0, repeat = 0; k < intervals.size(); ++k) {
+      const Interval& i = intervals[k];
+      repeat = k > 0 && intervals[k - 1].left == i.left && intervals[k - 1].right == i.right ? repeat + 1 : 0;
+      add_joint(first + i.left, first + i.right, place(i.from), place(i.to), repeat, overriding);
+    }
+  }
+
+  // Along an interval that has piece a on its left and piece b on its right.
+  void add_joint(int a, int b, Point from, Point to, std::size_t repeat,
+                 std::span<const Overriding> overriding) {
+    PlannedJoint& joint = plan_.joints.emplace_back();
+    joint.a = a;
+    joint.b = b;
+    joint.name = plan_.pieces[a].name + '-' + plan_.pieces[b].name;
+    if (repeat > 0) joint.name += '#' + std::to_string(repeat);
+    joint.anchor = middle(from, to);
+    joint.axis = right(unit(to - from));
+    const double height = length(to - from);
+    const bool inside = plan_.pieces[a].body == plan_.pieces[b].body;
+    std::array<Side, 2> sides{side(a, joint, -joint.axis, inside), side(b, joint, joint.axis, inside)};
+    for (const Side& s : sides) {
+      const std::optional<double> profile = s.strip ? s.strip->profile_height() : std::nullopt;
+      if (!profile || std::abs(height - *profile) <= 0.01 * *profile) continue;
+      problems_.push_back({"joint '" + joint.name + "' at " + to_string(joint.anchor),
+                           "is " + to_string(height) + " m high where the profile of '" + *s.body + "' is " +
+                               to_string(*profile) + " m",
+                           "cut the body where it is as high as its profile, within 1 %"});
+      if (inside) break;
+    }
+    if (inside) {  // one section, and both pieces give
+      sides[0].reach += sides[1].reach;
+      sides[1].strip = nullptr;
+    }
+    set_values(joint, height, sides, overriding, problems_);
+  }
+
+  Side side(int index, const PlannedJoint& joint, Point outward, bool inside) {
+    const Piece& piece = plan_.pieces[index];
+    const BodyDef& body = plan_.bodies[piece.body];
+    const Strip& strip = strips_[piece.body];
+    Side result{.body = &body.name, .inertia = piece.inertia};
+    if (strip.has_material()) result.strip = &strip;
+    if (body.type == BodyType::dynamic_body)
+      for (const Point& p : piece.outline.outer)
+        result.reach = std::max(result.reach, dot(p - joint.anchor, outward) / 2);
+    if (!inside && !body.profile.empty()) result.reversed = dot(joint.axis, strip_direction(body)) < 0;
+    return result;
+  }
+
+  void join(const JointBetweenDef& def) {
+    const auto [a, a_end] = pieces_of(def.a);
+    const auto [b, b_end] = pieces_of(def.b);
+    double size = unlimited;
+    for (const int piece : {a, b}) {
+      const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+      size = std::min(size, body.circle > 0 ? 2 * body.circle : box_of(body.outline).diagonal());
+    }
+    const double gap = def.gap > 0 ? def.gap : 1e-6 * size;
+    const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
+    const std::size_t before = plan_.joints.size();
+    for (int i = a; i < a_end; ++i)
+      for (int j = b; j < b_end; ++j) {
+        const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
+        if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
+        std::size_t repeat = 0;
+        for (const Contact& c : touching(one.outline, two.outline, gap))
+          add_joint(i, j, c.from, c.to, repeat++, overriding);
+      }
+    if (plan_.joints.size() == before)
+      problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
+                           "their edges do not overlap anywhere within " + to_string(gap) + " m",
+                           "let the two outlines share part of an edge, or give a larger gap"});
+  }
+
+  static bool near(const Outline& a, const Outline& b, double gap) {
+    const Box p = box_of(a), q = box_of(b);
+    return p.low.x <= q.high.x + gap && q.low.x <= p.high.x + gap && p.low.y <= q.high.y + gap &&
+           q.low.y <= p.high.y + gap;
+  }
+
+  // --- what holds, loads and rolls ---
+
+  void support(int index) {
+    const SupportDef& def = scene_.supports[index];
+    const int piece = piece_under(def.body, def.at, "support " + std::to_string(index));
+    if (piece < 0) return;
+    PlannedJoint& joint = plan_.joints.emplace_back();
+    joint.name = "support/" + std::to_string(index);
+    joint.b = piece;
+    joint.anchor = def.at;
+    joint.axis = {1, 0};
+    joint.N = joint.Nc = def.fix_x ? unlimited : 0;
+    joint.Q = def.fix_y ? unlimited : 0;
+    joint.M = joint.M_reverse = def.fix_angle ? unlimited : 0;
+    joint.stiffness = {unlimited, unlimited, unlimited};
+    joint.governed_by = "support";
+  }
+
+  void load(int index) {
+    const LoadDef& def = scene_.loads[index];
+    const int piece = piece_under(def.body, def.at, "load " + std::to_string(index));
+    if (piece >= 0) plan_.loads.push_back({piece, def.at, def});
+  }
+
+  std::pair<int, int> pieces_of(const std::string& body) const {
+    const auto found = std::find_if(plan_.bodies.begin(), plan_.bodies.end(),
+                                    [&](const BodyDef& b) { return b.name == body; });
+    const auto i = static_cast<std::size_t>(found - plan_.bodies.begin());
+    return {first_piece_[i],
+            i + 1 < first_piece_.size() ? first_piece_[i + 1] : static_cast<int>(plan_.pieces.size())};
+  }
+
+  // The first piece of a body that has a point inside or, but for rounding, on its boundary.
+  int piece_under(const std::string& body, Point at, const std::string& place) {
+    const auto [first, last] = pieces_of(body);
+    for (int i = first; i < last; ++i)
+      if (distance(plan_.pieces[i], at) <= 1e-9 * length(at - plan_.pieces[i].center)) return i;
+    problems_.push_back({place, "there is nothing of '" + body + "' at " + to_string(at),
+                         "put it on the body, or on its boundary"});
+    return -1;
+  }
+
+  int nearest_piece(const std::string& body, Point at) const {
+    const auto [first, last] = pieces_of(body);
+    int nearest = first;
+    for (int i = first; i < last; ++i)
+      if (distance(plan_.pieces[i], at) < distance(plan_.pieces[nearest], at)) nearest = i;
+    return nearest;
+  }
+
+  // From a point to a piece; 0 inside.
+  static double distance(const Piece& piece, Point at) {
+    if (piece.circle > 0) return std::max(0.0, length(at - piece.center) - piece.circle);
+    double least = locate(piece.outline.outer, at) >= 0 ? 0 : to_ring(piece.outline.outer, at);
+    for (const Ring& hole : piece.outline.holes)
+      if (locate(hole, at) > 0) least = to_ring(hole, at);
+    return least;
+  }
+
+  static double to_ring(const Ring& ring, Point at) {
+    double least = unlimited;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point p = ring[i], along = ring[(i + 1) % ring.size()] - p;
+      const double s = std::clamp(dot(at - p, along) / dot(along, along), 0.0, 1.0);
+      least = std::min(least, length(at - p - s * along));
+    }
+    return least;
+  }
+
+  const SceneDef& scene_;
+  Plan plan_;
+  std::vector<Strip> strips_;     // of plan_.bodies
+  std::vector<int> first_piece_;  // of plan_.bodies
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Plan calibrate(const SceneDef& scene) { return Planner(scene).run(); }
+
+Plan calibrate(const BodyDef& body) {
+  SceneDef scene;
+  scene.gravity = {};
+  scene.bodies.push_back(body);
+  return calibrate(scene);
+}
+
+std::optional<Section> section_at(const Plan& plan, const PlannedJoint& joint, int piece) {
+  if (piece < 0 || joint.height <= 0) return std::nullopt;
+  const BodyDef& body = plan.bodies[plan.pieces[piece].body];
+  const Strip strip(body);
+  if (!strip.has_material()) return std::nullopt;
+  const bool inside = joint.a >= 0 && plan.pieces[joint.a].body == plan.pieces[joint.b].body;
+  return strip.section(joint.height, !inside && dot(joint.axis, strip_direction(body)) < 0);
+}
+
+}  // namespace ductile

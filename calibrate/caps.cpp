@@ -1,0 +1,168 @@
+#include "caps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+// What set a value: the section or material of side 0 or 1, nothing, or the user at a level.
+enum Source : int { side_a, side_b, nothing, user };  // user + i: overriding[i]
+
+enum Quantity : int {
+  N,
+  Nc,
+  Q,
+  M,
+  M_reverse,
+  max_rotation,
+  max_elongation,
+  max_compression,
+  max_slip,
+  quantities
+};
+constexpr std::array<std::string_view, quantities> names{
+    "N", "Nc", "Q", "M", "M_reverse", "max_rotation", "max_elongation", "max_compression", "max_slip"};
+
+struct Values {
+  std::array<double, quantities> value;
+  std::array<int, quantities> source;
+
+  Values() {
+    value.fill(unlimited);
+    source.fill(nothing);
+  }
+  void weaken(Quantity q, double to, int by) {
+    if (to < value[q]) value[q] = to, source[q] = by;
+  }
+  void set(Quantity q, const std::optional<double>& to, int by) {
+    if (to) value[q] = *to, source[q] = by;
+  }
+};
+
+// k of a row from the compliances of both sides in series; unlimited where neither gives.
+double in_series(double compliance) { return compliance > 0 ? 1 / compliance : unlimited; }
+
+// The rotational inertia that b2AngularStiffness uses.
+double effective(double a, double b) { return a > 0 && b > 0 ? a * b / (a + b) : std::max(a, b); }
+
+}  // namespace
+
+void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
+                std::span<const Overriding> overriding, std::vector<Problem>& problems) {
+  // Overrides that apply to several quantities, the innermost level last so that it wins.
+  std::optional<double> hinge_length, damping;
+  const JointOverrides* elastic = nullptr;
+  int elastic_level = 0;
+  for (std::size_t i = 0; i < overriding.size(); ++i) {
+    const JointOverrides& o = *overriding[i].values;
+    if (!hinge_length) hinge_length = o.hinge_length;
+    if (!damping) damping = o.damping_ratio;
+    if (!elastic && o.elastic) elastic = &o, elastic_level = static_cast<int>(i);
+  }
+
+  // The weaker side governs each cap; compliances add up.
+  Values v;
+  joint.height = height;
+  joint.hinge_length = hinge_length.value_or(height);
+  double along = 0, across = 0, bending = 0, zeta = unlimited;
+  for (int i = 0; i < 2; ++i) {
+    const Side& side = sides[i];
+    if (!side.strip) continue;
+    const Strength s = side.strip->at(height, side.reversed);
+    v.weaken(N, s.N, i);
+    v.weaken(Nc, s.Nc, i);
+    v.weaken(Q, s.Q, i);
+    v.weaken(M, s.M, i);
+    v.weaken(M_reverse, s.M_reverse, i);
+    // θ_max = ε_f·L_p/y, y from the plastic neutral axis to the farther fibre; Δ_max = ε_f·L_p.
+    const double elongation = side.strip->fracture_strain() * joint.hinge_length;
+    v.weaken(max_rotation, elongation / s.farther, i);
+    v.weaken(max_elongation, elongation, i);
+    zeta = std::min(zeta, side.strip->damping_ratio());
+    if (s.EA > 0) {
+      along += side.reach / s.EA;
+      across += side.reach / s.GA;
+      bending += side.reach / s.EI;
+    }
+  }
+  for (std::size_t i = overriding.size(); i-- > 0;) {
+    const JointOverrides& o = *overriding[i].values;
+    const int by = user + static_cast<int>(i);
+    v.set(N, o.axial, by);
+    v.set(Nc, o.axial_compression ? o.axial_compression : o.axial, by);
+    v.set(Q, o.shear, by);
+    v.set(M, o.moment, by);
+    v.set(M_reverse, o.moment_reverse ? o.moment_reverse : o.moment, by);
+    v.set(max_rotation, o.max_rotation, by);
+    v.set(max_elongation, o.max_elongation, by);
+    v.set(max_compression, o.max_compression, by);
+    v.set(max_slip, o.max_slip, by);
+  }
+
+  joint.stiffness = {in_series(along), in_series(across), in_series(bending)};
+  joint.damping_ratio = damping.value_or(zeta == unlimited ? 0 : zeta);
+  std::string stiffness = bending > 0 ? "E" : "rigid, E is not known";
+  if (elastic) {
+    stiffness = overriding[static_cast<std::size_t>(elastic_level)].name;
+    const double omega = 2 * std::numbers::pi * elastic->frequency;
+    const double by_frequency = omega * omega * effective(sides[0].inertia, sides[1].inertia);
+    switch (*elastic->elastic) {
+      case Elasticity::true_stiffness:
+        break;
+      case Elasticity::rigid:
+        joint.stiffness = {unlimited, unlimited, unlimited};
+        break;
+      case Elasticity::frequency:
+        joint.stiffness.M = by_frequency > 0 ? by_frequency : unlimited;
+        break;
+      case Elasticity::elastic_rotation:
+        if (elastic->frequency > 0 && by_frequency > 0) {
+          joint.stiffness.M = by_frequency;
+          v.value[M] = v.value[M_reverse] = by_frequency * elastic->elastic_rotation;
+          v.source[M] = v.source[M_reverse] = user + elastic_level;
+        } else if (v.value[M] > 0 && v.value[M] < unlimited) {
+          joint.stiffness.M = v.value[M] / elastic->elastic_rotation;
+        } else {
+          problems.push_back({joint.name, "an elastic rotation without a moment to reach it at",
+                              "give `moment` or `frequency`, or the body a material"});
+        }
+        break;
+    }
+  }
+  joint.N = v.value[N];
+  joint.Nc = v.value[Nc];
+  joint.Q = v.value[Q];
+  joint.M = v.value[M];
+  joint.M_reverse = v.value[M_reverse];
+  joint.max_rotation = v.value[max_rotation];
+  joint.max_elongation = v.value[max_elongation];
+  joint.max_compression = v.value[max_compression];
+  joint.max_slip = v.value[max_slip];
+
+  // "N, Nc: section of beam; Q: joint; …": runs of quantities with one source.
+  std::string& text = joint.governed_by;
+  for (int q = 0; q < quantities; ++q) {
+    const auto source = v.source[q];
+    text += names[q];
+    if (q + 1 < quantities && v.source[q + 1] == source && q != M_reverse) {
+      text += ", ";
+      continue;
+    }
+    text += ": ";
+    if (source == nothing)
+      text += "unlimited";
+    else if (source >= user)
+      text += overriding[static_cast<std::size_t>(source - user)].name;
+    else
+      text.append(q <= M_reverse ? "section of " : "fracture strain of ").append(*sides[source].body);
+    text += "; ";
+  }
+  text.append("stiffness: ").append(stiffness);
+}
+
+}  // namespace ductile

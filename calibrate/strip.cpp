@@ -1,0 +1,117 @@
+#include "strip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "moments.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+constexpr double poisson = 0.3;                // ν
+constexpr double shear_coefficient = 5.0 / 6;  // κ of a rectangle (Timoshenko)
+constexpr double shear_stiffness(double EA) { return shear_coefficient * EA / (2 * (1 + poisson)); }
+
+// The right of a joint's axis, which positive M puts in tension, in a section whose y is the left of the
+// axis.
+constexpr Point tension_side{0, -1};
+
+// Table 1 for a rectangle b × h of unequal yield stresses: the neutral axis divides h as f_c : f_t.
+Strength rectangle(double b, double h, const Material& m) {
+  const double ft = m.yield_stress, fc = m.compression();
+  const double moment = b * h * h / 2 * (ft / (ft + fc) * fc);
+  const double EA = m.youngs_modulus * b * h;
+  return {.N = b * h * ft,
+          .Nc = b * h * fc,
+          .Q = b * h * m.shear(),
+          .M = moment,
+          .M_reverse = moment,
+          .EA = EA,
+          .GA = shear_stiffness(EA),
+          .EI = EA * h * h / 12,
+          .farther = h * std::max(ft, fc) / (ft + fc),
+          .height = h};
+}
+
+Ring moved(const Ring& ring, Point by, bool mirrored) {
+  Ring result;
+  result.reserve(ring.size());
+  for (const Point& p : ring) result.push_back({p.x + by.x, mirrored ? -(p.y + by.y) : p.y + by.y});
+  return result;
+}
+
+std::vector<Region> moved(std::span<const Region> regions, Point by, bool mirrored = false) {
+  std::vector<Region> result;
+  for (const Region& region : regions) {
+    result.push_back({{moved(region.outline.outer, by, mirrored), {}}, region.material});
+    for (const Ring& hole : region.outline.holes)
+      result.back().outline.holes.push_back(moved(hole, by, mirrored));
+  }
+  return result;
+}
+
+}  // namespace
+
+Strip::Strip(const BodyDef& body) : body_(&body) {
+  if (body.material) {
+    fracture_strain_ = body.material->fracture_strain;
+    damping_ratio_ = body.material->damping_ratio;
+    mass_per_area_ = body.material->density * body.depth;
+  }
+  if (body.profile.empty()) return;
+
+  const Section as_given(body.profile);
+  profile_.emplace(moved(body.profile, -as_given.centroid()));
+  const Capacities c = profile_->capacities(tension_side);
+  const Elastic e = profile_->elastic(tension_side);
+  const auto [low, high] = profile_->extent(tension_side);
+  of_profile_ = {.N = c.N,
+                 .Nc = c.Nc,
+                 .Q = c.Q,
+                 .M = c.M,
+                 .M_reverse = c.M_reverse,
+                 .EA = e.EA,
+                 .GA = shear_stiffness(e.EA),
+                 .EI = e.EI,
+                 .farther = std::max({c.pna - low, high - c.pna, c.pna_reverse - low, high - c.pna_reverse}),
+                 .height = high - low};
+
+  double mass = 0, inertia = 0;  // per metre of the strip, about the centroid, in the plane of the scene
+  fracture_strain_ = unlimited;
+  damping_ratio_ = unlimited;
+  for (const Region& region : profile_->regions()) {
+    const Material& m = region.material;
+    const double density = m.density > 0 ? m.density : body.material ? body.material->density : 0;
+    const Moments area = moments(region.outline);
+    mass += density * area.area;
+    inertia += density * (area.yy + area.area * area.centroid.y * area.centroid.y);
+    fracture_strain_ = std::min(fracture_strain_, m.fracture_strain);
+    damping_ratio_ = std::min(damping_ratio_, m.damping_ratio);
+  }
+  const double h = of_profile_.height;
+  mass_per_area_ = mass / h;
+  excess_inertia_per_area_ = (inertia - mass * h * h / 12) / h;
+}
+
+Strength Strip::at(double height, bool reversed) const {
+  if (!profile_) return rectangle(body_->depth, height, *body_->material);
+  Strength result = of_profile_;
+  if (reversed) std::swap(result.M, result.M_reverse);
+  return result;
+}
+
+Section Strip::section(double height, bool reversed) const {
+  if (profile_) return reversed ? Section(moved(profile_->regions(), {}, true)) : *profile_;
+  const double x = body_->depth / 2, y = height / 2;
+  return Section({{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {}}, *body_->material);
+}
+
+std::optional<double> Strip::profile_height() const {
+  if (!profile_) return std::nullopt;
+  return of_profile_.height;
+}
+
+double Strip::excess_inertia(double area) const { return excess_inertia_per_area_ * area; }
+
+}  // namespace ductile

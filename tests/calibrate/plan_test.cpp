@@ -1,0 +1,318 @@
+// From a scene to a plan: names, masses, caps, stiffnesses, limits against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ductile/calibrate.h"
+
+namespace {
+using namespace ductile;
+
+const Material steel{.yield_stress = 350e6, .youngs_modulus = 210e9, .density = 7800, .fracture_strain = 0.2};
+
+Ring rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+/// 20 m × 1 m × 1 m on a wall, as in docs/scene.md.
+SceneDef cantilever(int pieces) {
+  SceneDef scene;
+  scene.bodies.push_back(
+      {.name = "wall", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 0, 2), {}}});
+  scene.bodies.push_back({.name = "beam",
+                          .outline = {rectangle(0, 0, 20, 1), {}},
+                          .material = steel,
+                          .pieces = pieces,
+                          .along = {Point{0, 0.5}, Point{20, 0.5}}});
+  scene.joints.push_back({.a = "wall", .b = "beam"});
+  return scene;
+}
+
+PlannedJoint joint(const Plan& plan, const std::string& name) {
+  for (const PlannedJoint& j : plan.joints)
+    if (j.name == name) return j;
+  throw std::out_of_range("no joint " + name);
+}
+
+std::string problems_of(const SceneDef& scene) {
+  try {
+    calibrate(scene);
+    return "";
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+}
+
+TEST(Calibrate, NamesPiecesAndJoints) {
+  const Plan plan = calibrate(cantilever(3));
+  ASSERT_EQ(plan.pieces.size(), 4u);
+  EXPECT_EQ(plan.pieces[0].name, "wall");
+  EXPECT_EQ(plan.pieces[1].name, "beam/0");
+  EXPECT_EQ(plan.pieces[3].name, "beam/2");
+  ASSERT_EQ(plan.joints.size(), 3u);
+  EXPECT_EQ(plan.joints[0].name, "beam/0-beam/1");
+  EXPECT_EQ(plan.joints[1].name, "beam/1-beam/2");
+  EXPECT_EQ(plan.joints[2].name, "wall-beam/0");
+}
+
+TEST(Calibrate, MassAndInertiaOfTheOutline) {
+  const Plan plan = calibrate(cantilever(10));
+  for (int i = 1; i <= 10; ++i) {
+    const Piece& piece = plan.pieces[static_cast<std::size_t>(i)];
+    EXPECT_DOUBLE_EQ(piece.mass, 7800.0 * 2);
+    EXPECT_DOUBLE_EQ(piece.inertia, 7800.0 * 2 * (4 + 1) / 12);
+    EXPECT_NEAR(piece.center.x, 2 * i - 1, 1e-14);
+    EXPECT_DOUBLE_EQ(piece.center.y, 0.5);
+  }
+  EXPECT_EQ(plan.pieces[0].mass, 0);  // static
+}
+
+TEST(Calibrate, CapsOfARectangularCut) {
+  SceneDef scene = cantilever(10);
+  scene.bodies[1].depth = 0.3;
+  const PlannedJoint tresca = joint(calibrate(scene), "beam/4-beam/5");
+  EXPECT_DOUBLE_EQ(tresca.N, 0.3 * 350e6);
+  EXPECT_DOUBLE_EQ(tresca.Nc, 0.3 * 350e6);
+  EXPECT_DOUBLE_EQ(tresca.Q, 0.5 * 0.3 * 350e6);
+  EXPECT_DOUBLE_EQ(tresca.M, 0.25 * 0.3 * 350e6);
+  EXPECT_DOUBLE_EQ(tresca.M_reverse, 0.25 * 0.3 * 350e6);
+  EXPECT_EQ(tresca.governed_by,
+            "N, Nc, Q, M, M_reverse: section of beam; max_rotation, max_elongation: fracture strain of beam; "
+            "max_compression, max_slip: unlimited; stiffness: E");
+  scene.bodies[1].material->criterion = Criterion::von_mises;
+  EXPECT_DOUBLE_EQ(joint(calibrate(scene), "beam/4-beam/5").Q, 0.3 * 350e6 / std::sqrt(3.0));
+}
+
+TEST(Calibrate, TrueStiffnessOverHalfOfEachNeighbour) {
+  const Plan plan = calibrate(cantilever(10));
+  const double E = 210e9, G = E / 2.6, I = 1.0 / 12;
+  const PlannedJoint inner = joint(plan, "beam/4-beam/5"), root = joint(plan, "wall-beam/0");
+  EXPECT_NEAR(inner.stiffness.N / (E / 2), 1, 1e-14);
+  EXPECT_NEAR(inner.stiffness.Q / (5.0 / 6 * G / 2), 1, 1e-14);
+  EXPECT_NEAR(inner.stiffness.M / (E * I / 2), 1, 1e-14);
+  EXPECT_NEAR(root.stiffness.N / E, 1, 1e-14);
+  EXPECT_NEAR(root.stiffness.M / (E * I), 1, 1e-14);
+  EXPECT_EQ(inner.damping_ratio, 0.05);
+}
+
+TEST(Calibrate, LimitsFromFractureStrainAndHingeLength) {
+  SceneDef scene = cantilever(4);
+  // θ_max = ε_f·L_p/y with L_p = h = 1 m and y = h/2.
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_rotation, 0.2 * 1 / 0.5);
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_elongation, 0.2);
+  EXPECT_EQ(calibrate(scene).joints[0].max_compression, unlimited);
+  scene.bodies[1].joint.hinge_length = 0.3;
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_rotation, 0.2 * 0.3 / 0.5);
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].hinge_length, 0.3);
+  // Unequal yield stresses: the neutral axis lies h·f_t/(f_t + f_c) from the compressed side.
+  scene.bodies[1].material->yield_stress_compression = 3 * 350e6;
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_rotation, 0.2 * 0.3 / 0.75);
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].M, 0.5 * 350e6 * 0.75);
+}
+
+TEST(Calibrate, AnchorAndAxis) {
+  SceneDef scene = cantilever(2);
+  scene.bodies[1].angle = std::numbers::pi / 2;
+  scene.bodies[1].at = {5, 3};
+  scene.joints.clear();
+  const PlannedJoint& j = calibrate(scene).joints[0];
+  EXPECT_NEAR(j.anchor.x, 4.5, 1e-14);
+  EXPECT_NEAR(j.anchor.y, 13, 1e-14);
+  EXPECT_NEAR(j.axis.x, 0, 1e-15);
+  EXPECT_NEAR(j.axis.y, 1, 1e-15);
+  EXPECT_EQ(j.height, 1);
+}
+
+TEST(Calibrate, OverridesFromTheInsideOut) {
+  SceneDef scene = cantilever(2);
+  scene.joint = {.moment = 1, .axial = 2, .shear = 3, .max_slip = 0.1};
+  scene.bodies[1].joint = {.moment = 10, .moment_reverse = 11};
+  scene.joints[0].overrides = {.moment = 100, .axial_compression = unlimited, .elastic = Elasticity::rigid};
+  const Plan plan = calibrate(scene);
+  const PlannedJoint &inner = plan.joints[0], &root = plan.joints[1];
+  EXPECT_EQ(inner.M, 10);
+  EXPECT_EQ(inner.M_reverse, 11);
+  EXPECT_EQ(inner.N, 2);
+  EXPECT_EQ(inner.Nc, 2);
+  EXPECT_EQ(inner.Q, 3);
+  EXPECT_EQ(inner.max_slip, 0.1);
+  EXPECT_EQ(root.M, 100);
+  EXPECT_EQ(root.M_reverse, 100);
+  EXPECT_EQ(root.N, 2);
+  EXPECT_EQ(root.Nc, unlimited);
+  EXPECT_EQ(root.stiffness.M, unlimited);
+  EXPECT_EQ(
+      root.governed_by,
+      "N: scene; Nc: joint; Q: scene; M, M_reverse: joint; max_rotation, max_elongation: fracture strain of "
+      "beam; max_compression: unlimited; max_slip: scene; stiffness: joint");
+}
+
+TEST(Calibrate, ElasticityByFrequencyAndByRotation) {
+  SceneDef scene = cantilever(2);
+  // As b2AngularStiffness: k = ω²·I_a·I_b/(I_a + I_b); against a wall ω²·I_b.
+  const double I = 7800.0 * 10 * (100 + 1) / 12, omega = 2 * std::numbers::pi * 3;
+  scene.joint = {.elastic = Elasticity::frequency, .frequency = 3, .damping_ratio = 0.7};
+  Plan plan = calibrate(scene);
+  EXPECT_NEAR(plan.joints[0].stiffness.M / (omega * omega * I / 2), 1, 1e-14);
+  EXPECT_NEAR(plan.joints[1].stiffness.M / (omega * omega * I), 1, 1e-14);
+  EXPECT_EQ(plan.joints[0].damping_ratio, 0.7);
+  // k = M/θ_e.
+  scene.joint = {.elastic = Elasticity::elastic_rotation, .elastic_rotation = 0.01};
+  plan = calibrate(scene);
+  EXPECT_DOUBLE_EQ(plan.joints[1].stiffness.M, plan.joints[1].M / 0.01);
+  // M = k·θ_e.
+  scene.joint = {.elastic = Elasticity::elastic_rotation, .frequency = 3, .elastic_rotation = 0.01};
+  plan = calibrate(scene);
+  EXPECT_NEAR(plan.joints[1].M / (omega * omega * I * 0.01), 1, 1e-14);
+}
+
+TEST(Calibrate, TheWeakerSideGoverns) {
+  SceneDef scene = cantilever(2);
+  scene.bodies[0].material = Material{.yield_stress = 100e6, .fracture_strain = 0.5};
+  const PlannedJoint root = joint(calibrate(scene), "wall-beam/0");
+  EXPECT_DOUBLE_EQ(root.M, 0.25 * 100e6);
+  EXPECT_DOUBLE_EQ(root.max_rotation, 0.4);  // of the beam: 0.2·1/0.5
+  EXPECT_EQ(root.governed_by.substr(0, 40), "N, Nc, Q, M, M_reverse: section of wall;");
+}
+
+TEST(Calibrate, ProfileGivesCapsAndMass) {
+  // An I of h = 0.4, b = 0.2, t_f = 0.02, t_w = 0.01; the drawn strip is 6 m long and as high as the profile.
+  const double h = 0.4, b = 0.2, tf = 0.02, tw = 0.01;
+  const Ring i{{-b / 2, 0},      {b / 2, 0},        {b / 2, tf},   {tw / 2, tf},
+               {tw / 2, h - tf}, {b / 2, h - tf},   {b / 2, h},    {-b / 2, h},
+               {-b / 2, h - tf}, {-tw / 2, h - tf}, {-tw / 2, tf}, {-b / 2, tf}};
+  SceneDef scene;
+  scene.bodies.push_back({.name = "beam",
+                          .outline = {rectangle(0, 3, 6, 3 + h), {}},
+                          .material = steel,
+                          .profile = {{{i, {}}, steel}},
+                          .pieces = 3});
+  const Plan plan = calibrate(scene);
+  const double area = 2 * b * tf + (h - 2 * tf) * tw;
+  const double Z = b * tf * (h - tf) + tw * (h - 2 * tf) * (h - 2 * tf) / 4;
+  const double I = b * h * h * h / 12 - (b - tw) * std::pow(h - 2 * tf, 3) / 12;
+  ASSERT_EQ(plan.joints.size(), 2u);
+  const PlannedJoint& j = plan.joints[0];
+  EXPECT_NEAR(j.N / (area * 350e6), 1, 1e-13);
+  EXPECT_NEAR(j.M / (Z * 350e6), 1, 1e-13);
+  EXPECT_NEAR(j.M_reverse / (Z * 350e6), 1, 1e-13);
+  EXPECT_NEAR(j.stiffness.M / (210e9 * I / 2), 1, 1e-13);
+  EXPECT_NEAR(j.max_rotation / (0.2 * h / (h / 2)), 1, 1e-13);
+  for (const Piece& piece : plan.pieces) {
+    EXPECT_NEAR(piece.mass / (7800 * area * 2), 1, 1e-13);
+    EXPECT_NEAR(piece.inertia / (7800 * (area * 8 / 12 + I * 2)), 1, 1e-13);
+  }
+  scene.bodies[0].outline.outer = rectangle(0, 3, 6, 3 + 1.02 * h);
+  EXPECT_NE(problems_of(scene).find("0.408 m high where the profile of 'beam' is 0.4 m"), std::string::npos)
+      << problems_of(scene);
+}
+
+// A tee that is weak in one sense keeps it when another body's joint looks along it from the other end.
+TEST(Calibrate, ProfileSeenFromEitherEnd) {
+  const Ring tee{{-0.1, 0},    {0.1, 0},      {0.1, 0.02},    {0.005, 0.02},
+                 {0.005, 0.3}, {-0.005, 0.3}, {-0.005, 0.02}, {-0.1, 0.02}};
+  SceneDef scene;
+  Material m = steel;
+  m.yield_stress_compression = 100e6;
+  scene.bodies.push_back(
+      {.name = "l", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 0, 1), {}}});
+  scene.bodies.push_back({.name = "beam",
+                          .outline = {rectangle(0, 0, 6, 0.3), {}},
+                          .material = m,
+                          .profile = {{{tee, {}}, m}},
+                          .pieces = 2});
+  scene.bodies.push_back(
+      {.name = "r", .type = BodyType::static_body, .outline = {rectangle(6, -1, 7, 1), {}}});
+  scene.joints = {{.a = "l", .b = "beam"}, {.a = "beam", .b = "r"}};
+  const Plan along = calibrate(scene);
+  scene.joints = {{.a = "beam", .b = "l"}, {.a = "r", .b = "beam"}};
+  const Plan against = calibrate(scene);
+  const PlannedJoint& inner = along.joints[0];
+  EXPECT_GT(std::abs(inner.M - inner.M_reverse), 0.1 * inner.M);
+  for (std::size_t k : {1, 2}) {
+    EXPECT_DOUBLE_EQ(along.joints[k].M, inner.M);
+    EXPECT_DOUBLE_EQ(against.joints[k].M, inner.M_reverse);
+    EXPECT_DOUBLE_EQ(against.joints[k].M_reverse, inner.M);
+    const PlannedJoint& j = against.joints[k];
+    const int piece = against.pieces[j.a].name[0] == 'b' ? j.a : j.b;
+    EXPECT_NEAR(section_at(against, j, piece)->capacities({0, -1}).M / j.M, 1, 1e-13);
+  }
+}
+
+TEST(Calibrate, SeveralIntervalsAreSeveralJoints) {
+  SceneDef scene;
+  scene.bodies.push_back({.name = "frame",
+                          .outline = {rectangle(0, 0, 4, 3), {rectangle(1, 1, 3, 2)}},
+                          .material = steel,
+                          .cuts = {{Point{2, -1}, Point{2, 4}}}});
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.joints.size(), 2u);
+  EXPECT_EQ(plan.joints[0].name, "frame/0-frame/1");
+  EXPECT_EQ(plan.joints[1].name, "frame/0-frame/1#1");
+  EXPECT_DOUBLE_EQ(plan.joints[0].height, 1);
+  EXPECT_LT(plan.pieces[0].center.x, plan.pieces[1].center.x);
+  EXPECT_NEAR(plan.joints[0].axis.x, 1, 1e-15);
+}
+
+TEST(Calibrate, DiscsWeighWhatDiscsWeigh) {
+  SceneDef scene;
+  scene.bodies.push_back(
+      {.name = "wheel", .circle = 0.4, .material = Material{.yield_stress = 1, .density = 100}});
+  const Plan plan = calibrate(scene);
+  const double m = 100 * std::numbers::pi * 0.16;
+  EXPECT_DOUBLE_EQ(plan.pieces[0].mass, m);
+  EXPECT_DOUBLE_EQ(plan.pieces[0].inertia, m * 0.16 / 2);
+}
+
+TEST(Calibrate, SupportsHoldThePieceUnderThePoint) {
+  SceneDef scene = cantilever(10);
+  scene.supports = {{.body = "beam", .at = {20, 0.5}, .fix_y = true},
+                    {.body = "beam", .at = {2, 0}, .fix_x = true, .fix_angle = true}};
+  const Plan plan = calibrate(scene);
+  const PlannedJoint roller = joint(plan, "support/0"), other = joint(plan, "support/1");
+  EXPECT_EQ(roller.a, -1);
+  EXPECT_EQ(plan.pieces[static_cast<std::size_t>(roller.b)].name, "beam/9");
+  EXPECT_EQ(roller.axis, (Point{1, 0}));
+  EXPECT_EQ(roller.Q, unlimited);
+  EXPECT_EQ(roller.N, 0);
+  EXPECT_EQ(roller.M, 0);
+  EXPECT_EQ(plan.pieces[static_cast<std::size_t>(other.b)].name, "beam/0");  // on the cut: the lower
+  EXPECT_EQ(other.M_reverse, unlimited);
+  scene.supports[0].at.x = 20.1;
+  EXPECT_NE(problems_of(scene).find("support 0: there is nothing of 'beam' at (20.1, 0.5)"),
+            std::string::npos);
+}
+
+TEST(Calibrate, BodiesJoinWhereEdgesOverlap) {
+  SceneDef scene = cantilever(1);
+  scene.bodies[1].at = {0.001, 0};
+  EXPECT_NE(problems_of(scene).find("their edges do not overlap anywhere"), std::string::npos);
+  scene.joints[0].gap = 0.002;
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.joints.size(), 1u);
+  EXPECT_EQ(plan.joints[0].name, "wall-beam");
+  EXPECT_DOUBLE_EQ(plan.joints[0].height, 1);
+  EXPECT_EQ(plan.joints[0].axis, (Point{1, 0}));
+}
+
+TEST(Calibrate, AllProblemsAtOnce) {
+  SceneDef scene = cantilever(3);
+  scene.bodies[1].material->density = -1;
+  scene.bodies[0].name = "a/b";
+  scene.loads.push_back({.body = "nobody"});
+  const std::string text = problems_of(scene);
+  EXPECT_NE(text.find("body 'beam': density is -1"), std::string::npos) << text;
+  EXPECT_NE(text.find("body 'a/b'"), std::string::npos) << text;
+  EXPECT_NE(text.find("load 0: there is no body 'nobody'"), std::string::npos) << text;
+}
+
+TEST(Calibrate, LevelLoadCall) {
+  const Outline girder{{{0, 0}, {20, 0}, {20, 1}, {0, 1}}, {}};
+  const Plan plan = calibrate({.outline = girder, .material = materials::S355, .depth = 0.3, .pieces = 8});
+  ASSERT_EQ(plan.joints.size(), 7u);
+  EXPECT_DOUBLE_EQ(plan.joints[0].M, 0.25 * 0.3 * 355e6);
+  EXPECT_NEAR(plan.joints[0].axis.x, 1, 1e-15);
+}
+
+}  // namespace
