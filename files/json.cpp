@@ -1,0 +1,281 @@
+#include "json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace ductile {
+namespace {
+
+constexpr std::size_t deepest = 64;
+constexpr std::size_t most_problems = 100;  // more help nobody, and a hostile file could have millions
+
+std::string shorten(std::string text) {
+  constexpr std::size_t most = 40;
+  if (text.size() <= most) return text;
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+    --end;  // not inside a UTF-8 character
+  return text.substr(0, end) + "...";
+}
+
+std::string list(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const auto name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+/// `line:column` of the byte at `offset`, both from 1.
+std::string line_and_column(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const auto start = before.rfind('\n');
+  return std::to_string(line) + ":" +
+         std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1);
+}
+
+/// Builds the tree, and refuses what nlohmann's own builder lets pass: repeated keys and endless nesting.
+class Builder : public nlohmann::json_sax<nlohmann::json> {
+  using Json = nlohmann::json;
+
+ public:
+  Builder(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
+  Json root;
+
+  bool null() override { return put(nullptr), true; }
+  bool boolean(bool value) override { return put(value), true; }
+  bool number_integer(number_integer_t value) override { return put(value), true; }
+  bool number_unsigned(number_unsigned_t value) override { return put(value), true; }
+  bool number_float(number_float_t value, const string_t&) override { return put(value), true; }
+  bool string(string_t& value) override { return put(std::move(value)), true; }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    if (level.container->contains(name)) {
+      problems_.add(place(), "the key \"" + shorten(name) + "\" stands twice", "keep one of them");
+    }
+    level.key = std::move(name);
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::json::exception& error) override {
+    // The message after "[json.exception.…] parse error at line 1, column 5: ".
+    std::string_view message = error.what();
+    if (const auto end = message.find("] "); end != std::string_view::npos) message.remove_prefix(end + 2);
+    if (const auto end = message.find(": ");
+        message.starts_with("parse error") && end != std::string_view::npos) {
+      message.remove_prefix(end + 2);
+    }
+    problems_.add(line_and_column(text_, position > 0 ? position - 1 : 0), std::string(message),
+                  "write valid JSON");
+    return false;
+  }
+
+ private:
+  struct Level {
+    Json* container;
+    std::string key;
+  };
+
+  Json* put(Json&& value) {
+    if (levels_.empty()) return &(root = std::move(value));
+    Level& level = levels_.back();
+    if (level.container->is_object()) return &((*level.container)[level.key] = std::move(value));
+    return &level.container->emplace_back(std::move(value));
+  }
+  bool open(Json&& container) {
+    if (levels_.size() == deepest) {
+      problems_.add(place(), "nests deeper than " + std::to_string(deepest) + " levels",
+                    "no ductile file does");
+      return false;
+    }
+    levels_.push_back({put(std::move(container)), {}});
+    return true;
+  }
+  bool close() { return levels_.pop_back(), true; }
+
+  std::string place() const {
+    std::string place;
+    for (const Level& level : levels_) {
+      if (&level == &levels_.back()) break;
+      place += level.container->is_object() ? (place.empty() ? "" : ".") + shorten(level.key)
+                                            : "[" + std::to_string(level.container->size() - 1) + "]";
+    }
+    return place.empty() ? "top level" : place;
+  }
+
+  std::string_view text_;
+  Problems& problems_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+void Problems::add(const std::string& place, std::string what, std::string remedy) {
+  if (list_.size() < most_problems)
+    list_.push_back({file_ + ":" + place, std::move(what), std::move(remedy)});
+}
+
+void Problems::add(const std::vector<Problem>& of_another_file) {
+  for (const Problem& problem : of_another_file) {
+    if (list_.size() < most_problems) list_.push_back(problem);
+  }
+}
+
+void Problems::check() const {
+  if (!list_.empty()) throw InvalidInput(list_);
+}
+
+nlohmann::json parse_json(std::string_view text, const std::string& file) {
+  Problems problems(file);
+  if (const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+      first != std::string_view::npos && text[first] == '<') {
+    problems.add(line_and_column(text, first), "is XML (a drawing?), not JSON",
+                 "name a section or scene file; a scene takes outlines from \"drawing.svg#id\"");
+    problems.check();
+  }
+  Builder builder(text, problems);
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
+  problems.check();
+  return std::move(builder.root);
+}
+
+std::string Value::shown() const {
+  switch (json_->type()) {
+    case nlohmann::json::value_t::object:
+      return "an object";
+    case nlohmann::json::value_t::array:
+      return "an array of " + std::to_string(json_->size());
+    default:
+      return shorten(json_->dump());
+  }
+}
+
+std::optional<double> Value::number(const Range& range) const {
+  if (!json_->is_number()) return wrong("is " + shown() + ", not a number", range.text), std::nullopt;
+  const double value = json_->get<double>();
+  if (!std::isfinite(value) || value < range.low || (range.open && value == range.low)) {
+    return wrong("is " + shown(), range.text), std::nullopt;
+  }
+  return value;
+}
+
+std::optional<int> Value::integer(int low, int high) const {
+  const double value = json_->is_number() ? json_->get<double>() : 0.5;
+  if (value != std::floor(value) || value < low || value > high) {
+    wrong("is " + shown(),
+          "write a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    return std::nullopt;
+  }
+  return static_cast<int>(value);
+}
+
+std::optional<bool> Value::boolean() const {
+  if (!json_->is_boolean()) return wrong("is " + shown(), "write true or false"), std::nullopt;
+  return json_->get<bool>();
+}
+
+std::optional<std::string> Value::text() const {
+  if (!json_->is_string()) return wrong("is " + shown(), "write a text in quotes"), std::nullopt;
+  return json_->get<std::string>();
+}
+
+std::optional<Point> Value::point() const {
+  if (!json_->is_array() || json_->size() != 2) return wrong("is " + shown(), "write [x, y]"), std::nullopt;
+  const auto coordinate = [&](std::size_t i) {
+    return Value((*json_)[i], place_ + "[" + std::to_string(i) + "]", *problems_).number();
+  };
+  const auto x = coordinate(0), y = coordinate(1);
+  if (!x || !y) return std::nullopt;
+  return Point{*x, *y};
+}
+
+std::optional<Ring> Value::ring() const {
+  if (!json_->is_array())
+    return wrong("is " + shown(), "write a ring, [[x, y], [x, y], [x, y]...]"), std::nullopt;
+  Ring ring;
+  ring.reserve(json_->size());
+  for (std::size_t i = 0; i < json_->size(); ++i) {
+    const nlohmann::json& p = (*json_)[i];
+    if (p.is_array() && p.size() == 2 && p[0].is_number() && p[1].is_number()) {
+      ring.push_back({p[0].get<double>(), p[1].get<double>()});
+    } else {
+      Value(p, place_ + "[" + std::to_string(i) + "]", *problems_).point();
+    }
+  }
+  if (ring.size() != json_->size()) return std::nullopt;
+  return ring;
+}
+
+std::optional<std::vector<Ring>> Value::rings() const {
+  if (!json_->is_array()) return wrong("is " + shown(), "write an array of rings"), std::nullopt;
+  std::vector<Ring> rings;
+  for (const Value& element : elements()) {
+    if (auto ring = element.ring()) rings.push_back(std::move(*ring));
+  }
+  return rings;
+}
+
+std::vector<Value> Value::elements() const {
+  if (!json_->is_array()) return wrong("is " + shown(), "write an array, [...]"), std::vector<Value>{};
+  std::vector<Value> elements;
+  elements.reserve(json_->size());
+  for (std::size_t i = 0; i < json_->size(); ++i) {
+    elements.emplace_back((*json_)[i], place_ + "[" + std::to_string(i) + "]", *problems_);
+  }
+  return elements;
+}
+
+Object::Object(const Value& value) : value_(value) {
+  if (!is_object()) value.wrong("is " + value.shown(), "write an object, {...}");
+}
+
+Object::~Object() {
+  if (!is_object()) return;
+  for (const auto& [key, ignored] : value_.json().items()) {
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
+      value_.wrong("the key \"" + shorten(key) + "\" is unknown", "known here: " + list(asked_));
+    }
+  }
+}
+
+std::optional<Value> Object::find(const char* key) {
+  asked_.emplace_back(key);
+  if (!is_object()) return std::nullopt;
+  const auto found = value_.json().find(key);
+  if (found == value_.json().end()) return std::nullopt;
+  const std::string& here = value_.place();
+  return Value(*found, here == "top level" ? key : here + "." + key, value_.problems());
+}
+
+std::optional<Value> Object::require(const char* key) {
+  const auto value = find(key);
+  if (!value && is_object()) value_.wrong(std::string("has no \"") + key + "\"", "it is required");
+  return value;
+}
+
+void Object::number(const char* key, double& target, const Range& range) {
+  if (const auto value = find(key)) target = value->number(range).value_or(target);
+}
+
+void Object::boolean(const char* key, bool& target) {
+  if (const auto value = find(key)) target = value->boolean().value_or(target);
+}
+
+void Object::text(const char* key, std::string& target) {
+  if (const auto value = find(key)) target = value->text().value_or(target);
+}
+
+void Object::point(const char* key, Point& target) {
+  if (const auto value = find(key)) target = value->point().value_or(target);
+}
+
+void wrong_choice(const Value& value, const std::vector<std::string_view>& choices) {
+  value.wrong("is " + value.shown(), "write one of: " + list(choices));
+}
+
+}  // namespace ductile

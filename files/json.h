@@ -1,0 +1,124 @@
+// JSON that is read strictly: every key is known and stands once, every number is finite and in its range,
+// and everything wrong is said with its place.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ductile/problem.h"
+#include "ductile/section.h"
+
+namespace ductile {
+
+/// What is wrong with one file.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+  void add(const std::string& place, std::string what, std::string remedy);
+  void add(const std::vector<Problem>& of_another_file);
+  /// Throws InvalidInput if there are any.
+  void check() const;
+
+ private:
+  std::string file_;
+  std::vector<Problem> list_;
+};
+
+/// Throws InvalidInput on text that is not JSON, repeats a key, nests deeper than 64 levels, or has a number
+/// that a double does not hold.
+nlohmann::json parse_json(std::string_view text, const std::string& file);
+
+/// The numbers that are allowed somewhere.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  bool open = false;  ///< `low` itself is not in it
+  const char* text = "write a finite number";
+};
+inline constexpr Range any_number{};
+inline constexpr Range positive{0, true, "write a number > 0"};
+inline constexpr Range not_negative{0, false, "write a number >= 0"};
+
+/// A JSON value, where it stands, and where to complain. Every reader returns nothing after complaining.
+class Value {
+ public:
+  Value(const nlohmann::json& json, std::string place, Problems& problems)
+      : json_(&json), place_(std::move(place)), problems_(&problems) {}
+
+  const nlohmann::json& json() const { return *json_; }
+  const std::string& place() const { return place_; }
+  Problems& problems() const { return *problems_; }
+  void wrong(std::string what, std::string remedy) const {
+    problems_->add(place_, std::move(what), std::move(remedy));
+  }
+  /// The value as a message shows it, shortened.
+  std::string shown() const;
+
+  std::optional<double> number(const Range& range = any_number) const;
+  std::optional<int> integer(int low, int high) const;
+  std::optional<bool> boolean() const;
+  std::optional<std::string> text() const;
+  std::optional<Point> point() const;
+  std::optional<Ring> ring() const;
+  std::optional<std::vector<Ring>> rings() const;
+  /// The elements of an array; none after complaining that it is not one.
+  std::vector<Value> elements() const;
+
+ private:
+  const nlohmann::json* json_;
+  std::string place_;
+  Problems* problems_;
+};
+
+/// A JSON object whose keys are asked for one by one; a key that nobody asked for is unknown.
+class Object {
+ public:
+  explicit Object(const Value& value);
+  /// Complains of the keys that were not asked for.
+  ~Object();
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+
+  bool is_object() const { return value_.json().is_object(); }
+  std::optional<Value> find(const char* key);
+  /// Complains when it is missing.
+  std::optional<Value> require(const char* key);
+
+  /// Each of these leaves its target as it is where the key is absent.
+  void number(const char* key, double& target, const Range& range = any_number);
+  void boolean(const char* key, bool& target);
+  void text(const char* key, std::string& target);
+  void point(const char* key, Point& target);
+  template <class T>
+  void choice(const char* key, T& target, std::initializer_list<std::pair<const char*, T>> choices);
+
+ private:
+  Value value_;
+  std::vector<std::string_view> asked_;
+};
+
+/// Complains that a text is none of the choices, naming them.
+void wrong_choice(const Value& value, const std::vector<std::string_view>& choices);
+
+template <class T>
+void Object::choice(const char* key, T& target, std::initializer_list<std::pair<const char*, T>> choices) {
+  const auto value = find(key);
+  if (!value) return;
+  std::vector<std::string_view> names;
+  for (const auto& [name, choice] : choices) {
+    if (value->json().is_string() && value->json().get_ref<const std::string&>() == name) {
+      target = choice;
+      return;
+    }
+    names.emplace_back(name);
+  }
+  wrong_choice(*value, names);
+}
+
+}  // namespace ductile

@@ -1,0 +1,361 @@
+#include <map>
+
+#include "ductile/files.h"
+#include "section_file.h"
+
+namespace ductile {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int most_pieces = 10'000;
+
+/// Reads one scene; keeps what several bodies may name.
+class SceneReader {
+ public:
+  SceneReader(Problems& problems, fs::path folder) : problems_(problems), folder_(std::move(folder)) {}
+
+  SceneDef scene(const Value& value);
+
+ private:
+  void materials(const Value& value);
+  std::optional<Material> material(const Value& name) const;
+  BodyDef body(const Value& value);
+  void outline(Object& body, const Value& value, BodyDef& def);
+  Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
+  std::vector<Region> profile(const Value& value);
+
+  Problems& problems_;
+  fs::path folder_;
+  std::map<std::string, Material, std::less<>> materials_;
+  std::map<std::string, std::optional<Drawing>, std::less<>> drawings_;  // empty: could not be read
+};
+
+std::optional<std::array<Point, 2>> read_segment(const Value& value) {
+  if (!value.json().is_array() || value.json().size() != 2) {
+    return value.wrong("is " + value.shown(), "write two points, [[x, y], [x, y]]"), std::nullopt;
+  }
+  const auto ends = value.elements();
+  const auto p = ends[0].point(), q = ends[1].point();
+  if (!p || !q) return std::nullopt;
+  return std::array{*p, *q};
+}
+
+/// A cap or a maximum: a number >= 0, or null for unlimited.
+void read_limit(Object& object, const char* key, std::optional<double>& target) {
+  const auto value = object.find(key);
+  if (!value) return;
+  if (value->json().is_null()) {
+    target = unlimited;
+  } else if (const auto number = value->number({0, false, "write a number >= 0, or null for unlimited"})) {
+    target = number;
+  }
+}
+
+void read_elastic(const Value& value, JointOverrides& overrides) {
+  if (value.json().is_object()) {
+    Object object(value);
+    object.number("frequency", overrides.frequency, positive);
+    if (const auto ratio = object.find("damping_ratio"))
+      overrides.damping_ratio = ratio->number(not_negative);
+    object.number("elastic_rotation", overrides.elastic_rotation, positive);
+    const bool rotation = value.json().contains("elastic_rotation");
+    overrides.elastic = rotation ? Elasticity::elastic_rotation : Elasticity::frequency;
+    if (!rotation && !value.json().contains("frequency")) {
+      value.wrong("has neither \"frequency\" nor \"elastic_rotation\"", "give one of them, or both");
+    }
+  } else if (value.json() == true || value.json() == "true") {
+    overrides.elastic = Elasticity::true_stiffness;
+  } else if (value.json() == "rigid") {
+    overrides.elastic = Elasticity::rigid;
+  } else {
+    value.wrong("is " + value.shown(),
+                R"(write "rigid", "true", {"frequency", "damping_ratio"} or {"elastic_rotation"})");
+  }
+}
+
+JointOverrides read_overrides(Object& object) {
+  JointOverrides overrides;
+  read_limit(object, "moment", overrides.moment);
+  read_limit(object, "moment_reverse", overrides.moment_reverse);
+  read_limit(object, "axial", overrides.axial);
+  read_limit(object, "axial_compression", overrides.axial_compression);
+  read_limit(object, "shear", overrides.shear);
+  if (const auto elastic = object.find("elastic")) read_elastic(*elastic, overrides);
+  read_limit(object, "max_rotation", overrides.max_rotation);
+  read_limit(object, "max_elongation", overrides.max_elongation);
+  read_limit(object, "max_compression", overrides.max_compression);
+  read_limit(object, "max_slip", overrides.max_slip);
+  if (const auto length = object.find("hinge_length")) overrides.hinge_length = length->number(positive);
+  return overrides;
+}
+
+void read_split(const Value& value, BodyDef& def) {
+  if (value.json() == "auto") {
+    def.automatic = true;
+    return;
+  }
+  if (!value.json().is_object()) {
+    return value.wrong("is " + value.shown(), R"(write "auto", {"pieces", "along"} or {"cuts"})");
+  }
+  Object object(value);
+  if (const auto cuts = object.find("cuts")) {
+    for (const Value& cut : cuts->elements()) {
+      if (const auto segment = read_segment(cut)) def.cuts.push_back(*segment);
+    }
+    if (value.json().size() > 1) value.wrong("has more than \"cuts\"", R"(give either "cuts" or "pieces")");
+  } else if (const auto pieces = object.require("pieces")) {
+    def.pieces = pieces->integer(1, most_pieces).value_or(1);
+  }
+  if (const auto along = object.find("along")) {
+    def.along = read_segment(*along).value_or(def.along);
+    if (def.along[0] == def.along[1]) along->wrong("has no length", "give two points along the body");
+  }
+}
+
+JointBetweenDef read_joint(const Value& value) {
+  JointBetweenDef def;
+  Object object(value);
+  if (const auto between = object.require("between")) {
+    const auto names = between->elements();
+    if (between->json().is_array() && names.size() != 2) {
+      between->wrong("names " + std::to_string(names.size()) + " bodies", "name two");
+    } else if (names.size() == 2) {
+      def.a = names[0].text().value_or("");
+      def.b = names[1].text().value_or("");
+    }
+  }
+  object.number("gap", def.gap, positive);
+  def.overrides = read_overrides(object);
+  return def;
+}
+
+SupportDef read_support(const Value& value) {
+  SupportDef def;
+  Object object(value);
+  if (const auto body = object.require("body")) def.body = body->text().value_or("");
+  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
+  if (const auto fix = object.require("fix")) {
+    for (const Value& row : fix->elements()) {
+      if (row.json() == "x") {
+        def.fix_x = true;
+      } else if (row.json() == "y") {
+        def.fix_y = true;
+      } else if (row.json() == "angle") {
+        def.fix_angle = true;
+      } else {
+        wrong_choice(row, {"x", "y", "angle"});
+      }
+    }
+    if (fix->json().is_array() && fix->json().empty()) {
+      fix->wrong("is empty", R"(fix any of "x", "y", "angle")");
+    }
+  }
+  return def;
+}
+
+LoadDef read_load(const Value& value) {
+  LoadDef def;
+  Object object(value);
+  if (const auto body = object.require("body")) def.body = body->text().value_or("");
+  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
+  object.point("force", def.force);
+  object.number("moment", def.moment);
+  object.number("from", def.from, not_negative);
+  object.number("ramp", def.ramp, not_negative);
+  std::optional<double> to;
+  read_limit(object, "to", to);
+  def.to = to.value_or(def.to);
+  return def;
+}
+
+WheelDef read_wheel(const Value& value) {
+  WheelDef def;
+  Object object(value);
+  if (const auto between = object.require("between")) {
+    const auto names = between->elements();
+    if (names.size() == 2) {
+      def.chassis = names[0].text().value_or("");
+      def.wheel = names[1].text().value_or("");
+    } else if (between->json().is_array()) {
+      between->wrong("names " + std::to_string(names.size()) + " bodies", "name the chassis and the wheel");
+    }
+  }
+  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
+  if (const auto axis = object.find("axis")) {
+    def.axis = axis->point().value_or(def.axis);
+    if (def.axis == Point{}) axis->wrong("has no length", "give the direction in which the wheel springs");
+  }
+  object.number("frequency", def.frequency, not_negative);
+  object.number("damping_ratio", def.damping_ratio, not_negative);
+  object.number("motor_speed", def.motor_speed);
+  object.number("motor_torque", def.motor_torque, not_negative);
+  return def;
+}
+
+void SceneReader::materials(const Value& value) {
+  Object list(value);
+  if (!list.is_object()) return;
+  for (const auto& [name, ignored] : value.json().items()) {
+    const Value entry = *list.find(name.c_str());
+    Material& material = materials_[name];
+    if (entry.json().is_string()) {
+      material = built_in_material(entry).value_or(Material{});
+      continue;
+    }
+    Object object(entry);
+    if (const auto density = object.require("density"))
+      material.density = density->number(positive).value_or(1);
+    if (object.is_object() && !entry.json().contains("E")) entry.wrong("has no \"E\"", "it is required");
+    read_strength(object, material);
+    object.number("fu", material.ultimate_stress, positive);
+    object.number("fracture_strain", material.fracture_strain, positive);
+    object.number("damping_ratio", material.damping_ratio, not_negative);
+    object.number("friction", material.friction, not_negative);
+    object.number("restitution", material.restitution, not_negative);
+  }
+}
+
+std::optional<Material> SceneReader::material(const Value& name) const {
+  if (name.json().is_string()) {
+    const auto found = materials_.find(name.json().get_ref<const std::string&>());
+    if (found != materials_.end()) return found->second;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& [known, ignored] : materials_) names.emplace_back(known);
+  return built_in_material(name, names);
+}
+
+Outline SceneReader::drawn(const Value& value, const std::string& reference, const DrawingScale& scale) {
+  const auto hash = reference.rfind('#');
+  if (hash == std::string::npos || hash == 0 || hash + 1 == reference.size()) {
+    value.wrong("is " + value.shown(), R"(write a ring, "drawing.svg#id" or {"circle": radius})");
+    return {};
+  }
+  const std::string file = reference.substr(0, hash);
+  auto known = drawings_.find(file);
+  try {
+    if (known == drawings_.end()) {
+      known = drawings_.emplace(file, std::nullopt).first;
+      known->second.emplace(folder_ / file);
+    }
+    if (known->second) return known->second->outline(reference.substr(hash + 1), scale);
+  } catch (const InvalidInput& error) {
+    problems_.add(error.problems());
+  }
+  return {};
+}
+
+void SceneReader::outline(Object& body, const Value& value, BodyDef& def) {
+  DrawingScale scale;
+  const auto metres_per_unit = body.find("scale"), tolerance = body.find("tolerance"),
+             holes = body.find("holes");
+  if (metres_per_unit) scale.metres_per_unit = metres_per_unit->number(positive).value_or(1);
+  if (tolerance) scale.tolerance = tolerance->number(positive).value_or(0);
+  if (value.json().is_array()) {
+    def.outline.outer = value.ring().value_or(Ring{});
+    if (holes) def.outline.holes = holes->rings().value_or(std::vector<Ring>{});
+  } else if (holes) {
+    holes->wrong("goes with a ring only", "leave it out: the holes of a drawing come with it");
+  }
+  if (value.json().is_string()) {
+    def.outline = drawn(value, value.json().get<std::string>(), scale);
+  } else {
+    if (metres_per_unit) metres_per_unit->wrong("goes with a drawing only", "leave it out");
+    if (tolerance) tolerance->wrong("goes with a drawing only", "leave it out");
+  }
+  if (value.json().is_object()) {
+    Object object(value);
+    if (const auto radius = object.require("circle")) def.circle = radius->number(positive).value_or(1);
+  } else if (!value.json().is_array() && !value.json().is_string()) {
+    value.wrong("is " + value.shown(), R"(write a ring, "drawing.svg#id" or {"circle": radius})");
+  }
+}
+
+std::vector<Region> SceneReader::profile(const Value& value) {
+  if (value.json().is_object()) return read_regions(value);
+  const auto file = value.text();
+  if (!file) return {};
+  try {
+    return read_section(folder_ / *file);
+  } catch (const InvalidInput& error) {
+    return problems_.add(error.problems()), std::vector<Region>{};
+  }
+}
+
+BodyDef SceneReader::body(const Value& value) {
+  BodyDef def;
+  Object object(value);
+  if (const auto name = object.require("name")) def.name = name->text().value_or(def.name);
+  object.choice("type", def.type,
+                {{"static", BodyType::static_body},
+                 {"dynamic", BodyType::dynamic_body},
+                 {"kinematic", BodyType::kinematic_body}});
+  if (const auto shape = object.require("outline")) outline(object, *shape, def);
+  object.point("at", def.at);
+  object.number("angle", def.angle);
+  object.point("velocity", def.velocity);
+  object.number("angular_velocity", def.angular_velocity);
+  if (const auto name = object.find("material")) def.material = material(*name);
+  object.number("depth", def.depth, positive);
+  if (const auto section = object.find("profile")) {
+    def.profile = profile(*section);
+    if (value.json().contains("depth")) {
+      section->wrong("stands beside \"depth\"", "give one of the two: the profile has its own depth");
+    }
+  }
+  if (const auto split = object.find("split")) read_split(*split, def);
+  if (const auto joint = object.find("joint")) {
+    Object overrides(*joint);
+    def.joint = read_overrides(overrides);
+  }
+  if (const auto group = object.find("group")) {
+    def.group = static_cast<std::int16_t>(group->integer(-32768, 32767).value_or(0));
+  }
+  return def;
+}
+
+template <class T, class Read>
+void read_list(const std::optional<Value>& list, std::vector<T>& target, Read read) {
+  if (!list) return;
+  for (const Value& element : list->elements()) target.push_back(read(element));
+}
+
+SceneDef SceneReader::scene(const Value& value) {
+  SceneDef scene;
+  Object object(value);
+  if (object.is_object() && value.json().contains("regions")) {
+    value.wrong("has \"regions\": this is a section",
+                "a scene has \"bodies\"; a section goes to ductile section");
+  }
+  object.point("gravity", scene.gravity);
+  object.number("gravity_ramp", scene.gravity_ramp, not_negative);
+  object.boolean("sleep", scene.sleep);
+  object.boolean("interaction", scene.interaction);
+  if (const auto joint = object.find("joint")) {
+    Object overrides(*joint);
+    scene.joint = read_overrides(overrides);
+  }
+  if (const auto list = object.find("materials")) materials(*list);
+  read_list(object.require("bodies"), scene.bodies, [&](const Value& element) { return body(element); });
+  read_list(object.find("joints"), scene.joints, read_joint);
+  read_list(object.find("supports"), scene.supports, read_support);
+  read_list(object.find("loads"), scene.loads, read_load);
+  read_list(object.find("wheels"), scene.wheels, read_wheel);
+  return scene;
+}
+
+}  // namespace
+
+SceneDef parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
+  const nlohmann::json json = parse_json(text, name);
+  Problems problems(name);
+  auto scene = SceneReader(problems, folder).scene(Value(json, "top level", problems));
+  problems.check();
+  return scene;
+}
+
+SceneDef read_scene(const fs::path& file) {
+  return parse_scene(read_text(file), file.string(), file.parent_path());
+}
+
+}  // namespace ductile

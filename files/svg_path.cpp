@@ -1,0 +1,433 @@
+#include "svg_path.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ductile::svg {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double degree = pi / 180;
+
+Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
+Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
+Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
+double length(const Point& p) { return std::hypot(p.x, p.y); }
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_letter(char c) { return is_lower(c) || (c >= 'A' && c <= 'Z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Draws subpaths in local coordinates, and keeps them as `to` shows them.
+class Pen {
+ public:
+  explicit Pen(const Affine& to) : to_(to) {}
+
+  std::vector<Subpath> path;
+  Point here;  ///< local
+
+  void move(const Point& p) {
+    start_ = here = p;
+    begin();
+  }
+  void line(const Point& p) { add(Line{to_(p)}, p); }
+  void cubic(const Point& c1, const Point& c2, const Point& p) { add(Cubic{to_(c1), to_(c2), to_(p)}, p); }
+  void quadratic(const Point& c, const Point& p) {
+    cubic(here + 2. / 3 * (c - here), p + 2. / 3 * (c - p), p);
+  }
+  /// From `here` at the angle `from` on the ellipse center + u cos t + v sin t.
+  void arc(const Point& center, const Point& u, const Point& v, double from, double sweep, const Point& p) {
+    add(Arc{to_(center), to_.turn(u), to_.turn(v), from, sweep, to_(p)}, p);
+  }
+  /// SVG 1.1, F.6.5: from end points to centre.
+  void arc_to(double rx, double ry, double rotation, bool large, bool positive, const Point& p);
+  void close() {
+    here = start_;
+    open_ = false;
+  }
+
+ private:
+  void begin() {
+    path.push_back({to_(start_), {}});
+    open_ = true;
+  }
+  void add(const Curve& curve, const Point& end) {
+    if (!open_) begin();  // after a Z, drawing goes on from the start of what was closed
+    path.back().curves.push_back(curve);
+    here = end;
+  }
+
+  Affine to_;
+  Point start_;
+  bool open_ = false;
+};
+
+void Pen::arc_to(double rx, double ry, double rotation, bool large, bool positive, const Point& p) {
+  rx = std::abs(rx);
+  ry = std::abs(ry);
+  if (p == here) return;
+  if (rx == 0 || ry == 0) return line(p);
+  const Point ex{std::cos(rotation), std::sin(rotation)}, ey{-ex.y, ex.x};
+  const Point half = 0.5 * (here - p);
+  // In the frame in which the ellipse is the unit circle:
+  Point q{(half.x * ex.x + half.y * ex.y) / rx, (half.x * ey.x + half.y * ey.y) / ry};
+  const double reach = length(q);
+  if (reach > 1) {  // too small to reach: grown until it does
+    rx *= reach;
+    ry *= reach;
+    q = 1 / reach * q;
+  }
+  const double square = std::min(reach * reach, 1.0);
+  const double offset = (large == positive ? -1 : 1) * std::sqrt((1 - square) / square);
+  const Point c{offset * q.y, -offset * q.x};
+  const double from = std::atan2(q.y - c.y, q.x - c.x);
+  double sweep = std::atan2(-q.y - c.y, -q.x - c.x) - from;
+  if (positive && sweep < 0) sweep += 2 * pi;
+  if (!positive && sweep > 0) sweep -= 2 * pi;
+  const Point u = rx * ex, v = ry * ey;
+  arc(0.5 * (here + p) + c.x * u + c.y * v, u, v, from, sweep, p);
+}
+
+/// The largest half diameter of an ellipse with conjugate half diameters u and v.
+double half_diameter(const Point& u, const Point& v) {
+  const double uu = u.x * u.x + u.y * u.y, vv = v.x * v.x + v.y * v.y, uv = u.x * v.x + u.y * v.y;
+  return std::sqrt((uu + vv + std::hypot(uu - vv, 2 * uv)) / 2);
+}
+
+}  // namespace
+
+Affine operator*(const Affine& o, const Affine& i) {
+  const Point x = o.turn({i.a, i.b}), y = o.turn({i.c, i.d}), shift = o({i.e, i.f});
+  return {x.x, x.y, y.x, y.y, shift.x, shift.y};
+}
+
+// ---- numbers
+
+bool Numbers::end() {
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  return at_ == text_.size();
+}
+
+void Numbers::separator() {
+  if (peek() == ',') {
+    take();
+    end();
+  }
+}
+
+double Numbers::number() {
+  const char first = peek();
+  std::size_t digits = at_;
+  if (first == '+' || first == '-') ++digits;
+  const bool starts = digits < text_.size() &&
+                      (is_digit(text_[digits]) ||
+                       (text_[digits] == '.' && digits + 1 < text_.size() && is_digit(text_[digits + 1])));
+  if (!starts) {
+    throw std::invalid_argument(first == 0 ? "ends where a number should stand"
+                                           : std::string("has '") + first + "' where a number should stand");
+  }
+  double value = 0;
+  const char* const from = text_.data() + at_ + (first == '+' ? 1 : 0);  // from_chars knows no plus
+  const auto [rest, error] = std::from_chars(from, text_.data() + text_.size(), value);
+  if (error != std::errc{}) throw std::invalid_argument("has a number that a double does not hold");
+  at_ = static_cast<std::size_t>(rest - text_.data());
+  separator();
+  return value;
+}
+
+bool Numbers::flag() {
+  const char c = peek();
+  if (c != '0' && c != '1') throw std::invalid_argument("has no 0 or 1 where an arc's flag should stand");
+  take();
+  separator();
+  return c == '1';
+}
+
+std::string_view Numbers::name() {
+  end();
+  const std::size_t from = at_;
+  while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+  return text_.substr(from, at_ - from);
+}
+
+// ---- shapes
+
+std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
+  Pen pen(to);
+  Numbers in(data);
+  char command = 0, before = 0;  // `before` is the last curve's letter, in upper case
+  Point control;                 // of the last curve, for S and T
+  int count = 0;
+  try {
+    while (!in.end()) {
+      if (is_letter(in.peek())) {
+        command = in.take();
+        ++count;
+        if (count == 1 && command != 'M' && command != 'm')
+          throw std::invalid_argument("does not start with M");
+      } else if (command == 'Z' || command == 'z' || command == 0) {
+        throw std::invalid_argument(std::string("has '") + in.peek() + "' where a command should stand");
+      }
+      const bool relative = is_lower(command);
+      const Point base = relative ? pen.here : Point{};
+      const auto point = [&] {
+        const double x = in.number();
+        return base + Point{x, in.number()};
+      };
+      const char letter = static_cast<char>(relative ? command - 'a' + 'A' : command);
+      switch (letter) {
+        case 'M':
+          pen.move(point());
+          command = relative ? 'l' : 'L';  // further pairs are lines
+          break;
+        case 'L':
+          pen.line(point());
+          break;
+        case 'H':
+          pen.line({base.x + in.number(), pen.here.y});
+          break;
+        case 'V':
+          pen.line({pen.here.x, base.y + in.number()});
+          break;
+        case 'C': {
+          const Point first = point();
+          control = point();
+          pen.cubic(first, control, point());
+          break;
+        }
+        case 'S': {
+          const Point first = before == 'C' || before == 'S' ? 2 * pen.here - control : pen.here;
+          control = point();
+          pen.cubic(first, control, point());
+          break;
+        }
+        case 'Q':
+          control = point();
+          pen.quadratic(control, point());
+          break;
+        case 'T':
+          control = before == 'Q' || before == 'T' ? 2 * pen.here - control : pen.here;
+          pen.quadratic(control, point());
+          break;
+        case 'A': {
+          const double rx = in.number(), ry = in.number(), rotation = in.number() * degree;
+          const bool large = in.flag(), positive = in.flag();
+          pen.arc_to(rx, ry, rotation, large, positive, point());
+          break;
+        }
+        case 'Z':
+          pen.close();
+          break;
+        default:
+          throw std::invalid_argument(std::string("has '") + command + "', which is no path command");
+      }
+      before = letter;
+    }
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError(count == 0 ? "path data" : "path command " + std::to_string(count), error.what(),
+                     "write path data as SVG 1.1 §8.3 has it");
+  }
+  return std::move(pen.path);
+}
+
+std::vector<Subpath> polygon(std::string_view points, const Affine& to) {
+  Pen pen(to);
+  Numbers in(points);
+  int count = 0;
+  try {
+    while (!in.end()) {
+      const double x = in.number();
+      const Point p{x, in.number()};
+      count == 0 ? pen.move(p) : pen.line(p);
+      ++count;
+    }
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError("point " + std::to_string(count), error.what(), "write x,y x,y ...");
+  }
+  return std::move(pen.path);
+}
+
+std::vector<Subpath> ellipse(Point center, double rx, double ry, const Affine& to) {
+  Pen pen(to);
+  const Point right = center + Point{rx, 0}, left = center - Point{rx, 0};
+  pen.move(right);
+  pen.arc(center, {rx, 0}, {0, ry}, 0, pi, left);
+  pen.arc(center, {rx, 0}, {0, ry}, pi, pi, right);
+  return std::move(pen.path);
+}
+
+std::vector<Subpath> rectangle(Point corner, double width, double height, double rx, double ry,
+                               const Affine& to) {
+  Pen pen(to);
+  rx = std::min(rx, width / 2);
+  ry = std::min(ry, height / 2);
+  if (rx == 0 || ry == 0) rx = ry = 0;
+  const Point far = corner + Point{width, height}, x{rx, 0}, y{0, ry};
+  const auto round = [&](double turn, const Point& center, const Point& end) {
+    if (rx > 0) pen.arc(center, x, y, turn * pi / 2, pi / 2, end);
+  };
+  pen.move({corner.x + rx, corner.y});
+  pen.line({far.x - rx, corner.y});
+  round(3, {far.x - rx, corner.y + ry}, {far.x, corner.y + ry});
+  pen.line({far.x, far.y - ry});
+  round(0, {far.x - rx, far.y - ry}, {far.x - rx, far.y});
+  pen.line({corner.x + rx, far.y});
+  round(1, {corner.x + rx, far.y - ry}, {corner.x, far.y - ry});
+  pen.line({corner.x, corner.y + ry});
+  round(2, {corner.x + rx, corner.y + ry}, {corner.x + rx, corner.y});
+  return std::move(pen.path);
+}
+
+Affine parse_transform(std::string_view text) {
+  Affine all;
+  Numbers in(text);
+  const auto refuse = [](const std::string& what) {
+    throw ShapeError("transform", what,
+                     "write matrix, translate, scale, rotate, skewX or skewY as SVG 1.1 §7.6 has it");
+  };
+  try {
+    while (!in.end()) {
+      const std::string_view name = in.name();
+      std::vector<double> n;
+      if (in.peek() != '(') refuse("has no name with '(' where one should stand");
+      for (in.take(); in.peek() != ')' && n.size() <= 6;) n.push_back(in.number());
+      if (in.peek() == ')') in.take();
+      if (in.peek() == ',') in.take();
+      const auto has = [&](std::size_t least, std::size_t most) {
+        return n.size() == least || n.size() == most;
+      };
+      if (name == "matrix" && has(6, 6)) {
+        all = all * Affine{n[0], n[1], n[2], n[3], n[4], n[5]};
+      } else if (name == "translate" && has(1, 2)) {
+        all = all * Affine{1, 0, 0, 1, n[0], n.size() == 2 ? n[1] : 0};
+      } else if (name == "scale" && has(1, 2)) {
+        all = all * Affine{n[0], 0, 0, n.back(), 0, 0};
+      } else if (name == "rotate" && has(1, 3)) {
+        const double c = std::cos(n[0] * degree), s = std::sin(n[0] * degree);
+        const Point about = n.size() == 3 ? Point{n[1], n[2]} : Point{};
+        all = all * Affine{1, 0, 0, 1, about.x, about.y} * Affine{c, s, -s, c, 0, 0} *
+              Affine{1, 0, 0, 1, -about.x, -about.y};
+      } else if (name == "skewX" && has(1, 1)) {
+        all = all * Affine{1, 0, std::tan(n[0] * degree), 1, 0, 0};
+      } else if (name == "skewY" && has(1, 1)) {
+        all = all * Affine{1, std::tan(n[0] * degree), 0, 1, 0, 0};
+      } else {
+        refuse("has " + std::string(name) + " with " + std::to_string(n.size()) + " numbers");
+      }
+    }
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+  return all;
+}
+
+// ---- curves to rings
+
+double extent(const std::vector<Subpath>& path) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point low{infinity, infinity}, high{-infinity, -infinity};
+  bool finite = true;
+  const auto reach = [&](const Point& p) {
+    finite = finite && std::isfinite(p.x) && std::isfinite(p.y);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  };
+  for (const Subpath& subpath : path) {
+    reach(subpath.start);
+    for (const Curve& curve : subpath.curves) {
+      std::visit([&](const auto& c) { reach(c.end); }, curve);
+      if (const auto* cubic = std::get_if<Cubic>(&curve)) {
+        reach(cubic->control1);
+        reach(cubic->control2);
+      } else if (const auto* arc = std::get_if<Arc>(&curve)) {
+        const double r = half_diameter(arc->u, arc->v);
+        reach(arc->center + Point{r, r});
+        reach(arc->center - Point{r, r});
+      }
+    }
+  }
+  return finite && !path.empty() ? length(high - low) : std::numeric_limits<double>::quiet_NaN();
+}
+
+namespace {
+
+constexpr double most_chords = 10'000;           // of one curve
+constexpr std::size_t most_points = 10'000'000;  // of one shape
+
+/// How many equal steps of the parameter keep the chords within the tolerance.
+double chords(const Line&, const Point&, double) { return 1; }
+double chords(const Cubic& c, const Point& start, double tolerance) {
+  // A chord over a step δ is off by at most δ²/8 max|P''|, and |P''| <= 6 max of the second differences.
+  const double bend =
+      std::max(length(start - 2 * c.control1 + c.control2), length(c.control1 - 2 * c.control2 + c.end));
+  return std::ceil(std::sqrt(6. / 8 * bend / tolerance));
+}
+double chords(const Arc& a, const Point&, double tolerance) {
+  // Sagitta r (1 − cos δ/2) = 2 r sin² δ/4; at least a chord a quarter, for the ring to have an inside.
+  const double r = half_diameter(a.u, a.v);
+  const double step = 4 * std::asin(std::sqrt(std::min(tolerance / (2 * r), 1.)));
+  return std::ceil(std::abs(a.sweep) / std::min(step, pi / 2));
+}
+
+Point at(const Line& c, const Point&, double) { return c.end; }
+Point at(const Cubic& c, const Point& start, double t) {
+  const double s = 1 - t;
+  return s * s * s * start + 3 * s * s * t * c.control1 + 3 * s * t * t * c.control2 + t * t * t * c.end;
+}
+Point at(const Arc& a, const Point&, double t) {
+  const double angle = a.from + t * a.sweep;
+  return a.center + std::cos(angle) * a.u + std::sin(angle) * a.v;
+}
+
+double area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    const Point p = ring[i - 1] - ring[0], q = ring[i] - ring[0];
+    sum += p.x * q.y - p.y * q.x;
+  }
+  return sum / 2;
+}
+
+}  // namespace
+
+std::vector<Ring> flatten(const std::vector<Subpath>& path, double tolerance) {
+  const double near = tolerance / 100;
+  std::size_t total = 0;
+  std::vector<Ring> rings;
+  for (const Subpath& subpath : path) {
+    Ring ring{subpath.start};
+    double perimeter = 0;
+    Point start = subpath.start;
+    const auto add = [&](const Point& p) {
+      const double step = length(p - ring.back());
+      if (step <= near) return;
+      perimeter += step;
+      ring.push_back(p);
+    };
+    for (const Curve& curve : subpath.curves) {
+      std::visit(
+          [&](const auto& c) {
+            const double n = std::max(chords(c, start, tolerance), 1.);
+            if (!(n <= most_chords) || (total += static_cast<std::size_t>(n)) > most_points) {
+              throw ShapeError("curves",
+                               "need more chords than " + std::to_string(static_cast<int>(most_chords)) +
+                                   " a curve or " + std::to_string(most_points) + " a shape",
+                               "give a larger tolerance");
+            }
+            for (double i = 1; i < n; ++i) add(at(c, start, i / n));
+            add(c.end);
+            start = c.end;
+          },
+          curve);
+    }
+    while (ring.size() > 1 && length(ring.back() - ring.front()) <= near) ring.pop_back();
+    if (std::abs(area(ring)) > near * perimeter) rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+}  // namespace ductile::svg

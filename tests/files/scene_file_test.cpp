@@ -1,0 +1,329 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "ductile/files.h"
+
+namespace {
+using namespace ductile;
+namespace fs = std::filesystem;
+
+// The example of the format's reference, with every key of the tables added somewhere.
+const char* const everything = R"({
+  "gravity": [1, -9], "gravity_ramp": 2, "sleep": true, "interaction": true,
+  "joint": {"max_rotation": null},
+  "materials": {
+    "steel": {"density": 7800, "E": 210e9, "fy": 350e6, "fyc": 340e6, "tau": 200e6, "fu": 490e6,
+              "fracture_strain": 0.25, "criterion": "von_mises", "damping_ratio": 0.1, "friction": 0.6,
+              "restitution": 0.3},
+    "mine": "S355"},
+  "bodies": [
+    {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,2],[-1,2]]},
+    {"name": "beam", "outline": [[0,0],[20,0],[20,1],[0,1]], "holes": [[[1,0.2],[2,0.2],[2,0.4]]], "depth": 0.5,
+     "material": "steel", "split": {"pieces": 10, "along": [[0,0.5],[20,0.5]]},
+     "joint": {"moment": 1e7, "moment_reverse": 2e7, "axial": null, "axial_compression": 3, "shear": 0,
+               "elastic": {"frequency": 2, "damping_ratio": 0.7}, "max_rotation": 3, "max_elongation": 0.1,
+               "max_compression": null, "max_slip": 0.2, "hinge_length": 0.5}},
+    {"name": "wheel", "type": "kinematic", "outline": {"circle": 0.4}, "at": [30, 2], "angle": 0.5,
+     "velocity": [1, 2], "angular_velocity": 3, "material": "mine", "group": -2},
+    {"name": "girder", "outline": [[0,5],[20,5],[20,6],[0,6]], "material": "S235",
+     "profile": {"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": {"fy": 235e6}}]},
+     "split": {"cuts": [[[5,4],[5,7]], [[10,4],[10,7]]]}},
+    {"name": "arm", "outline": [[0,9],[20,9],[20,10],[0,10]], "material": "S355", "split": "auto"}],
+  "joints": [{"between": ["wall","beam"], "gap": 0.01, "moment": 1e7, "elastic": "rigid", "max_rotation": 3.0},
+             {"between": ["wall","arm"], "elastic": true},
+             {"between": ["arm","girder"], "elastic": {"elastic_rotation": 0.02, "frequency": 3}}],
+  "supports": [{"body": "beam", "at": [20,0.5], "fix": ["y", "angle"]}],
+  "loads": [{"body": "beam", "at": [20,0.5], "force": [0,-1e6], "moment": 5, "from": 1, "ramp": 2, "to": 9},
+            {"body": "beam", "at": [10,0.5], "to": null}],
+  "wheels": [{"between": ["beam","wheel"], "at": [30,2], "axis": [1,1], "frequency": 5, "damping_ratio": 0.6,
+              "motor_speed": -40, "motor_torque": 1000}]
+})";
+
+void expect_everything(const SceneDef& scene) {
+  EXPECT_EQ(scene.gravity, (Point{1, -9}));
+  EXPECT_EQ(scene.gravity_ramp, 2);
+  EXPECT_TRUE(scene.sleep);
+  EXPECT_TRUE(scene.interaction);
+  EXPECT_EQ(scene.joint.max_rotation, unlimited);
+  EXPECT_FALSE(scene.joint.moment);
+
+  ASSERT_EQ(scene.bodies.size(), 5u);
+  const BodyDef &wall = scene.bodies[0], &beam = scene.bodies[1], &wheel = scene.bodies[2],
+                &girder = scene.bodies[3], &arm = scene.bodies[4];
+  EXPECT_EQ(wall.name, "wall");
+  EXPECT_EQ(wall.type, BodyType::static_body);
+  EXPECT_FALSE(wall.material);
+  EXPECT_EQ(wall.depth, 1);
+  EXPECT_EQ(wall.outline.outer, (Ring{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}));
+
+  EXPECT_EQ(beam.type, BodyType::dynamic_body);
+  EXPECT_EQ(beam.outline.holes, (std::vector<Ring>{{{1, 0.2}, {2, 0.2}, {2, 0.4}}}));
+  EXPECT_EQ(beam.depth, 0.5);
+  EXPECT_EQ(beam.pieces, 10);
+  EXPECT_EQ(beam.along, (std::array<Point, 2>{{{0, 0.5}, {20, 0.5}}}));
+  EXPECT_FALSE(beam.automatic);
+  EXPECT_EQ(beam.material, (Material{.yield_stress = 350e6,
+                                     .yield_stress_compression = 340e6,
+                                     .shear_yield_stress = 200e6,
+                                     .youngs_modulus = 210e9,
+                                     .criterion = Criterion::von_mises,
+                                     .density = 7800,
+                                     .ultimate_stress = 490e6,
+                                     .fracture_strain = 0.25,
+                                     .damping_ratio = 0.1,
+                                     .friction = 0.6,
+                                     .restitution = 0.3}));
+  EXPECT_EQ(beam.joint.moment, 1e7);
+  EXPECT_EQ(beam.joint.moment_reverse, 2e7);
+  EXPECT_EQ(beam.joint.axial, unlimited);
+  EXPECT_EQ(beam.joint.axial_compression, 3);
+  EXPECT_EQ(beam.joint.shear, 0);
+  EXPECT_EQ(beam.joint.elastic, Elasticity::frequency);
+  EXPECT_EQ(beam.joint.frequency, 2);
+  EXPECT_EQ(beam.joint.damping_ratio, 0.7);
+  EXPECT_EQ(beam.joint.max_rotation, 3);
+  EXPECT_EQ(beam.joint.max_elongation, 0.1);
+  EXPECT_EQ(beam.joint.max_compression, unlimited);
+  EXPECT_EQ(beam.joint.max_slip, 0.2);
+  EXPECT_EQ(beam.joint.hinge_length, 0.5);
+
+  EXPECT_EQ(wheel.type, BodyType::kinematic_body);
+  EXPECT_EQ(wheel.circle, 0.4);
+  EXPECT_EQ(wheel.at, (Point{30, 2}));
+  EXPECT_EQ(wheel.angle, 0.5);
+  EXPECT_EQ(wheel.velocity, (Point{1, 2}));
+  EXPECT_EQ(wheel.angular_velocity, 3);
+  EXPECT_EQ(wheel.material, materials::S355);
+  EXPECT_EQ(wheel.group, -2);
+
+  ASSERT_EQ(girder.profile.size(), 1u);
+  EXPECT_EQ(girder.profile[0].material.yield_stress, 235e6);
+  EXPECT_EQ(girder.material, materials::S235);
+  EXPECT_EQ(girder.cuts, (std::vector<std::array<Point, 2>>{{{{5, 4}, {5, 7}}}, {{{10, 4}, {10, 7}}}}));
+  EXPECT_TRUE(arm.automatic);
+
+  ASSERT_EQ(scene.joints.size(), 3u);
+  EXPECT_EQ(scene.joints[0].a, "wall");
+  EXPECT_EQ(scene.joints[0].b, "beam");
+  EXPECT_EQ(scene.joints[0].gap, 0.01);
+  EXPECT_EQ(scene.joints[0].overrides.moment, 1e7);
+  EXPECT_EQ(scene.joints[0].overrides.elastic, Elasticity::rigid);
+  EXPECT_EQ(scene.joints[1].overrides.elastic, Elasticity::true_stiffness);
+  EXPECT_EQ(scene.joints[2].overrides.elastic, Elasticity::elastic_rotation);
+  EXPECT_EQ(scene.joints[2].overrides.elastic_rotation, 0.02);
+  EXPECT_EQ(scene.joints[2].overrides.frequency, 3);
+
+  ASSERT_EQ(scene.supports.size(), 1u);
+  EXPECT_EQ(scene.supports[0].at, (Point{20, 0.5}));
+  EXPECT_FALSE(scene.supports[0].fix_x);
+  EXPECT_TRUE(scene.supports[0].fix_y);
+  EXPECT_TRUE(scene.supports[0].fix_angle);
+
+  ASSERT_EQ(scene.loads.size(), 2u);
+  EXPECT_EQ(scene.loads[0].force, (Point{0, -1e6}));
+  EXPECT_EQ(scene.loads[0].moment, 5);
+  EXPECT_EQ(scene.loads[0].from, 1);
+  EXPECT_EQ(scene.loads[0].ramp, 2);
+  EXPECT_EQ(scene.loads[0].to, 9);
+  EXPECT_EQ(scene.loads[1].to, unlimited);
+
+  ASSERT_EQ(scene.wheels.size(), 1u);
+  EXPECT_EQ(scene.wheels[0].chassis, "beam");
+  EXPECT_EQ(scene.wheels[0].wheel, "wheel");
+  EXPECT_EQ(scene.wheels[0].axis, (Point{1, 1}));
+  EXPECT_EQ(scene.wheels[0].frequency, 5);
+  EXPECT_EQ(scene.wheels[0].damping_ratio, 0.6);
+  EXPECT_EQ(scene.wheels[0].motor_speed, -40);
+  EXPECT_EQ(scene.wheels[0].motor_torque, 1000);
+}
+
+TEST(SceneFile, EveryKeyIsRead) { expect_everything(parse_scene(everything)); }
+
+TEST(SceneFile, WhatIsWrittenReadsBackTheSame) {
+  const std::string text = scene_text(parse_scene(everything));
+  expect_everything(parse_scene(text));
+  EXPECT_EQ(scene_text(parse_scene(text)), text);
+}
+
+TEST(SceneFile, DefaultsAreTheReferences) {
+  const SceneDef scene = parse_scene(R"({"bodies": []})");
+  EXPECT_EQ(scene.gravity, (Point{0, -9.81}));
+  EXPECT_EQ(scene.gravity_ramp, 0);
+  EXPECT_FALSE(scene.sleep);
+  EXPECT_FALSE(scene.interaction);
+  EXPECT_EQ(scene_text(scene), "{\n  \"bodies\": []\n}\n");
+}
+
+TEST(SceneFile, ASceneMayRedefineABuiltInMaterial) {
+  const SceneDef scene = parse_scene(R"({"materials": {"S355": {"density": 1, "E": 2, "fy": 3}},
+    "bodies": [{"name": "a", "outline": [[0,0],[1,0],[1,1]], "material": "S355"}]})");
+  EXPECT_EQ(scene.bodies[0].material->yield_stress, 3);
+}
+
+class SceneFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "ductile.XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  fs::path folder;
+};
+
+TEST_F(SceneFolder, NamesFilesRelativeToItself) {
+  write("crane.svg",
+        R"(<svg viewBox="0 0 2000 1000"><rect id="arm" y="400" width="2000" height="100"/></svg>)");
+  write("strip.json", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": "S235"}]})");
+  write("crane.scene.json", R"({"bodies": [
+    {"name": "arm", "outline": "crane.svg#arm", "scale": 0.001, "material": "S355", "split": "auto"},
+    {"name": "girder", "outline": [[0,0],[20,0],[20,1],[0,1]], "profile": "strip.json"}]})");
+  const SceneDef scene = read_scene(folder / "crane.scene.json");
+  EXPECT_EQ(scene.bodies[0].outline.outer, (Ring{{0, 0.6}, {2, 0.6}, {2, 0.5}, {0, 0.5}}));
+  ASSERT_EQ(scene.bodies[1].profile.size(), 1u);
+  EXPECT_EQ(scene.bodies[1].profile[0].material, materials::S235);
+}
+
+TEST_F(SceneFolder, ErrorsInAFileThatItNamesAreSaidOfThatFile) {
+  write("crane.svg", R"(<svg viewBox="0 0 20 10"><path id="arm" d="M 0 0 L x"/></svg>)");
+  write("strip.json", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": "gold"}]})");
+  write("crane.scene.json", R"({"bodies": [
+    {"name": "arm", "outline": "crane.svg#arm", "scale": 0.001},
+    {"name": "lost", "outline": "lost.svg#arm", "scale": 0.001},
+    {"name": "lost again", "outline": "lost.svg#leg", "scale": 0.001},
+    {"name": "girder", "outline": [[0,0],[20,0],[20,1],[0,1]], "profile": "strip.json"}]})");
+  try {
+    read_scene(folder / "crane.scene.json");
+    FAIL() << "should throw";
+  } catch (const InvalidInput& error) {
+    ASSERT_EQ(error.problems().size(), 3u) << error.what();
+    EXPECT_EQ(error.problems()[0].place, (folder / "crane.svg").string() + ":#arm, path command 2");
+    EXPECT_EQ(error.problems()[1].place, (folder / "lost.svg").string());
+    EXPECT_EQ(error.problems()[2].place, (folder / "strip.json").string() + ":regions[0].material");
+  }
+}
+
+struct Bad {
+  const char* name;
+  std::string text, place;
+};
+std::ostream& operator<<(std::ostream& out, const Bad& bad) { return out << bad.name; }
+class BadScene : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadScene, IsRefusedWithItsPlace) {
+  std::string said;
+  try {
+    parse_scene(GetParam().text, "bad.json");
+  } catch (const InvalidInput& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(said.find("bad.json:" + GetParam().place), 0u) << said;
+}
+
+std::string body(const std::string& rest) {
+  return R"({"bodies": [{"name": "a", "outline": [[0,0],[1,0],[1,1]], )" + rest + "}]}";
+}
+std::string material(const std::string& rest) {
+  return R"({"bodies": [], "materials": {"steel": {)" + rest + "}}}";
+}
+std::string outline(const std::string& value, const std::string& rest = "") {
+  return R"({"bodies": [{"name": "a", "outline": )" + value + rest + "}]}";
+}
+std::string joint(const std::string& rest) {
+  return R"({"bodies": [], "joints": [{"between": ["a","b"], )" + rest + "}]}";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadScene,
+    testing::Values(
+        Bad{"syntax", "{\"bodies\": [\n,]}", "2:1: "}, Bad{"trailing_text", "{\"bodies\": []} x", "1:16: "},
+        Bad{"array", "[]", "top level: "}, Bad{"number", "3", "top level: "},
+        Bad{"section", R"({"regions": []})", "top level: has \"regions\""},
+        Bad{"no_bodies", "{}", "top level: has no \"bodies\""},
+        Bad{"bodies_is_no_list", R"({"bodies": {}})", "bodies: "},
+        Bad{"unknown_key", R"({"bodies": [], "bodys": []})", "top level: the key \"bodys\""},
+        Bad{"repeated_key", R"({"bodies": [], "sleep": true, "sleep": true})",
+            "top level: the key \"sleep\" stands twice"},
+        Bad{"repeated_key_inside", R"({"bodies": [{"name": "a", "name": "b"}]})",
+            "bodies[0]: the key \"name\""},
+        Bad{"gravity", R"({"bodies": [], "gravity": -9.81})", "gravity: "},
+        Bad{"gravity_ramp", R"({"bodies": [], "gravity_ramp": -1})", "gravity_ramp: "},
+        Bad{"sleep", R"({"bodies": [], "sleep": 1})", "sleep: "},
+        Bad{"no_density", material(R"("E": 1, "fy": 1)"), "materials.steel: has no \"density\""},
+        Bad{"no_E", material(R"("density": 1, "fy": 1)"), "materials.steel: has no \"E\""},
+        Bad{"no_fy", material(R"("density": 1, "E": 1)"), "materials.steel: has no \"fy\""},
+        Bad{"negative_density", material(R"("density": -1, "E": 1, "fy": 1)"), "materials.steel.density: "},
+        Bad{"zero_fyc", material(R"("density": 1, "E": 1, "fy": 1, "fyc": 0)"), "materials.steel.fyc: "},
+        Bad{"unknown_material_key", material(R"("density": 1, "E": 1, "fy": 1, "nu": 0.3)"),
+            "materials.steel: the key"},
+        Bad{"unknown_built_in", R"({"bodies": [], "materials": {"steel": "S999"}})", "materials.steel: "},
+        Bad{"no_name", R"({"bodies": [{"outline": [[0,0],[1,0],[1,1]]}]})", "bodies[0]: has no \"name\""},
+        Bad{"no_outline", R"({"bodies": [{"name": "a"}]})", "bodies[0]: has no \"outline\""},
+        Bad{"type", body(R"("type": "floating")"), "bodies[0].type: "},
+        Bad{"unknown_material", body(R"("material": "gold")"), "bodies[0].material: "},
+        Bad{"zero_depth", body(R"("depth": 0)"), "bodies[0].depth: "},
+        Bad{"depth_and_profile",
+            body(
+                R"("depth": 1, "profile": {"regions": [{"outer": [[0,0],[1,0],[1,1]], "material": "S235"}]})"),
+            "bodies[0].profile: "},
+        Bad{"scale_of_a_ring", body(R"("scale": 2)"), "bodies[0].scale: "},
+        Bad{"outline_number", outline("3"), "bodies[0].outline: "},
+        Bad{"outline_without_id", outline("\"crane.svg\""), "bodies[0].outline: "},
+        Bad{"circle_of_nothing", outline(R"({"circle": 0})"), "bodies[0].outline.circle: "},
+        Bad{"square", outline(R"({"square": 1})"), "bodies[0].outline: has no \"circle\""},
+        Bad{"holes_in_a_circle", outline(R"({"circle": 1})", R"(, "holes": [])"), "bodies[0].holes: "},
+        Bad{"point", outline("[[0,0],[1],[1,1]]"), "bodies[0].outline[1]: "},
+        Bad{"hole", body(R"("holes": [[0,0],[1,1]])"), "bodies[0].holes[0][0]: "},
+        Bad{"split", body(R"("split": "automatic")"), "bodies[0].split: "},
+        Bad{"split_pieces", body(R"("split": {"pieces": 0})"), "bodies[0].split.pieces: "},
+        Bad{"split_half_pieces", body(R"("split": {"pieces": 2.5})"), "bodies[0].split.pieces: "},
+        Bad{"split_along", body(R"("split": {"pieces": 2, "along": [[0,0]]})"), "bodies[0].split.along: "},
+        Bad{"split_along_nothing", body(R"("split": {"pieces": 2, "along": [[1,0],[1,0]]})"),
+            "bodies[0].split.along: "},
+        Bad{"split_both", body(R"("split": {"pieces": 2, "cuts": []})"), "bodies[0].split: "},
+        Bad{"split_neither", body(R"("split": {})"), "bodies[0].split: "},
+        Bad{"group", body(R"("group": 40000)"), "bodies[0].group: "},
+        Bad{"between_one", R"({"bodies": [], "joints": [{"between": ["a"]}]})", "joints[0].between: "},
+        Bad{"between_missing", R"({"bodies": [], "joints": [{}]})", "joints[0]: has no \"between\""},
+        Bad{"negative_moment", joint(R"("moment": -1)"), "joints[0].moment: "},
+        Bad{"elastic", joint(R"("elastic": "soft")"), "joints[0].elastic: "},
+        Bad{"elastic_false", joint(R"("elastic": false)"), "joints[0].elastic: "},
+        Bad{"elastic_of_nothing", joint(R"("elastic": {"damping_ratio": 1})"), "joints[0].elastic: "},
+        Bad{"zero_hinge_length", joint(R"("hinge_length": 0)"), "joints[0].hinge_length: "},
+        Bad{"fix_nothing", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": []}]})",
+            "supports[0].fix: "},
+        Bad{"fix_z", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": ["z"]}]})",
+            "supports[0].fix[0]: "},
+        Bad{"load_nowhere", R"({"bodies": [], "loads": [{"body": "a", "force": [0,1]}]})",
+            "loads[0]: has no \"at\""},
+        Bad{"load_ramp", R"({"bodies": [], "loads": [{"body": "a", "at": [0,0], "ramp": -1}]})",
+            "loads[0].ramp: "},
+        Bad{"wheel_axis", R"({"bodies": [], "wheels": [{"between": ["a","b"], "at": [0,0], "axis": [0,0]}]})",
+            "wheels[0].axis: "}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(SceneFile, NamesAllProblemsAtOnce) {
+  try {
+    parse_scene(R"({"gravity": 1, "sleep": 2, "bodies": [{"name": 3, "outline": 4}]})", "bad.json");
+    FAIL() << "should throw";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.problems().size(), 4u) << error.what();
+  }
+}
+
+TEST(Text, IsWrittenWholeOrNotAtAll) {
+  const fs::path folder = fs::temp_directory_path() / ("ductile_text_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  write_text(folder / "a", "one");
+  fs::create_symlink("a", folder / "link");
+  write_text(folder / "link", "two");
+  EXPECT_EQ(read_text(folder / "a"), "two");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_ANY_THROW(write_text(folder / "missing" / "a", "three"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2);
+  fs::remove_all(folder);
+}
+}  // namespace

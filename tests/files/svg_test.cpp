@@ -1,0 +1,330 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ductile/files.h"
+
+namespace {
+using namespace ductile;
+using std::numbers::pi;
+
+double area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    sum += ring[j].x * ring[i].y - ring[i].x * ring[j].y;
+  }
+  return std::abs(sum) / 2;
+}
+double area(const Outline& outline) {
+  double sum = area(outline.outer);
+  for (const Ring& hole : outline.holes) sum -= area(hole);
+  return sum;
+}
+double perimeter(const Outline& outline) {
+  double sum = 0;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      sum += std::hypot(ring[i].x - ring[j].x, ring[i].y - ring[j].y);
+    }
+  };
+  add(outline.outer);
+  for (const Ring& hole : outline.holes) add(hole);
+  return sum;
+}
+struct Box {
+  double left, bottom, right, top;
+};
+Box box(const Ring& ring) {
+  Box box{ring[0].x, ring[0].y, ring[0].x, ring[0].y};
+  for (const Point& p : ring) {
+    box = {std::min(box.left, p.x), std::min(box.bottom, p.y), std::max(box.right, p.x),
+           std::max(box.top, p.y)};
+  }
+  return box;
+}
+
+std::string drawing(const std::string& content, const std::string& attributes = R"(viewBox="0 0 100 100")") {
+  return R"(<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" )"
+         R"(xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" )" +
+         attributes + ">" + content + "</svg>";
+}
+std::string path(const std::string& data, const std::string& attributes = "") {
+  return "<path id='a' d='" + data + "' " + attributes + "/>";
+}
+constexpr double tolerance = 1e-5;
+Outline outline(const std::string& content, const std::string& attributes = R"(viewBox="0 0 100 100")") {
+  return Drawing(drawing(content, attributes), "test.svg")
+      .outline("a", {.metres_per_unit = 1, .tolerance = tolerance});
+}
+
+struct Shape {
+  const char* name;
+  std::string content;
+  double area;  ///< closed form
+};
+std::ostream& operator<<(std::ostream& out, const Shape& shape) { return out << shape.name; }
+class Shapes : public testing::TestWithParam<Shape> {};
+
+// Chords within a tolerance of the curve leave at most tolerance × length of its area.
+TEST_P(Shapes, HasTheAreaOfItsClosedForm) {
+  const Outline found = outline(GetParam().content);
+  EXPECT_NEAR(area(found), GetParam().area, tolerance * perimeter(found)) << found.outer.size() << " points";
+  EXPECT_TRUE(validate(found).empty());
+}
+
+/// Of a circle, between a chord that is seen from the centre under `angle` and the smaller arc.
+double segment(double r, double angle) { return r * r / 2 * (angle - std::sin(angle)); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Svg, Shapes,
+    testing::Values(
+        Shape{"lines", path("M 1 1 L 5 1 L 5 4 Z"), 6},
+        Shape{"relative_lines", path("m 1 1 l 4 0 l 0 3 z"), 6},
+        Shape{"not_closed", path("M 1 1 L 5 1 L 5 4"), 6},
+        Shape{"closed_twice", path("M 1 1 L 5 1 L 5 4 L 1 1 Z"), 6},
+        Shape{"horizontal_and_vertical", path("M1 1H5V4H1z"), 12},
+        Shape{"relative_h_and_v", path("m1 1h4v3h-4z"), 12},
+        Shape{"repeated_commands", path("M1,1 5,1 5,4 1,4"), 12},
+        Shape{"relative_repeats", path("m1 1 4 0 0 3-4 0"), 12},
+        Shape{"terse_numbers", path("M.5.5L4.5.5 4.5+3.5.5,35e-1z"), 12},
+        Shape{"after_closing_goes_on_from_the_start", path("m5 5h10v10h-10z l2 4l2 -2z"), 94},
+        Shape{"cubic", path("M 0 0 C 0 10 10 10 10 0 Z"), 60},  // ∫ y dx = 100 ∫ 18 t²(1−t)² dt
+        Shape{"relative_cubic", path("m 20 20 c 0 10 10 10 10 0 z"), 60},
+        Shape{"smooth_cubic", path("M 0 0 C 0 10 10 10 10 0 S 20 -10 20 0 L 20 20 L 0 20 Z"), 400},
+        Shape{"smooth_after_a_line_starts_at_the_point", path("M 0 0 L 0 0 S 10 10 10 0 Z"), 30},
+        Shape{"quadratic", path("M 0 0 Q 5 10 10 0 Z"), 100. / 3},  // 2/3 of base × height 5
+        Shape{"relative_quadratic", path("m 0 0 q 5 10 10 0 z"), 100. / 3},
+        Shape{"smooth_quadratic", path("M 0 0 Q 5 10 10 0 T 20 0 V 20 H 0 Z"), 400},
+        Shape{"relative_smooth_quadratic", path("m 0 0 q 5 10 10 0 t 10 0 v 20 h -20 z"), 400},
+        Shape{"half_disc", path("M 10 0 A 5 5 0 0 1 10 10 Z"), pi * 25 / 2},
+        Shape{"arc_too_small_is_grown", path("M 10 0 A 1 1 0 0 1 10 10 Z"), pi * 25 / 2},
+        Shape{"small_arc", path("M 0 0 A 10 10 0 0 0 10 0 Z"), segment(10, pi / 3)},
+        Shape{"small_arc_other_side", path("M 0 0 A 10 10 0 0 1 10 0 Z"), segment(10, pi / 3)},
+        Shape{"large_arc", path("M 0 0 A 10 10 0 1 0 10 0 Z"), 100 * pi - segment(10, pi / 3)},
+        Shape{"large_arc_other_side", path("M 0 0 A 10 10 0 1 1 10 0 Z"), 100 * pi - segment(10, pi / 3)},
+        Shape{"arc_flags_without_separators", path("M0 0a10 10 0 1110 0z"), 100 * pi - segment(10, pi / 3)},
+        Shape{"arc_with_negative_radii", path("M 10 0 A -5 -5 0 0 1 10 10 Z"), pi * 25 / 2},
+        Shape{"turned_elliptic_arc", path("M 0 0 A 10 5 30 0 0 17.320508075688775 10 Z"), pi * 10 * 5 / 2},
+        Shape{"arc_of_no_radius_is_a_line", path("M 0 0 A 0 5 0 0 0 10 0 L 10 10 Z"), 50},
+        Shape{"rect", "<rect id='a' x='1' y='2' width='3' height='4'/>", 12},
+        Shape{"rounded_rect", "<rect id='a' width='10' height='20' rx='2' ry='3'/>", 200 - (4 - pi) * 6},
+        Shape{"rect_rounded_by_one_radius", "<rect id='a' width='10' height='20' ry='3'/>",
+              200 - (4 - pi) * 9},
+        Shape{"rect_rounded_beyond_its_half", "<rect id='a' width='10' height='10' rx='99'/>", 25 * pi},
+        Shape{"circle", "<circle id='a' cx='50' cy='50' r='20'/>", 400 * pi},
+        Shape{"ellipse", "<ellipse id='a' cx='50' cy='50' rx='20' ry='10'/>", 200 * pi},
+        Shape{"polygon", "<polygon id='a' points='0,0 10,0 10,10'/>", 50},
+        Shape{"polyline", "<polyline id='a' points='0 0 10 0,10 10 0 10'/>", 100},
+        Shape{"lengths_with_units", "<rect id='a' width='1in' height='2.54cm'/>", 96. * 96},
+        Shape{"translated", path("M0 0h2v3h-2z", "transform='translate(5,6)'"), 6},
+        Shape{"scaled", path("M0 0h2v3h-2z", "transform='scale(2)'"), 24},
+        Shape{"scaled_two_ways", path("M0 0h2v3h-2z", "transform='scale(2 -5)'"), 60},
+        Shape{"rotated", path("M0 0h2v3h-2z", "transform='rotate(33)'"), 6},
+        Shape{"rotated_about_a_point", path("M0 0h2v3h-2z", "transform='rotate(33, 7, 8)'"), 6},
+        Shape{"skewed", path("M0 0h2v3h-2z", "transform='skewX(20) skewY(-10)'"), 6},
+        Shape{"matrix", path("M0 0h2v3h-2z", "transform='matrix(1 2 3 4 5 6)'"), 12},  // |det| = 2
+        Shape{"turned_and_stretched_circle", "<circle id='a' r='5' transform='matrix(1 2 3 4 5 6)'/>",
+              50 * pi},
+        Shape{"in_groups",
+              "<g transform='scale(2)'><g transform='scale(3)'>" + path("M0 0h1v1h-1z") + "</g></g>", 36},
+        Shape{"group_of_one_shape", "<g id='a' transform='scale(2)'><g><rect width='1' height='1'/></g></g>",
+              4},
+        Shape{"used",
+              "<defs><rect id='b' width='2' height='3' transform='scale(2)'/></defs>"
+              "<g transform='scale(3)'><use id='a' href='#b' x='5' y='5'/></g>",
+              6 * 36},
+        Shape{"used_by_old_link", "<rect id='b' width='2' height='3'/><use id='a' xlink:href='#b'/>", 6},
+        Shape{"labelled", "<rect inkscape:label='a' width='2' height='3'/>", 6},
+        Shape{"prefixed", "<svg:rect xmlns:svg='http://www.w3.org/2000/svg' id='a' width='2' height='3'/>",
+              6},
+        Shape{"hole_by_turn", path("M0 0h10v10h-10z M2 2v2h2v-2z"), 96},
+        Shape{"same_turn_fills", path("M0 0h10v10h-10z M2 2h2v2h-2z"), 100},
+        Shape{"hole_by_even_odd", path("M0 0h10v10h-10z M2 2h2v2h-2z", "fill-rule='evenodd'"), 96},
+        Shape{"even_odd_in_the_style",
+              path("M0 0h10v10h-10z M2 2h2v2h-2z", "style='fill:red; fill-rule : evenodd'"), 96},
+        Shape{"even_odd_inherited", "<g fill-rule='evenodd'>" + path("M0 0h10v10h-10z M2 2h2v2h-2z") + "</g>",
+              96},
+        Shape{"hole_drawn_first", path("M2 2v2h2v-2z M0 0h10v10h-10z"), 96},
+        Shape{"hole_that_touches_the_corner", path("M0 0h10v10h-10z M0 0l2 4l2 -2z"), 94},
+        Shape{"two_holes", path("M0 0h10v10h-10z M2 2v2h2v-2z M6 6v2h2v-2z"), 92},
+        Shape{"stray_points_and_lines", path("M50 50 M0 0h10v10h-10z M20 20 l5 5 z M3 3 z"), 100}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Svg, SkewsMoveXByYAndYByX) {
+  const Box x = box(outline(path("M0 0h2v3h-2z", "transform='skewX(45)'")).outer);
+  EXPECT_NEAR(x.right - x.left, 5, 1e-12);
+  const Box y = box(outline(path("M0 0h2v3h-2z", "transform='skewY(45)'")).outer);
+  EXPECT_NEAR(y.top - y.bottom, 5, 1e-12);
+}
+
+TEST(Svg, TransformsApplyFromRightToLeft) {
+  const Box found =
+      box(outline(path("M0 0h1v1h-1z", "transform='translate(10 20) rotate(90) scale(2,3)'")).outer);
+  // (x, y) → (2x, 3y) → (−3y, 2x) → (10 − 3y, 20 + 2x), then flipped at 100
+  EXPECT_NEAR(found.left, 7, 1e-12);
+  EXPECT_NEAR(found.right, 10, 1e-12);
+  EXPECT_NEAR(found.bottom, 78, 1e-12);
+  EXPECT_NEAR(found.top, 80, 1e-12);
+}
+
+TEST(Svg, ArcsBulgeToTheSideOfTheirSweep) {
+  // Positive is clockwise on the page, so that from left to right the arc goes above the chord.
+  EXPECT_NEAR(box(outline(path("M 10 50 A 20 20 0 0 1 50 50 Z")).outer).top, 70, tolerance);
+  EXPECT_NEAR(box(outline(path("M 10 50 A 20 20 0 0 0 50 50 Z")).outer).bottom, 30, tolerance);
+}
+
+TEST(Svg, CurvesPassThroughTheirPointsWithinTheTolerance) {
+  for (const double within : {1e-1, 1e-3, 1e-5}) {
+    const Outline circle = Drawing(drawing("<circle id='a' cx='50' cy='50' r='10'/>"), "t.svg")
+                               .outline("a", {.metres_per_unit = 1, .tolerance = within});
+    double worst = 0;
+    for (std::size_t i = 0, j = circle.outer.size() - 1; i < circle.outer.size(); j = i++) {
+      const Point &p = circle.outer[i], &q = circle.outer[j];
+      EXPECT_NEAR(std::hypot(p.x - 50, p.y - 50), 10, 1e-12);
+      worst = std::max(worst, 10 - std::hypot((p.x + q.x) / 2 - 50, (p.y + q.y) / 2 - 50));
+    }
+    EXPECT_LE(worst, within);
+    EXPECT_GE(worst, within / 4) << "more points than the tolerance asks for";
+  }
+}
+
+TEST(Svg, YIsFlippedAtTheBottomOfTheViewBox) {
+  const Drawing page(
+      drawing("<rect id='a' x='10' y='20' width='30' height='40'/>", "viewBox='-5 -50 100 200'"), "t.svg");
+  const Box found = box(page.outline("a", {.metres_per_unit = 0.01}).outer);
+  EXPECT_NEAR(found.left, 0.1, 1e-14);
+  EXPECT_NEAR(found.right, 0.4, 1e-14);
+  EXPECT_NEAR(found.bottom, 0.9, 1e-14);  // (150 − 60) / 100
+  EXPECT_NEAR(found.top, 1.3, 1e-14);
+}
+
+struct Page {
+  const char* name;
+  std::string attributes;
+  double width, height;  ///< of a rectangle of 10 × 10 units, m
+};
+std::ostream& operator<<(std::ostream& out, const Page& page) { return out << page.name; }
+class Pages : public testing::TestWithParam<Page> {};
+
+TEST_P(Pages, HaveTheirPhysicalSize) {
+  const Drawing page(drawing("<rect id='a' width='10' height='10'/>", GetParam().attributes), "t.svg");
+  const Box found = box(page.outline("a").outer);
+  EXPECT_NEAR(found.right - found.left, GetParam().width, 1e-12);
+  EXPECT_NEAR(found.top - found.bottom, GetParam().height, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Svg, Pages,
+    testing::Values(
+        Page{"millimetres", "width='100mm' height='50mm' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"centimetres", "width='100cm' height='50cm' viewBox='0 0 100 50'", 0.1, 0.1},
+        Page{"inches", "width='10in' height='5in' viewBox='0 0 100 50'", 0.0254, 0.0254},
+        Page{"points", "width='72pt' height='36pt' viewBox='0 0 100 50'", 0.00254, 0.00254},
+        Page{"picas", "width='6pc' height='3pc' viewBox='0 0 100 50'", 0.00254, 0.00254},
+        Page{"quarters", "width='400Q' height='200Q' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"pixels", "width='96px' height='48px' viewBox='0 0 100 50'", 0.00254, 0.00254},
+        Page{"width_alone", "width='100mm' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"height_alone", "height='50mm' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"percent_beside", "width='100%' height='50mm' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"no_view_box", "width='96px' height='1in'", 0.00264583333333333, 0.00264583333333333},
+        Page{"fits_the_narrower", "width='200mm' height='50mm' viewBox='0 0 100 50'", 0.01, 0.01},
+        Page{"stretched", "width='200mm' height='50mm' viewBox='0 0 100 50' preserveAspectRatio='none'", 0.02,
+             0.01},
+        Page{"sliced",
+             "width='200mm' height='50mm' viewBox='0 0 100 50' preserveAspectRatio='xMidYMid slice'", 0.02,
+             0.02}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Svg, AScaleOverridesThePhysicalSize) {
+  const Drawing page(drawing("<rect id='a' width='10' height='10'/>", "width='10mm' viewBox='0 0 100 100'"),
+                     "t.svg");
+  EXPECT_NEAR(area(page.outline("a", {.metres_per_unit = 0.5})), 25, 1e-12);
+}
+
+TEST(Svg, KnowsItsShapes) {
+  const Drawing page(drawing("<g id='g'><rect id='b'/><path inkscape:label='c'/></g><text id='d'/><circle/>"),
+                     "t.svg");
+  EXPECT_EQ(page.ids(), (std::vector<std::string>{"b", "c"}));
+}
+
+struct Bad {
+  const char* name;
+  std::string content, saying;
+};
+std::ostream& operator<<(std::ostream& out, const Bad& bad) { return out << bad.name; }
+class BadDrawing : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadDrawing, NamesFileElementAndCommand) {
+  std::string said;
+  try {
+    Drawing(drawing(GetParam().content, "viewBox='0 0 100 100' width='100mm'"), "bad.svg").outline("a");
+  } catch (const InvalidInput& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(said.find("bad.svg:"), 0u) << said;
+  EXPECT_NE(said.find(GetParam().saying), std::string::npos) << said;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Svg, BadDrawing,
+    testing::Values(
+        Bad{"no_such_id", "<rect id='b'/><circle id='c'/>", "#a: is not in the drawing; its shapes are b, c"},
+        Bad{"no_data", path(""), "no area"}, Bad{"starts_with_a_line", path("L 1 1"), "path command 1"},
+        Bad{"number_first", path("1 1 L 2 2"), "path data"},
+        Bad{"unknown_command", path("M 0 0 L 1 1 X 3 3"), "path command 3"},
+        Bad{"half_a_point", path("M 0 0 L 1 1 1"), "path command 2"},
+        Bad{"letter_for_a_number", path("M 0 0 L 1 b"), "path command 2"},
+        Bad{"number_after_closing", path("M 0 0 L 1 1 Z 3"), "path command 3"},
+        Bad{"arc_flag", path("M 0 0 A 1 1 0 2 0 3 3"), "path command 2"},
+        Bad{"infinite", path("M 0 0 L 1e999 0 L 1 1"), "path command 2"},
+        Bad{"not_a_number", path("M 0 0 L nan 0 L 1 1"), "path command 2"},
+        Bad{"overflows", path("M 1e308 0 l 1e308 0 l 1e308 9 z"), "double"},
+        Bad{"two_areas", path("M0 0h1v1h-1z M3 3h1v1h-1z"), "2 separate areas"},
+        Bad{"island_in_a_hole", path("M0 0h9v9h-9z M1 1v7h7v-7z M3 3h2v2h-2z"), "2 separate areas"},
+        Bad{"only_a_line", path("M 0 0 L 10 10"), "no area"},
+        Bad{"group_of_two", "<g id='a'><rect width='1' height='1'/><rect width='1' height='1'/></g>",
+            "2 shapes"},
+        Bad{"text", "<text id='a'>x</text>", "0 shapes"},
+        Bad{"rect_without_height", "<rect id='a' width='1'/>", "height"},
+        Bad{"negative_radius", "<circle id='a' r='-1'/>", "r: is not > 0"},
+        Bad{"percent", "<circle id='a' r='10%'/>", "r: is"},
+        Bad{"unknown_unit", "<circle id='a' r='10em'/>", "em"},
+        Bad{"half_a_polygon_point", "<polygon id='a' points='0,0 1'/>", "point 1"},
+        Bad{"unknown_transform", path("M0 0h1v1z", "transform='bend(3)'"), "transform"},
+        Bad{"transform_of_too_few", path("M0 0h1v1z", "transform='matrix(1 2 3)'"), "transform"},
+        Bad{"transform_cut_off", path("M0 0h1v1z", "transform='rotate(1'"), "transform"},
+        Bad{"transform_by_style", path("M0 0h1v1z", "style='transform: rotate(3deg)'"), "transform"},
+        Bad{"flattened_by_its_transform", path("M0 0h1v1z", "transform='scale(1 0)'"), "no area"},
+        Bad{"fill_rule", path("M0 0h1v1z", "fill-rule='odd'"), "fill-rule"},
+        Bad{"fill_rule_by_sheet",
+            "<style>path { fill-rule: evenodd }</style>" + path("M0 0h10v10h-10z M2 2h2v2h-2z"), "fill-rule"},
+        Bad{"use_of_nothing", "<use id='a' href='#b'/>", "#b"},
+        Bad{"use_of_another_file", "<use id='a' href='other.svg#b'/>", "other.svg"},
+        Bad{"use_of_itself", "<use id='a' href='#a'/>", "#a"},
+        Bad{"use_in_a_circle", "<use id='a' href='#b'/><g id='b'><use href='#a'/></g>", "<use>"},
+        Bad{"nested_view", "<svg viewBox='0 0 1 1'>" + path("M0 0h1v1z") + "</svg>", "<svg>"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Svg, ADrawingWithoutSizeNeedsAScale) {
+  for (const char* attributes : {"viewBox='0 0 100 100'", "width='100' height='100' viewBox='0 0 100 100'",
+                                 "width='100%' viewBox='0 0 100 100'", "width='1cm'",
+                                 "viewBox='0 0 0 1' width='1cm'", "viewBox='0 0 1' width='1cm'",
+                                 "viewBox='0 0 1 1' width='-1cm'", "viewBox='0 0 1 1' width='1furlong'"}) {
+    EXPECT_THROW(Drawing(drawing(path("M0 0h1v1z"), attributes), "t.svg").outline("a"), InvalidInput)
+        << attributes;
+  }
+}
+
+TEST(Svg, WhatIsNoDrawingIsRefused) {
+  for (const char* text : {"", "{}", "<svg", "<svg><path></svg>", "<html/>", "\xff\xfe\x00"}) {
+    EXPECT_THROW(Drawing(std::string_view(text), "t.svg"), InvalidInput) << text;
+  }
+}
+
+TEST(Svg, AToleranceThatAsksForEndlessChordsIsRefused) {
+  const Drawing page(drawing("<circle id='a' r='5'/>"), "t.svg");
+  EXPECT_THROW(page.outline("a", {.metres_per_unit = 1, .tolerance = 1e-300}), InvalidInput);
+}
+}  // namespace
