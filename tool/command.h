@@ -1,0 +1,48 @@
+// The commands of the tool: each registers itself with its options, and returns what it prints.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "ductile/problem.h"
+
+namespace ductile::tool {
+
+/// Keys in the order in which the contract lists them.
+using Json = nlohmann::ordered_json;
+
+/// Adds one command to `app`; when it is the one that was called, parsing runs it and puts what it prints
+/// into `output`, so that nothing is printed of a command that fails.
+void add_section(CLI::App& app, std::string& output);
+void add_calibrate(CLI::App& app, std::string& output);
+void add_simulate(CLI::App& app, std::string& output);
+void add_check(CLI::App& app, std::string& output);
+void add_limit(CLI::App& app, std::string& output);
+void add_report(CLI::App& app, std::string& output);
+void add_view(CLI::App& app, std::string& output);
+
+/// Part of the contract that is still to be built.
+struct NotYet : std::runtime_error {
+  explicit NotYet(const std::string& what) : std::runtime_error(what + " is not there yet") {}
+};
+
+/// JSON of a number; null where it is infinite (unlimited) or NaN (does not exist).
+inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Runs `work`; what is wrong with its input is reported as being in `file`.
+template <class Work>
+auto in_file(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    auto problems = error.problems();
+    for (Problem& problem : problems) problem.place = file + ":" + problem.place;
+    throw InvalidInput(std::move(problems));
+  }
+}
+
+}  // namespace ductile::tool

@@ -1,0 +1,60 @@
+#include <cstdio>
+#include <iostream>
+
+#include "command.h"
+
+namespace {
+using namespace ductile;
+
+enum Exit { done = 0, failed = 1, bad_input = 2 };
+
+/// On one line, whatever names a file brings along.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+void print(const std::vector<Problem>& problems) {
+  constexpr std::size_t most = 20;
+  const std::size_t shown = problems.size() > most ? most - 1 : problems.size();
+  for (std::size_t i = 0; i < shown; ++i) std::cerr << one_line(to_string(problems[i])) << '\n';
+  if (shown < problems.size()) {
+    const std::string file = problems[shown].place.substr(0, problems[shown].place.find(':'));
+    std::cerr << one_line(file) << ": " << problems.size() - shown << " more problems; mend these first\n";
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Joints that bend, tear and absorb energy the way steel does, for Box2D bodies.", "ductile");
+  app.set_version_flag("--version", DUCTILE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Every command prints a table, or with --json one JSON object. Exit 0: done, 1: our failure, 2: bad "
+      "input.");
+  std::string output;
+  for (const auto add : {tool::add_section, tool::add_calibrate, tool::add_simulate, tool::add_check,
+                         tool::add_limit, tool::add_report, tool::add_view}) {
+    add(app, output);
+  }
+  try {
+    app.parse(argc, argv);
+    if (std::fwrite(output.data(), 1, output.size(), stdout) != output.size() || std::fflush(stdout) != 0) {
+      throw std::runtime_error("stdout cannot be written");
+    }
+    return done;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::cerr << "command line:" << one_line(error.get_name()) << ": " << one_line(error.what())
+              << "; ductile --help lists commands and options\n";
+    return bad_input;
+  } catch (const InvalidInput& error) {
+    print(error.problems());
+    return bad_input;
+  } catch (const std::exception& error) {
+    std::cerr << "ductile: " << one_line(error.what()) << '\n';
+    return failed;
+  }
+}
