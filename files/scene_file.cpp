@@ -23,6 +23,8 @@ class SceneReader {
   void outline(Object& body, const Value& value, BodyDef& def);
   Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
   std::vector<Region> profile(const Value& value);
+  /// The text of a file that the scene names; nothing after complaining at the place that names it.
+  std::optional<std::string> named_file(const Value& value, const std::string& file) const;
 
   Problems& problems_;
   fs::path folder_;
@@ -225,6 +227,16 @@ std::optional<Material> SceneReader::material(const Value& name) const {
   return built_in_material(name, names);
 }
 
+std::optional<std::string> SceneReader::named_file(const Value& value, const std::string& file) const {
+  try {
+    return read_text(folder_ / file);
+  } catch (const InvalidInput& error) {
+    for (const Problem& problem : error.problems())
+      value.wrong("'" + file + "' " + problem.what, problem.remedy);
+    return std::nullopt;
+  }
+}
+
 Outline SceneReader::drawn(const Value& value, const std::string& reference, const DrawingScale& scale) {
   const auto hash = reference.rfind('#');
   if (hash == std::string::npos || hash == 0 || hash + 1 == reference.size()) {
@@ -236,7 +248,7 @@ Outline SceneReader::drawn(const Value& value, const std::string& reference, con
   try {
     if (known == drawings_.end()) {
       known = drawings_.emplace(file, std::nullopt).first;
-      known->second.emplace(folder_ / file);
+      if (const auto text = named_file(value, file)) known->second.emplace(*text, (folder_ / file).string());
     }
     if (known->second) return known->second->outline(reference.substr(hash + 1), scale);
   } catch (const InvalidInput& error) {
@@ -274,9 +286,10 @@ void SceneReader::outline(Object& body, const Value& value, BodyDef& def) {
 std::vector<Region> SceneReader::profile(const Value& value) {
   if (value.json().is_object()) return read_regions(value);
   const auto file = value.text();
-  if (!file) return {};
+  const auto text = file ? named_file(value, *file) : std::nullopt;
+  if (!text) return {};
   try {
-    return read_section(folder_ / *file);
+    return parse_section(*text, (folder_ / *file).string());
   } catch (const InvalidInput& error) {
     return problems_.add(error.problems()), std::vector<Region>{};
   }

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 std::string read_text(const fs::path& file) {
   constexpr std::size_t most = std::size_t{256} << 20;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    throw InvalidInput({{file.string(), what, remedy}});
+    throw InvalidInput({{file.string() + ":file", what, remedy}});
   };
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) refuse("is a folder", "name a file");

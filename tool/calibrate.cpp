@@ -1,11 +1,139 @@
+#include "ductile/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "command.h"
+#include "ductile/files.h"
 
 namespace ductile::tool {
+namespace {
 
-void add_calibrate(CLI::App& app, std::string&) {
+struct Options {
+  std::string scene, to, out;
+  double target_error = 0;
+  bool json = false;
+};
+
+Json json(const Point& p) { return {p.x, p.y}; }
+Json json(const Ring& ring) {
+  Json list = Json::array();
+  for (const Point& p : ring) list.push_back(json(p));
+  return list;
+}
+
+const char* name(BodyType type) {
+  switch (type) {
+    case BodyType::static_body:
+      return "static";
+    case BodyType::kinematic_body:
+      return "kinematic";
+    default:
+      return "dynamic";
+  }
+}
+
+Json json(const Piece& piece) {
+  Json object{{"name", piece.name},
+              {"mass", piece.mass},
+              {"inertia", piece.inertia},
+              {"center", json(piece.center)},
+              {"vertices", json(piece.outline.outer)}};
+  for (const Ring& hole : piece.outline.holes) object["holes"].push_back(json(hole));
+  if (piece.circle > 0) object["circle"] = piece.circle;
+  for (const Convex& fixture : piece.fixtures) object["fixtures"].push_back(json(fixture));
+  return object;
+}
+
+Json json(const PlannedJoint& joint, const Plan& plan) {
+  return {{"name", joint.name},
+          {"between", {piece_name(plan, joint.a), piece_name(plan, joint.b)}},
+          {"anchor", json(joint.anchor)},
+          {"axis", json(joint.axis)},
+          {"N", number(joint.N)},
+          {"Nc", number(joint.Nc)},
+          {"Q", number(joint.Q)},
+          {"M", number(joint.M)},
+          {"M_reverse", number(joint.M_reverse)},
+          {"stiffness",
+           {{"N", number(joint.stiffness.N)},
+            {"Q", number(joint.stiffness.Q)},
+            {"M", number(joint.stiffness.M)}}},
+          {"damping_ratio", joint.damping_ratio},
+          {"max_rotation", number(joint.max_rotation)},
+          {"max_elongation", number(joint.max_elongation)},
+          {"max_compression", number(joint.max_compression)},
+          {"max_slip", number(joint.max_slip)},
+          {"hinge_length", joint.hinge_length},
+          {"governed_by", joint.governed_by}};
+}
+
+Json json(const Plan& plan) {
+  Json bodies = Json::array(), joints = Json::array(), left_out = Json::array();
+  for (const BodyDef& body : plan.bodies) {
+    bodies.push_back({{"name", body.name}, {"type", name(body.type)}, {"pieces", Json::array()}});
+  }
+  for (const Piece& piece : plan.pieces) {
+    bodies[static_cast<std::size_t>(piece.body)]["pieces"].push_back(json(piece));
+  }
+  for (const PlannedJoint& joint : plan.joints) joints.push_back(json(joint, plan));
+  for (const LeftOut& item : plan.left_out) {
+    left_out.push_back({{"what", item.what}, {"error", item.error}, {"time_saved", item.time_saved}});
+  }
+  return {{"bodies", std::move(bodies)}, {"joints", std::move(joints)}, {"left_out", std::move(left_out)}};
+}
+
+std::string table(const Plan& plan, const std::string& scene) {
+  double mass = 0;
+  std::size_t widest = 5;
+  for (const Piece& piece : plan.pieces) mass += piece.mass;
+  for (const PlannedJoint& joint : plan.joints) widest = std::max(widest, joint.name.size());
+  std::string text = fmt::format("{}: {} bodies, {} pieces of {:.6g} kg in all, {} joints\n\n", scene,
+                                 plan.bodies.size(), plan.pieces.size(), mass, plan.joints.size());
+  text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  governed by\n", "joint", widest,
+                      "N [N]", "Nc [N]", "Q [N]", "M [N m]", "M_reverse", "max_rot. [rad]");
+  std::vector<std::string> reasons;  // mostly the same for all: told once below
+  for (const PlannedJoint& joint : plan.joints) {
+    const auto reason = std::find(reasons.begin(), reasons.end(), joint.governed_by) - reasons.begin();
+    if (reason == std::ssize(reasons)) reasons.push_back(joint.governed_by);
+    text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n", joint.name, widest,
+                        shown(joint.N), shown(joint.Nc), shown(joint.Q), shown(joint.M),
+                        shown(joint.M_reverse), shown(joint.max_rotation), reason + 1);
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < reasons.size(); ++i) text += fmt::format("[{}] {}\n", i + 1, reasons[i]);
+  for (const LeftOut& item : plan.left_out) {
+    text += fmt::format("left out: {}, error {:.2g}, time saved {:.0f} %\n", item.what, item.error,
+                        100 * item.time_saved);
+  }
+  return text;
+}
+
+std::string run(const Options& options) {
+  if (options.target_error > 0) throw NotYet("--target-error");
+  const Plan plan = plan_of(options.scene);
+  if (!options.to.empty() && options.to != "json") throw NotYet("--to " + options.to);
+  const std::string definitions = json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
+  if (!options.out.empty()) write_text(options.out, definitions);
+  const bool print_definitions = options.json || (!options.to.empty() && options.out.empty());
+  return print_definitions ? definitions : table(plan, options.scene);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, std::string& output) {
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("calibrate", "Split a scene's bodies and calibrate their joints");
-  command->allow_extras();
-  command->callback([] { throw NotYet("ductile calibrate"); });
+  command->add_option("SCENE", options->scene, "scene file")->required();
+  command->add_option("--to", options->to, "print definitions: json, box2d, cpp or rube")
+      ->check(CLI::IsMember({"json", "box2d", "cpp", "rube"}));
+  command->add_option("--target-error", options->target_error, "relative displacement error that may be")
+      ->check(finite(0, true));
+  command->add_option("--out", options->out,
+                      "write the definitions to this file (json if --to is not given)");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, &output] { output = run(*options); });
 }
 
 }  // namespace ductile::tool

@@ -3,12 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "ductile/problem.h"
+#include "ductile/calibrate.h"
 
 namespace ductile::tool {
 
@@ -30,8 +28,8 @@ struct NotYet : std::runtime_error {
   explicit NotYet(const std::string& what) : std::runtime_error(what + " is not there yet") {}
 };
 
-/// JSON of a number; null where it is infinite (unlimited) or NaN (does not exist).
-inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// The plan of a scene file; what is wrong with the scene is said of that file.
+Plan plan_of(const std::string& scene_file);
 
 /// Runs `work`; what is wrong with its input is reported as being in `file`.
 template <class Work>
@@ -44,5 +42,16 @@ auto in_file(const std::string& file, Work work) {
     throw InvalidInput(std::move(problems));
   }
 }
+
+/// "ground" for −1.
+std::string piece_name(const Plan& plan, int piece);
+
+/// JSON of a number; null where it is infinite (unlimited) or NaN (does not exist).
+Json number(double value);
+/// The same for a table: "-" where it is unlimited or does not exist.
+std::string shown(double value);
+
+/// Accepts finite numbers from `low`; above it only where `open`.
+CLI::Validator finite(double low, bool open = false);
 
 }  // namespace ductile::tool

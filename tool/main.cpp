@@ -22,7 +22,8 @@ void print(const std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < shown; ++i) std::cerr << one_line(to_string(problems[i])) << '\n';
   if (shown < problems.size()) {
     const std::string file = problems[shown].place.substr(0, problems[shown].place.find(':'));
-    std::cerr << one_line(file) << ": " << problems.size() - shown << " more problems; mend these first\n";
+    std::cerr << one_line(file) << ":further: " << problems.size() - shown
+              << " more problems; mend these first\n";
   }
 }
 }  // namespace

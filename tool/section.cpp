@@ -64,8 +64,7 @@ std::string run(const Options& options) {
 
   std::string table = fmt::format("{}, bending direction {:g} degrees\n", options.file, options.angle);
   const auto row = [&](const char* name, double value, const char* unit, const char* meaning = "") {
-    const std::string shown = std::isfinite(value) ? fmt::format("{:.7g}", value) : "-";
-    table += fmt::format("{:<13} {:>14}", name, shown);
+    table += fmt::format("{:<13} {:>14}", name, shown(value));
     if (*unit || *meaning) table += fmt::format(" {:<{}} {}", unit, *meaning ? 5 : 0, meaning);
     while (table.back() == ' ') table.pop_back();
     table += '\n';
@@ -97,12 +96,7 @@ void add_section(CLI::App& app, std::string& output) {
       app.add_subcommand("section", "What a cross-section can carry: its capacities about one direction");
   command->add_option("FILE", options->file, "section file")->required();
   command->add_option("--angle", options->angle, "bending direction in degrees from the x axis")
-      ->check([](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
-                   ? ""
-                   : "'" + text + "' is no finite number";
-      })
+      ->check(finite(-std::numeric_limits<double>::infinity()))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });

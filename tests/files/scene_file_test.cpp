@@ -201,7 +201,7 @@ TEST_F(SceneFolder, ErrorsInAFileThatItNamesAreSaidOfThatFile) {
   } catch (const InvalidInput& error) {
     ASSERT_EQ(error.problems().size(), 3u) << error.what();
     EXPECT_EQ(error.problems()[0].place, (folder / "crane.svg").string() + ":#arm, path command 2");
-    EXPECT_EQ(error.problems()[1].place, (folder / "lost.svg").string());
+    EXPECT_EQ(error.problems()[1].place, (folder / "crane.scene.json").string() + ":bodies[1].outline");
     EXPECT_EQ(error.problems()[2].place, (folder / "strip.json").string() + ":regions[0].material");
   }
 }

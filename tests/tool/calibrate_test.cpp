@@ -1,0 +1,229 @@
+#include <cmath>
+#include <numbers>
+
+#include "run.h"
+
+namespace {
+using namespace ductile;
+using nlohmann::json;
+
+// L × h × b cantilever of a steel of its own.
+constexpr double L = 20, h = 1, b = 0.5, density = 7800, E = 210e9, fy = 350e6, fracture_strain = 0.25;
+
+std::string cantilever(const std::string& rest = "", const std::string& beam = "") {
+  return R"({"materials": {"steel": {"density": 7800, "E": 210e9, "fy": 350e6, "fracture_strain": 0.25,
+                                     "criterion": "von_mises"}},
+    "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,2],[-1,2]]},
+      {"name": "beam", "outline": [[0,0],[20,0],[20,1],[0,1]], "depth": 0.5, "material": "steel",
+       "split": {"pieces": 4, "along": [[0,0.5],[20,0.5]]})" +
+         beam + R"(}],
+    "joints": [{"between": ["wall","beam"]}])" +
+         rest + "}";
+}
+
+void expect_near(const json& value, double exact, double relative = 1e-12) {
+  ASSERT_TRUE(value.is_number()) << value;
+  EXPECT_NEAR(value.get<double>(), exact, relative * std::abs(exact));
+}
+
+const json& joint(const json& plan, const std::string& name) {
+  for (const json& joint : plan["joints"]) {
+    if (joint["name"] == name) return joint;
+  }
+  throw std::runtime_error("no joint " + name);
+}
+
+TEST(CalibrateCommand, CantileverHasTheCapsOfItsSection) {
+  const Folder folder;
+  const Ran ran = run("calibrate " + folder.write("scene.json", cantilever()) + " --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const json plan = ran.json();
+  ASSERT_EQ(plan["bodies"].size(), 2u);
+  EXPECT_EQ(plan["bodies"][0]["type"], "static");
+  const json& pieces = plan["bodies"][1]["pieces"];
+  ASSERT_EQ(pieces.size(), 4u);
+  const double m = density * L / 4 * h * b;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(pieces[i]["name"], "beam/" + std::to_string(i));
+    expect_near(pieces[i]["mass"], m);
+    expect_near(pieces[i]["inertia"], m * (L / 4 * L / 4 + h * h) / 12);
+    expect_near(pieces[i]["center"][0], (static_cast<double>(i) + 0.5) * L / 4);
+    expect_near(pieces[i]["center"][1], h / 2);
+    EXPECT_EQ(pieces[i]["vertices"].size(), 4u);
+  }
+  ASSERT_EQ(plan["joints"].size(), 4u);
+  for (const char* name : {"wall-beam/0", "beam/0-beam/1", "beam/1-beam/2", "beam/2-beam/3"}) {
+    const json& j = joint(plan, name);
+    expect_near(j["N"], b * h * fy);
+    expect_near(j["Nc"], b * h * fy);
+    expect_near(j["Q"], b * h * fy / std::numbers::sqrt3);
+    expect_near(j["M"], b * h * h / 4 * fy);
+    expect_near(j["M_reverse"], b * h * h / 4 * fy);
+    expect_near(j["axis"][0], 1);
+    EXPECT_NEAR(j["axis"][1].get<double>(), 0, 1e-12);
+    const double reach = j["between"][0] == "wall" ? L / 8 : L / 4;  // half of each neighbour
+    expect_near(j["stiffness"]["N"], E * b * h / reach);
+    expect_near(j["stiffness"]["Q"], 5. / 6 * E / 2.6 * b * h / reach);
+    expect_near(j["stiffness"]["M"], E * b * h * h * h / 12 / reach);
+    expect_near(j["max_rotation"], fracture_strain * h / (h / 2));  // ε_f L_p / y, L_p = h
+    expect_near(j["max_elongation"], fracture_strain * h);
+    EXPECT_TRUE(j["max_compression"].is_null());
+    EXPECT_TRUE(j["max_slip"].is_null());
+    EXPECT_FALSE(j["governed_by"].get<std::string>().empty());
+  }
+  EXPECT_EQ(joint(plan, "wall-beam/0")["between"], (json{"wall", "beam/0"}));
+  EXPECT_TRUE(plan["left_out"].is_array());
+}
+
+TEST(CalibrateCommand, SupportsHoldThePieceToTheGround) {
+  const Folder folder;
+  const json plan =
+      run("calibrate --json " +
+          folder.write("scene.json", cantilever(R"(, "supports": [{"body": "beam", "at": [20,0.5],
+                                                                                 "fix": ["y"]}])")))
+          .json();
+  const json& support = joint(plan, "support/0");
+  EXPECT_EQ(support["between"], (json{"ground", "beam/3"}));
+  EXPECT_EQ(support["axis"], (json{1., 0.}));
+  expect_near(support["N"], 0);         // free
+  EXPECT_TRUE(support["Q"].is_null());  // unlimited
+  expect_near(support["M"], 0);
+}
+
+TEST(CalibrateCommand, ADrawingGivesTheSamePlanAsItsRing) {
+  const Folder folder;
+  folder.write("beam.svg",
+               "<svg viewBox='0 0 20000 1000'><g transform='translate(10000 0)'>"
+               "<path id='beam' d='m-10000 0h20000v1000h-20000z'/></g></svg>");
+  std::string scene = cantilever();
+  const std::string ring = "[[0,0],[20,0],[20,1],[0,1]]";
+  scene.replace(scene.find(ring), ring.size(), R"("beam.svg#beam", "scale": 0.001)");
+  const json drawn = run("calibrate --json " + folder.write("drawn.json", scene)).json();
+  const json written = run("calibrate --json " + folder.write("written.json", cantilever())).json();
+  for (const json& j : written["joints"]) expect_near(joint(drawn, j["name"])["M"], j["M"].get<double>());
+}
+
+TEST(CalibrateCommand, PrintsATable) {
+  const Folder folder;
+  const Ran ran = run("calibrate " + folder.write("scene.json", cantilever()));
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("beam/2-beam/3"), std::string::npos);
+  EXPECT_NE(ran.out.find("4.375e+07"), std::string::npos) << ran.out;  // M = b h² fy / 4
+}
+
+TEST(CalibrateCommand, WritesDefinitionsToAFile) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  const Ran ran = run("calibrate " + scene + " --to json --out " + (folder / "plan.json").string());
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(json::parse(slurp(folder / "plan.json")), run("calibrate --json " + scene).json());
+  EXPECT_EQ(run("calibrate --to json " + scene).json(), run("calibrate --json " + scene).json());
+}
+
+TEST(CalibrateCommand, WritesNothingOfWhatFails) {
+  const Folder folder;
+  const std::string out = (folder / "plan.json").string();
+  expect_bad_input(run("calibrate " + folder.write("bad.json", "{}") + " --out " + out));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const Ran ran = run("calibrate " + folder.write("scene.json", cantilever()) + " --out " +
+                      (folder / "missing/plan.json").string());
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(ran.error_lines(), 1);
+}
+
+struct Bad {
+  const char* name;
+  std::string text, saying;
+};
+class BadScene : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadScene, ExitsWith2AndSaysWhatIsWrong) {
+  const Folder folder;
+  const std::string file = folder.write("bad.json", GetParam().text);
+  const Ran ran = run("calibrate " + file + " --json");
+  expect_bad_input(ran, GetParam().saying);
+  EXPECT_EQ(ran.err.find(file + ":"), 0u) << ran.err;
+}
+
+std::string bodies(const std::string& list) { return R"({"bodies": [)" + list + "]}"; }
+std::string body(const std::string& name, const std::string& ring,
+                 const std::string& rest = R"("type": "static")") {
+  return R"({"name": ")" + name + R"(", "outline": )" + ring + ", " + rest + "}";
+}
+const std::string square = "[[0,0],[1,0],[1,1],[0,1]]", far = "[[5,0],[6,0],[6,1],[5,1]]";
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadScene,
+    testing::Values(
+        Bad{"syntax", "{", "1:"}, Bad{"unknown_key", cantilever(R"(, "colour": 1)"), "colour"},
+        Bad{"repeated_key", cantilever(R"(, "joints": [])"), "twice"},
+        Bad{"unknown_material", cantilever("", R"(, "material": "gold")"), "twice"},
+        Bad{"same_name_twice", bodies(body("a", square) + "," + body("a", far)), "'a'"},
+        Bad{"name_with_a_slash", bodies(body("a/b", square)), "a/b"},
+        Bad{"name_with_a_hash", bodies(body("a#b", square)), "a#b"},
+        Bad{"name_with_a_dash", bodies(body("a-b", square)), "a-b"},
+        Bad{"named_ground", bodies(body("ground", square)), "ground"},
+        Bad{"dynamic_without_material", bodies(body("a", square, R"("depth": 1)")), "material"},
+        Bad{"outline_crosses_itself", bodies(body("a", "[[0,0],[1,1],[1,0],[0,1]]")), "'a'"},
+        Bad{"outline_of_two_points", bodies(body("a", "[[0,0],[1,1]]")), "'a'"},
+        Bad{"hole_outside", bodies(body("a", square, R"("type": "static", "holes": [[[5,5],[6,5],[6,6]]])")),
+            "hole"},
+        Bad{"joint_to_nobody", R"({"bodies": [], "joints": [{"between": ["a","b"]}]})", "'a'"},
+        Bad{"joint_where_nothing_touches",
+            R"({"bodies": [)" + body("a", square) + "," + body("b", far) +
+                R"(], "joints": [{"between": ["a","b"]}]})",
+            "edges do not overlap"},
+        Bad{"support_beside_the_body",
+            cantilever(R"(, "supports": [{"body": "beam", "at": [50,50], "fix": ["x"]}])"), "support"},
+        Bad{"support_of_nobody", cantilever(R"(, "supports": [{"body": "b", "at": [1,1], "fix": ["x"]}])"),
+            "'b'"},
+        Bad{"load_beside_the_body",
+            cantilever(R"(, "loads": [{"body": "beam", "at": [50,50], "force": [1,0]}])"), "load"},
+        Bad{"load_of_nobody", cantilever(R"(, "loads": [{"body": "b", "at": [1,1], "force": [1,0]}])"),
+            "'b'"},
+        Bad{"cut_that_ends_inside",
+            bodies(body("a", "[[0,0],[4,0],[4,1],[0,1]]",
+                        R"("material": "S355", "split": {"cuts": [[[2,-1],[2,0.5]]]})")),
+            "cut"},
+        Bad{"profile_of_another_height",
+            bodies(body("a", "[[0,0],[4,0],[4,1],[0,1]]",
+                        R"("material": "S355", "split": {"pieces": 2}, "profile": {"regions": [
+                           {"outer": [[0,0],[0.1,0],[0.1,0.5],[0,0.5]], "material": "S355"}]})")),
+            "profile"},
+        Bad{"drawing_missing", bodies(body("a", R"("lost.svg#a", "scale": 1)")), "lost.svg"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(CalibrateCommand, ErrorsInADrawingNameTheDrawing) {
+  const Folder folder;
+  const std::string svg =
+      folder.write("arm.svg", R"(<svg viewBox="0 0 9 9"><path id="arm" d="M 0 0 L 1"/></svg>)");
+  const Ran ran = run("calibrate " + folder.write("scene.json", bodies(body("a", R"("arm.svg#arm")"))));
+  expect_bad_input(ran, "no physical size");
+  const Ran scaled =
+      run("calibrate " + folder.write("scene.json", bodies(body("a", R"("arm.svg#arm", "scale": 1)"))));
+  expect_bad_input(scaled, "path command 2");
+  EXPECT_EQ(scaled.err.find(svg + ":#arm"), 0u) << scaled.err;
+}
+
+TEST(CalibrateCommand, OptionsOutOfRangeAreBadInput) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  expect_bad_input(run("calibrate " + scene + " --to fortran"));
+  expect_bad_input(run("calibrate " + scene + " --target-error -1"));
+  expect_bad_input(run("calibrate " + scene + " --target-error nan"));
+  expect_bad_input(run("calibrate"));
+}
+
+TEST(CalibrateCommand, SaysWhatIsNotThereYet) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  for (const char* to : {"box2d", "cpp", "rube"}) {
+    const Ran ran = run("calibrate " + scene + " --to " + to);
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find(to), std::string::npos) << ran.err;
+  }
+}
+}  // namespace

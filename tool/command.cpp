@@ -1,0 +1,41 @@
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ductile/files.h"
+
+namespace ductile::tool {
+
+Plan plan_of(const std::string& scene_file) {
+  const SceneDef scene = read_scene(scene_file);
+  for (const BodyDef& body : scene.bodies) {
+    if (body.automatic) throw NotYet(R"("split": "auto")");
+  }
+  return in_file(scene_file, [&] { return calibrate(scene); });
+}
+
+std::string piece_name(const Plan& plan, int piece) {
+  return piece < 0 ? "ground" : plan.pieces[static_cast<std::size_t>(piece)].name;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-"; }
+
+CLI::Validator finite(double low, bool open) {
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) {
+          return "'" + text + "' is no finite number";
+        }
+        return value < low || (open && value == low)
+                   ? fmt::format("{} is not {} {:g}", text, open ? ">" : ">=", low)
+                   : "";
+      },
+      "");
+}
+
+}  // namespace ductile::tool
