@@ -25,6 +25,7 @@ void Solver::form(std::size_t free_bodies) {
   ldlt_.analyse(static_cast<int>(free_), edges);
   for (auto* v : {&g_, &d_, &z_, &g0_, &v0_}) v->assign(bodies.size(), {});
   poses_.assign(bodies.size(), {});
+  barrier_.assign(joints.size(), {});
   factored_ = false;
   mass_ = 0;
   for (std::size_t i = 0; i < free_; ++i) mass_ += bodies[i].mass;
@@ -104,6 +105,7 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   if (h != h_) factored_ = false;
+  newton_ = false;
   h_ = h;
   for (SolverJoint& j : joints) set_law(j);
 }
@@ -122,12 +124,8 @@ double Solver::evaluate() {
   crossed_ = flows_ = false;
   for (SolverJoint& j : joints) {
     j.x0 = j.x;
-    const Vec3 &a = bodies[z(j.a)].v, &b = bodies[z(j.b)].v;
-    j.x = {j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w +
-               j.bu * b.w + j.law.bias[0],
-           -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w +
-               j.bv * b.w + j.law.bias[1],
-           b.w - a.w + j.law.bias[2]};
+    j.x = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    for (unsigned i = 0; i < 3; ++i) j.x[i] += j.law.bias[i];
     const unsigned piece = respond(j.law, j.x, j.impulse);
     crossed_ |= piece != j.piece;
     flows_ |= piece != 0;
@@ -136,6 +134,14 @@ double Solver::evaluate() {
     scatter(j, j.impulse);
   }
   return norm_of_gradient();
+}
+
+// J v
+Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) {
+  return {
+      j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
+      -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
+      b.w - a.w};
 }
 
 // g_ += Jᵀ s
@@ -169,6 +175,21 @@ double Solver::objective() const {
   return f;
 }
 
+void Solver::factor_tangents() {
+  for (SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) {
+      j.slope[i] = tangent(j.law, j.piece, i);
+      if (short_step_ && flows(j.piece, i)) j.slope[i] = std::max(j.slope[i], j.impulse[i] / j.x[i]);
+    }
+    j.factored = static_cast<std::uint8_t>((j.piece | j.piece >> 3) & 7);
+  }
+  factor();
+  newton_ = !short_step_;
+  changed_ = 0;
+  rate_ = 1e-3;
+}
+
+// H = M + Jᵀ diag(slope) J
 void Solver::factor() {
   ldlt_.clear();
   for (std::size_t i = 0; i < free_; ++i) {
@@ -177,20 +198,14 @@ void Solver::factor() {
     d[0] = d[4] = b.mass;
     d[8] = b.inertia > 0 ? b.inertia : 1;
   }
-  for (SolverJoint& j : joints) {
-    Rows G;
-    for (unsigned i = 0; i < 3; ++i) {
-      G[i] = tangent(j.law, j.piece, i);
-      if (short_step_ && flows(j.piece, i)) G[i] = std::max(G[i], j.impulse[i] / j.x[i]);
-    }
-    j.factored = static_cast<std::uint8_t>((j.piece | j.piece >> 3) & 7);
+  for (const SolverJoint& j : joints) {
     const bool free_a = z(j.a) < free_, free_b = z(j.b) < free_;
     const double rot_a = bodies[z(j.a)].inertia > 0 ? 1 : 0, rot_b = bodies[z(j.b)].inertia > 0 ? 1 : 0;
     const double A[9] = {-j.axis_a.c, -j.axis_a.s, rot_a * j.au, j.axis_a.s, -j.axis_a.c, rot_a * j.av,
                          0,           0,           -rot_a};
     const double B[9] = {j.axis_b.c, j.axis_b.s, rot_b * j.bu, -j.axis_b.s, j.axis_b.c, rot_b * j.bv,
                          0,          0,          rot_b};
-    const auto add = [&G](double* block, const double* left, const double* right) {
+    const auto add = [&G = j.slope](double* block, const double* left, const double* right) {
       for (unsigned r = 0; r < 3; ++r) {
         for (unsigned c = 0; c < 3; ++c) {
           for (unsigned i = 0; i < 3; ++i) block[3 * r + c] += left[3 * i + r] * G[i] * right[3 * i + c];
@@ -209,7 +224,6 @@ void Solver::factor() {
   }
   ldlt_.factor();
   factored_ = true;
-  changed_ = 0;
 }
 
 // Zero of f'(t) = ∇f(v0 + t d)·d, which rises monotonically and is piecewise linear. Called after evaluate()
@@ -287,9 +301,9 @@ bool Solver::solve(SolveReport& report) {
   // hand. With a fresh factor a round is a Newton step.
   const double round_work = static_cast<double>(ldlt_.solve_work() + 3 * joints.size());
   const double factor_work = static_cast<double>(ldlt_.factor_work() + 3 * joints.size());
-  bool newton = false;     // the factor is of this step: tangents, not secants
   bool conjugate = false;  // d_ continues the last one
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
+  bool smoothed = false;   // interior_point() was called
   double zg = 0;
   int round = 0;
   short_step_ = false;
@@ -298,11 +312,17 @@ bool Solver::solve(SolveReport& report) {
     // contraction.
     const double by_rate = rate_ < 1 ? std::log(norm / target()) / (-2 * std::log(rate_)) : factor_work;
     const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
-    const bool stale = !newton || changed_ > 0 || short_step_;
+    const bool stale = !newton_ || changed_ > 0 || short_step_;
+    if (round == newton_rounds && !smoothed) {
+      // Many rows change their state against each other: find out which, the robust way, and go on from
+      // there.
+      report.factorisations += interior_point();
+      norm = evaluate();
+      smoothed = searched = true;
+    }
     if (!factored_ || searched || (stale && (expected - 1) * round_work > factor_work)) {
-      factor();
+      factor_tangents();
       ++report.factorisations;
-      newton = !short_step_;
       conjugate = false;
     }
     std::copy_n(g_.begin(), free_, z_.begin());
@@ -323,7 +343,7 @@ bool Solver::solve(SolveReport& report) {
     }
     zg = zg_new;
     conjugate = true;
-    const bool exact = newton && beta == 0 && changed_ == 0;
+    const bool exact = newton_ && beta == 0 && changed_ == 0;
     const double before = norm;
     norm = evaluate();
     searched = crossed_;
@@ -392,70 +412,76 @@ void Solver::flow(SolverJoint& j, const Rows& before) const {
   }
 }
 
-// ∇ of ½|x − goal|²_M + ½ Σ G (gap − x0)² over the rows that hold, into g_; the second term's value is
-// returned.
+// ½|x − goal|²_M + ½ Σ G (gap − x0)² over the rows that hold; its gradient into g_.
 double Solver::evaluate_poses(std::span<const Pose> goal) {
-  double strain = 0;
+  double sum = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
-    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y;
+    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y, dw = b.pose.angle - goal[i].angle;
     g_[i] = {b.mass * (b.turn.c * dx + b.turn.s * dy), b.mass * (b.turn.c * dy - b.turn.s * dx),
-             b.inertia * (b.pose.angle - goal[i].angle)};
+             b.inertia * dw};
+    sum += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
   }
   for (SolverJoint& j : joints) {
     locate(j);
     Rows s;
     for (unsigned i = 0; i < 3; ++i) {
-      s[i] = tangent(j.law, j.piece, i) * (j.gap[i] - j.x0[i]);
-      strain += s[i] * (j.gap[i] - j.x0[i]) / 2;
+      const double strain = j.gap[i] - j.x0[i];
+      s[i] = tangent(j.law, j.piece, i) * strain;
+      sum += s[i] * strain / 2;
     }
     scatter(j, s);
   }
-  return strain;
+  return sum;
 }
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
-  if (changed_ > 0 || !factored_) factor();
-  double reach = 0, given = 0;  // farthest coordinate; ½|goal − x|²_M
-  for (std::size_t i = 0; i < free_; ++i) {
-    const SolverBody& b = bodies[i];
-    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y, dw = b.pose.angle - goal[i].angle;
-    given += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
-    reach = std::max({reach, std::abs(b.pose.x), std::abs(b.pose.y), 1.0});
-  }
+  short_step_ = false;
+  if (changed_ > 0 || !factored_) factor_tangents();
   for (SolverJoint& j : joints) j.x0 = j.gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
-  double strain = 0;
+  double reach = 1;  // farthest coordinate
+  for (std::size_t i = 0; i < free_; ++i) {
+    poses_[i] = bodies[i].pose;
+    reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
+  }
+  const double given = evaluate_poses(goal);
+  double sum = given;
   if (try_goal) {
     // Where all of it was moved alike, the goal itself is the better start.
-    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose, place(bodies[i], goal[i]);
-    strain = evaluate_poses(goal);
-    if (strain > given) {
+    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
+    sum = evaluate_poses(goal);
+    if (!(sum <= given)) {
       for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
-      strain = evaluate_poses(goal);
+      sum = evaluate_poses(goal);
     }
-  } else {
-    strain = evaluate_poses(goal);
   }
-  // Gauss–Newton; what rounding of the poses leaves of a rigid row's gap is multiplied by κ.
+  // Gauss–Newton with step halving. What rounding of the poses leaves of a rigid row's gap is multiplied by
+  // κ.
   const double rounding = rigid_ratio * std::numeric_limits<double>::epsilon() * reach;
   const double target = 1e-12 * given + rounding * rounding * mass_;
   double norm = norm_of_gradient();
-  for (int round = 0; round < 10 && norm > target; ++round) {
+  for (int round = 0; round < 12 && norm > target; ++round) {
     std::copy_n(g_.begin(), free_, d_.begin());
     ldlt_.solve({d_.data(), free_});
-    double slope0 = 0, slope1 = 0;
-    for (std::size_t i = 0; i < free_; ++i) {
-      slope0 -= dot(g_[i], d_[i]);
-      displace(bodies[i], -1.0 * d_[i]);
+    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
+    const auto step = [&](double t) {
+      for (std::size_t i = 0; i < free_; ++i) {
+        place(bodies[i], poses_[i]);
+        displace(bodies[i], -t * d_[i]);
+      }
+      return evaluate_poses(goal);
+    };
+    const double before = sum;
+    double t = 1;
+    sum = step(t);
+    while (!(sum < before) && t > 0.01) sum = step(t /= 4);
+    if (!(sum < before)) {
+      sum = step(0);
+      norm = norm_of_gradient();
+      break;
     }
-    evaluate_poses(goal);
-    for (std::size_t i = 0; i < free_; ++i) slope1 -= dot(g_[i], d_[i]);
-    const double t = slope0 / (slope0 - slope1);
-    if (std::abs(t - 1) > 0.1 && t > 0 && t < 2) {
-      for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], (1 - t) * d_[i]);
-      evaluate_poses(goal);
-    }
+    if (t < 1) factor_tangents();
     norm = norm_of_gradient();
   }
   // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no

@@ -67,6 +67,7 @@ struct SolverJoint {
   Rows damping{};             // c, N s/m or N m s
   Rows x{}, x0{};             // J v + b at the last evaluation and the one before
   Rows m_eff{};               // effective masses of the rows at rest
+  Rows slope{};               // ds/dx that is in H
   int block = -1;             // of H, when both bodies are free
   std::uint8_t factored = 0;  // rows that were flowing in the factor at hand
 };
@@ -87,6 +88,7 @@ class Solver {
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   static constexpr double tolerance = 1e-8;
   static constexpr int round_bound = 100;
+  static constexpr int newton_rounds = 12;
 
   /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
   /// others (static and kinematic bodies): their v is known.
@@ -122,7 +124,10 @@ class Solver {
  private:
   void locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint) const;
+  void factor_tangents();
   void factor();
+  int interior_point();
+  static Rows relative(const SolverJoint& joint, const Vec3& a, const Vec3& b);
   double evaluate();
   double evaluate_poses(std::span<const Pose> goal);
   void scatter(const SolverJoint& joint, const Rows& s);
@@ -138,6 +143,7 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   bool factored_ = false;
+  bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1;          // contraction of the residual by the last round
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
@@ -148,6 +154,12 @@ class Solver {
   bool crossed_ = false;  // rows changed their state since the evaluation before
   bool flows_ = false;    // any row is beyond its cap
   std::vector<Vec3> g_, d_, z_, g0_, v0_;
+  struct Barrier {
+    Rows s, over, under;     // impulse; plastic slip beyond the cap and beyond the reverse cap, ≥ 0
+    Rows ds, dover, dunder;  // their steps
+    Rows r;                  // what is left of J v + b = s/G + z⁺ − z⁻, barrier terms included
+  };
+  std::vector<Barrier> barrier_;
   std::vector<Pose> poses_;
 };
 
