@@ -5,29 +5,10 @@
 #include <numbers>
 
 #include "ductile/calibrate.h"
+#include "scenes.h"
 
 namespace {
 using namespace ductile;
-
-const Material steel{.yield_stress = 350e6, .youngs_modulus = 210e9, .density = 7800, .fracture_strain = 0.2};
-
-Ring rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
-
-/// 20 m × 1 m × 1 m on a wall, as in docs/scene.md.
-SceneDef cantilever(int pieces) {
-  SceneDef scene;
-  scene.bodies.push_back(
-      {.name = "wall", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 0, 2), {}}});
-  scene.bodies.push_back({.name = "beam",
-                          .outline = {rectangle(0, 0, 20, 1), {}},
-                          .material = steel,
-                          .pieces = pieces,
-                          .along = {Point{0, 0.5}, Point{20, 0.5}}});
-  scene.joints.push_back({.a = "wall", .b = "beam"});
-  return scene;
-}
 
 PlannedJoint joint(const Plan& plan, const std::string& name) {
   for (const PlannedJoint& j : plan.joints)
@@ -185,8 +166,8 @@ TEST(Calibrate, ProfileGivesCapsAndMass) {
   SceneDef scene;
   scene.bodies.push_back({.name = "beam",
                           .outline = {rectangle(0, 3, 6, 3 + h), {}},
-                          .material = steel,
-                          .profile = {{{i, {}}, steel}},
+                          .material = test_steel,
+                          .profile = {{{i, {}}, test_steel}},
                           .pieces = 3});
   const Plan plan = calibrate(scene);
   const double area = 2 * b * tf + (h - 2 * tf) * tw;
@@ -213,7 +194,7 @@ TEST(Calibrate, ProfileSeenFromEitherEnd) {
   const Ring tee{{-0.1, 0},    {0.1, 0},      {0.1, 0.02},    {0.005, 0.02},
                  {0.005, 0.3}, {-0.005, 0.3}, {-0.005, 0.02}, {-0.1, 0.02}};
   SceneDef scene;
-  Material m = steel;
+  Material m = test_steel;
   m.yield_stress_compression = 100e6;
   scene.bodies.push_back(
       {.name = "l", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 0, 1), {}}});
@@ -244,7 +225,7 @@ TEST(Calibrate, SeveralIntervalsAreSeveralJoints) {
   SceneDef scene;
   scene.bodies.push_back({.name = "frame",
                           .outline = {rectangle(0, 0, 4, 3), {rectangle(1, 1, 3, 2)}},
-                          .material = steel,
+                          .material = test_steel,
                           .cuts = {{Point{2, -1}, Point{2, 4}}}});
   const Plan plan = calibrate(scene);
   ASSERT_EQ(plan.joints.size(), 2u);

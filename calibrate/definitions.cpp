@@ -1,0 +1,235 @@
+// Joints and fixtures of a plan as Box2D's definitions.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ductile/box2d.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+// A number as Box2D stores it. Subnormal floats count as vanished: Box2D divides by some of them.
+float checked(double value, const std::string& place, const char* name) {
+  const float result = static_cast<float>(value);
+  if (std::isfinite(result) && (value == 0 || std::abs(result) >= std::numeric_limits<float>::min()))
+    return result;
+  throw InvalidInput({{place, std::string(name) + " is " + to_string(value) + ", which no float holds",
+                       "keep it between 1e-37 and 1e38, or leave it unlimited"}});
+}
+
+b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
+Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.pieces[piece].center; }
+double inertia(const Plan& plan, int piece) { return piece < 0 ? 0 : plan.pieces[piece].inertia; }
+
+template <class Def>
+void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {
+  def.localAnchorA = vector(joint.anchor - center(plan, joint.a));
+  def.localAnchorB = vector(joint.anchor - center(plan, joint.b));
+}
+
+void list_what_no_stock_joint_does(std::vector<std::string>& lost, const PlannedJoint& j) {
+  if (j.stiffness.N < unlimited || j.stiffness.Q < unlimited)
+    lost.push_back("it does not stretch or shear elastically");
+  if (std::min(j.N, j.Nc) < unlimited) lost.push_back("it carries any axial force without yielding");
+  if (j.Q < unlimited) lost.push_back("it carries any shear force without yielding");
+  if (std::min({j.max_rotation, j.max_elongation, j.max_compression, j.max_slip}) < unlimited)
+    lost.push_back("it never breaks");
+}
+
+// --- polygons ---
+
+Ring hull(std::vector<Point> points) {  // Andrew's monotone chain
+  std::sort(points.begin(), points.end(),
+            [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  Ring result;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = result.size();
+    for (const Point& p : points) {
+      while (result.size() >= start + 2 && orientation(result[result.size() - 2], result.back(), p) <= 0)
+        result.pop_back();
+      result.push_back(p);
+    }
+    result.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return result;
+}
+
+// The least width of a convex ring, over all directions.
+double width(const Ring& ring) {
+  double least = unlimited;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point p = ring[i], u = unit(ring[(i + 1) % ring.size()] - p);
+    double farthest = 0;
+    for (const Point& q : ring) farthest = std::max(farthest, cross(u, q - p));
+    least = std::min(least, farthest);
+  }
+  return least;
+}
+
+// What b2PolygonShape::Set does well with: no vertices that it would weld (b2_linearSlop/2), and none so
+// nearly in line with their neighbours that its hull could stumble over the rounding of floats.
+Ring without_detail(Ring ring) {
+  double size = 0;
+  for (const Point& p : ring) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+  const double straight = std::max(double{b2_linearSlop} / 10, 4e-6 * size);
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 2;) {
+    const Point before = ring[(i + ring.size() - 1) % ring.size()], p = ring[i],
+                after = ring[(i + 1) % ring.size()];
+    const double base = length(after - before);
+    if (length(p - before) < 0.6 * b2_linearSlop || cross(p - before, after - p) < straight * base) {
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+      i = 0;
+    } else {
+      ++i;
+    }
+  }
+  return ring;
+}
+
+// The part of a convex polygon in which dot(point, normal) ≤ most.
+std::vector<AxialMoment> clipped(const std::vector<AxialMoment>& polygon, AxialMoment normal, double most) {
+  std::vector<AxialMoment> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const AxialMoment a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double over_a = a.N * normal.N + a.M * normal.M - most,
+                 over_b = b.N * normal.N + b.M * normal.M - most;
+    if (over_a <= 0) result.push_back(a);
+    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0)) {
+      const double s = over_a / (over_a - over_b);
+      result.push_back({a.N + s * (b.N - a.N), a.M + s * (b.M - a.M)});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+// --- joints ---
+
+ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint& j) {
+  ElasticPlasticJointDef def;
+  place_anchors(def, plan, j);
+  def.axisAngle = static_cast<float>(std::atan2(j.axis.y, j.axis.x));
+  const auto row = [&](double k, double cap, double reverse) {
+    return RowDef{.stiffness = k, .damping_ratio = j.damping_ratio, .cap = cap, .cap_reverse = reverse};
+  };
+  def.rows[axial] = row(j.stiffness.N, j.N, j.Nc);
+  def.rows[shear] = row(j.stiffness.Q, j.Q, j.Q);
+  def.rows[rotation] = row(j.stiffness.M, j.M, j.M_reverse);
+  def.max_rotation = j.max_rotation;
+  def.max_elongation = j.max_elongation;
+  def.max_compression = j.max_compression;
+  def.max_slip = j.max_slip;
+  if (plan.interaction) def.interaction = interaction_of(plan, j);
+  return def;
+}
+
+b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& j) {
+  b2WeldJointDef def;
+  place_anchors(def, plan, j);
+  if (j.stiffness.M == unlimited) return def;
+  // c = 2ζ√(k·I), with I as in b2AngularStiffness.
+  const double a = inertia(plan, j.a), b = inertia(plan, j.b);
+  const double I = a > 0 && b > 0 ? a * b / (a + b) : std::max(a, b);
+  def.stiffness = checked(j.stiffness.M, "joint '" + j.name + "'", "its stiffness");
+  def.damping =
+      checked(2 * j.damping_ratio * std::sqrt(j.stiffness.M * I), "joint '" + j.name + "'", "its damping");
+  return def;
+}
+
+b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& j) {
+  b2RevoluteJointDef def;
+  place_anchors(def, plan, j);
+  def.enableMotor = true;
+  const double moment = std::min(j.M, j.M_reverse);
+  def.maxMotorTorque = moment == unlimited ? std::numeric_limits<float>::max()
+                                           : checked(moment, "joint '" + j.name + "'", "its moment");
+  return def;
+}
+
+std::vector<std::string> lost_in_weld(const PlannedJoint& j) {
+  std::vector<std::string> lost;
+  if (std::max(j.M, j.M_reverse) == 0)
+    lost.push_back("it is not a pin");
+  else if (std::min(j.M, j.M_reverse) < unlimited)
+    lost.push_back("it carries any moment without yielding");
+  list_what_no_stock_joint_does(lost, j);
+  return lost;
+}
+
+std::vector<std::string> lost_in_hinge(const PlannedJoint& j) {
+  std::vector<std::string> lost;
+  if (j.stiffness.M < unlimited) lost.push_back("it does not bend elastically before it yields");
+  if (j.M != j.M_reverse) lost.push_back("it yields at the smaller moment in both senses");
+  if (std::min(j.M, j.M_reverse) == unlimited) lost.push_back("its moment is limited by what a float holds");
+  list_what_no_stock_joint_does(lost, j);
+  return lost;
+}
+
+std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j, double tolerance) {
+  std::vector<AxialMoment> result;
+  for (const double cap : {j.N, j.Nc, j.M, j.M_reverse})
+    if (cap == 0 || cap == unlimited) return result;
+  constexpr Point d{0, -1};
+  Capacities caps{.N = unlimited, .Nc = unlimited, .M = unlimited, .M_reverse = unlimited};
+  const bool inside = j.a >= 0 && plan.pieces[j.a].body == plan.pieces[j.b].body;
+  for (const int piece : {j.b, inside ? -1 : j.a}) {
+    const std::optional<Section> section = section_at(plan, j, piece);
+    if (!section) continue;
+    const Capacities own = section->capacities(d);
+    caps.N = std::min(caps.N, own.N);
+    caps.Nc = std::min(caps.Nc, own.Nc);
+    caps.M = std::min(caps.M, own.M);
+    caps.M_reverse = std::min(caps.M_reverse, own.M_reverse);
+    const std::vector<Interaction> curve = section->interaction(d, 0, tolerance);
+    if (result.empty()) {
+      for (const Interaction& p : curve) result.push_back({p.N, p.M});
+      continue;
+    }
+    for (std::size_t i = 0; i < curve.size(); ++i) {  // what lies within every edge of the other side's
+      const Interaction a = curve[i], b = curve[(i + 1) % curve.size()];
+      const AxialMoment outward{b.M - a.M, a.N - b.N};
+      result = clipped(result, outward, outward.N * a.N + outward.M * a.M);
+    }
+  }
+  if (result.empty()) return result;
+
+  // Overridden caps stretch each axis, by the larger of both senses' factors so that the polygon stays
+  // convex; the other sense is cut where its own factor puts its extreme.
+  AxialMoment most{}, least{};
+  for (const AxialMoment& p : result) {
+    most = {std::max(most.N, p.N), std::max(most.M, p.M)};
+    least = {std::min(least.N, p.N), std::min(least.M, p.M)};
+  }
+  const double n = j.N / caps.N, nc = j.Nc / caps.Nc, m = j.M / caps.M, mr = j.M_reverse / caps.M_reverse;
+  for (AxialMoment& p : result) p = {std::max(n, nc) * p.N, std::max(m, mr) * p.M};
+  if (n < nc) result = clipped(result, {1, 0}, n * most.N);
+  if (nc < n) result = clipped(result, {-1, 0}, nc * -least.N);
+  if (m < mr) result = clipped(result, {0, 1}, m * most.M);
+  if (mr < m) result = clipped(result, {0, -1}, mr * -least.M);
+  return result;
+}
+
+// --- fixtures ---
+
+std::vector<b2PolygonShape> shapes(const Piece& piece) {
+  const double w = piece.outline.outer.empty() ? 0 : width(hull(piece.outline.outer));
+  std::vector<b2PolygonShape> result;
+  for (const Convex& fixture : piece.fixtures) {
+    const Ring ring = without_detail(fixture);
+    if (ring.size() < 3 || width(ring) < b2_linearSlop) continue;
+    b2Vec2 vertices[b2_maxPolygonVertices];
+    std::transform(ring.begin(), ring.end(), vertices, vector);
+    result.emplace_back().Set(vertices, static_cast<int32>(ring.size()));
+  }
+  if (w < 4 * b2_linearSlop || result.empty())
+    throw InvalidInput({{"piece '" + piece.name + "'",
+                         "is " + to_string(w) + " m wide, and Box2D collides nothing below 0.02 m",
+                         "make it in fewer pieces, or draw it larger"}});
+  return result;
+}
+
+}  // namespace ductile

@@ -1,0 +1,68 @@
+// A Plan in Box2D: definitions of its joints for any world, and whole worlds.
+//
+// Every piece becomes a body whose origin is the piece's centre of mass and whose angle is 0 at first, so
+// that a joint's local anchors are its anchor less the centres. Numbers that Box2D takes as floats are
+// checked: one that overflows a float or vanishes in it is refused (InvalidInput), never inf or 0.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <string>
+#include <vector>
+
+#include "ductile/calibrate.h"
+#include "ductile/joint.h"
+
+namespace ductile {
+
+// --- definitions; bodyA and bodyB are the caller's to set ---
+
+/// All that the plan knows of the joint; with Plan::interaction, its N–M polygon too.
+ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint& joint);
+
+/// A stock weld: rigid, or with the joint's bending stiffness and damping.
+b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& joint);
+
+/// A plastic hinge without any of our code at run time: a stock revolute joint whose motor, at speed 0, gives
+/// way at the joint's plastic moment (the smaller of both senses).
+b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& joint);
+
+/// What of the plan a stock weld or hinge does not do, in plain words; empty where nothing is lost.
+std::vector<std::string> lost_in_weld(const PlannedJoint& joint);
+std::vector<std::string> lost_in_hinge(const PlannedJoint& joint);
+
+/// The N–M polygon of a joint, counter-clockwise from its section's exact curve within `tolerance` of its
+/// extent: of both sides where two bodies meet, stretched and cut to overridden caps. Empty where a cap is
+/// unlimited or 0, or no section is known.
+std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& joint, double tolerance = 1e-3);
+
+/// The fixtures of a piece that is not a disc, about its centre. Parts too thin for Box2D to collide (below
+/// b2_linearSlop) are left out, which costs nothing: mass comes from the outline. A piece thinner than
+/// 4 b2_linearSlop = 0.02 m in all is refused (InvalidInput).
+std::vector<b2PolygonShape> shapes(const Piece& piece);
+
+// --- worlds ---
+
+/// What a plan became in a world, which owns it all.
+struct Built {
+  std::vector<b2Body*> bodies;   ///< by Plan::pieces
+  b2Body* ground = nullptr;      ///< static, holds the supports; null where there are none
+  std::vector<b2Joint*> joints;  ///< by Plan::joints
+  std::vector<b2WheelJoint*> wheels;
+};
+
+/// Bodies with exact mass, fixtures and wheels, without the plan's joints. Pieces of one body do not collide
+/// with each other: a split body without a collision group of its own gets a negative one that is new in the
+/// world.
+Built build_bodies(b2World& world, const Plan& plan);
+
+/// The plan with stock joints that never give way: welds (with the joints' bending stiffness and damping
+/// unless `all_rigid`), and where a row is free the revolute, prismatic, wheel or motor joint that leaves it
+/// free.
+Built build_stock(b2World& world, const Plan& plan, bool all_rigid = false);
+
+/// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start. Call
+/// before each Step.
+void apply_loads(b2World& world, const Plan& plan, const Built& built, double time);
+
+}  // namespace ductile

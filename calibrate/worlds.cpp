@@ -1,0 +1,220 @@
+// A plan as bodies, fixtures and joints of a b2World.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "ductile/box2d.h"
+#include "moments.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
+// Negative collision groups that nothing in the world or the plan uses yet.
+class FreshGroups {
+ public:
+  FreshGroups(b2World& world, const Plan& plan) {
+    for (const BodyDef& body : plan.bodies) use(body.group);
+    for (b2Body* body = world.GetBodyList(); body; body = body->GetNext())
+      for (b2Fixture* fixture = body->GetFixtureList(); fixture; fixture = fixture->GetNext())
+        use(fixture->GetFilterData().groupIndex);
+  }
+  int16 next() {
+    if (lowest_ == std::numeric_limits<int16>::min())
+      throw InvalidInput({{"world", "has no collision group left", "give split bodies groups of their own"}});
+    return --lowest_;
+  }
+
+ private:
+  void use(int group) { lowest_ = static_cast<int16>(std::min<int>(lowest_, group)); }
+  int16 lowest_ = 0;
+};
+
+double area_of(const Piece& piece) {
+  return piece.circle > 0 ? std::numbers::pi * piece.circle * piece.circle : moments(piece.outline).area;
+}
+
+// Of a whole body, about which it turns.
+Point mass_centre(const Plan& plan, int body) {
+  double area = 0;
+  Point first{};
+  for (const Piece& piece : plan.pieces) {
+    if (piece.body != body) continue;
+    const double a = area_of(piece);
+    area += a;
+    first = first + a * piece.center;
+  }
+  return (1 / area) * first;
+}
+
+b2Joint* create_stock_joint(b2World& world, const Plan& plan, const PlannedJoint& j, b2Body* a, b2Body* b,
+                            bool all_rigid) {
+  const auto create = [&](auto def) {
+    def.bodyA = a;
+    def.bodyB = b;
+    return world.CreateJoint(&def);
+  };
+  const auto weld = weld_def(plan, j);
+  const auto anchored = [&](auto def) {
+    def.localAnchorA = weld.localAnchorA;
+    def.localAnchorB = weld.localAnchorB;
+    return def;
+  };
+  const auto along = [&](auto def, Point axis) {
+    def = anchored(def);
+    def.localAxisA = vector(axis);
+    return def;
+  };
+  const bool axial_free = std::max(j.N, j.Nc) == 0, shear_free = j.Q == 0,
+             turns = std::max(j.M, j.M_reverse) == 0;
+  if (axial_free && shear_free && turns) return nullptr;
+  if (axial_free && shear_free) {  // holds the angle only
+    b2MotorJointDef def;
+    def.maxForce = 0;
+    def.maxTorque = std::numeric_limits<float>::max();
+    def.correctionFactor = 1;
+    def.angularOffset = 0;
+    return create(def);
+  }
+  if (axial_free || shear_free) {
+    const Point free_axis = axial_free ? j.axis : left(j.axis);
+    if (turns) return create(along(b2WheelJointDef{}, free_axis));  // without a spring: a point on a line
+    return create(along(b2PrismaticJointDef{}, free_axis));
+  }
+  if (turns) return create(anchored(b2RevoluteJointDef{}));
+  b2WeldJointDef def = weld;
+  if (all_rigid) def.stiffness = def.damping = 0;
+  return create(def);
+}
+
+b2Body* create_ground(b2World& world, const Plan& plan) {
+  const bool needed =
+      std::any_of(plan.joints.begin(), plan.joints.end(), [](const PlannedJoint& j) { return j.a < 0; });
+  const b2BodyDef def;
+  return needed ? world.CreateBody(&def) : nullptr;
+}
+
+}  // namespace
+
+Built build_bodies(b2World& world, const Plan& plan) {
+  // Everything that can be refused is made before the world changes.
+  std::vector<std::vector<b2PolygonShape>> polygons;
+  std::vector<Problem> problems;
+  for (const Piece& piece : plan.pieces) {
+    polygons.emplace_back();
+    try {
+      if (piece.circle > 0) {
+        if (piece.circle < 2 * b2_linearSlop)
+          throw InvalidInput(
+              {{"piece '" + piece.name + "'", "is a disc of radius " + to_string(piece.circle) + " m",
+                "draw it with a radius of at least 0.01 m"}});
+      } else {
+        polygons.back() = shapes(piece);
+      }
+      const bool dynamic = plan.bodies[piece.body].type == BodyType::dynamic_body;
+      for (const double value : {piece.mass, piece.inertia})
+        if (dynamic &&
+            !(value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()))
+          throw InvalidInput({{"piece '" + piece.name + "'",
+                               "has a mass of " + to_string(piece.mass) + " kg and an inertia of " +
+                                   to_string(piece.inertia) + " kg m², which no float holds",
+                               "change its density or size"}});
+    } catch (const InvalidInput& e) {
+      problems.insert(problems.end(), e.problems().begin(), e.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InvalidInput(std::move(problems));
+  FreshGroups groups(world, plan);
+
+  Built built;
+  built.ground = create_ground(world, plan);
+  int16 group = 0;
+  Point centre;
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const Piece& piece = plan.pieces[i];
+    const BodyDef& body = plan.bodies[piece.body];
+    if (i == 0 || plan.pieces[i - 1].body != piece.body) {
+      const bool is_split = i + 1 < plan.pieces.size() && plan.pieces[i + 1].body == piece.body;
+      group = body.group == 0 && is_split ? groups.next() : body.group;
+      centre = is_split && body.angular_velocity != 0 ? mass_centre(plan, piece.body) : piece.center;
+    }
+    b2BodyDef def;
+    def.type = body.type == BodyType::dynamic_body     ? b2_dynamicBody
+               : body.type == BodyType::kinematic_body ? b2_kinematicBody
+                                                       : b2_staticBody;
+    def.position = vector(piece.center);
+    if (body.type != BodyType::static_body) {
+      def.linearVelocity = vector(body.velocity + body.angular_velocity * left(piece.center - centre));
+      def.angularVelocity = static_cast<float>(body.angular_velocity);
+    }
+    def.allowSleep = plan.sleep;
+    b2Body* created = world.CreateBody(&def);
+
+    b2FixtureDef fixture;
+    fixture.filter.groupIndex = group;
+    if (body.material) {
+      fixture.friction = static_cast<float>(body.material->friction);
+      fixture.restitution = static_cast<float>(body.material->restitution);
+    }
+    for (const b2PolygonShape& shape : polygons[i]) {
+      fixture.shape = &shape;
+      created->CreateFixture(&fixture);
+    }
+    if (piece.circle > 0) {
+      b2CircleShape disc;
+      disc.m_radius = static_cast<float>(piece.circle);
+      fixture.shape = &disc;
+      created->CreateFixture(&fixture);
+    }
+    if (body.type == BodyType::dynamic_body) {
+      // The densities only matter where a user's call makes Box2D reset the mass from the fixtures.
+      for (b2Fixture* f = created->GetFixtureList(); f; f = f->GetNext())
+        f->SetDensity(static_cast<float>(piece.mass / area_of(piece)));
+      const b2MassData mass{static_cast<float>(piece.mass), {0, 0}, static_cast<float>(piece.inertia)};
+      created->SetMassData(&mass);
+    }
+    built.bodies.push_back(created);
+  }
+
+  for (const Plan::Wheel& wheel : plan.wheels) {
+    b2WheelJointDef def;
+    def.Initialize(built.bodies[wheel.chassis], built.bodies[wheel.wheel], vector(wheel.def.at),
+                   vector(unit(wheel.def.axis)));
+    b2LinearStiffness(def.stiffness, def.damping, static_cast<float>(wheel.def.frequency),
+                      static_cast<float>(wheel.def.damping_ratio), def.bodyA, def.bodyB);
+    def.enableMotor = true;
+    def.motorSpeed = static_cast<float>(wheel.def.motor_speed);
+    def.maxMotorTorque = static_cast<float>(wheel.def.motor_torque);
+    built.wheels.push_back(static_cast<b2WheelJoint*>(world.CreateJoint(&def)));
+  }
+  return built;
+}
+
+Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {
+  Built built = build_bodies(world, plan);
+  for (const PlannedJoint& j : plan.joints)
+    built.joints.push_back(create_stock_joint(world, plan, j, j.a < 0 ? built.ground : built.bodies[j.a],
+                                              j.b < 0 ? built.ground : built.bodies[j.b], all_rigid));
+  return built;
+}
+
+void apply_loads(b2World& world, const Plan& plan, const Built& built, double time) {
+  const auto ramp = [](double t, double over) {
+    return t < 0 ? 0 : over > 0 ? std::min(1.0, t / over) : 1.0;
+  };
+  world.SetGravity(vector(ramp(time, plan.gravity_ramp) * plan.gravity));
+  for (const Plan::Load& load : plan.loads) {
+    if (time >= load.def.to) continue;
+    const double factor = ramp(time - load.def.from, load.def.ramp);
+    if (factor == 0) continue;
+    b2Body* body = built.bodies[load.piece];
+    const b2Vec2 at = body->GetWorldPoint(vector(load.at - plan.pieces[load.piece].center));
+    body->ApplyForce(vector(factor * load.def.force), at, true);
+    body->ApplyTorque(static_cast<float>(factor * load.def.moment), true);
+  }
+}
+
+}  // namespace ductile
