@@ -113,6 +113,7 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   ElasticPlasticJointDef def;
   place_anchors(def, plan, j);
   def.axisAngle = static_cast<float>(std::atan2(j.axis.y, j.axis.x));
+  if (j.a < 0) def.axisFollow = 0;  // a support's axis stays with the ground
   const auto row = [&](double k, double cap, double reverse) {
     return RowDef{.stiffness = k, .damping_ratio = j.damping_ratio, .cap = cap, .cap_reverse = reverse};
   };

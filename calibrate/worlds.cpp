@@ -90,6 +90,8 @@ b2Joint* create_stock_joint(b2World& world, const Plan& plan, const PlannedJoint
   return create(def);
 }
 
+b2Body* body_of(const Built& built, int piece) { return piece < 0 ? built.ground : built.bodies[piece]; }
+
 b2Body* create_ground(b2World& world, const Plan& plan) {
   const bool needed =
       std::any_of(plan.joints.begin(), plan.joints.end(), [](const PlannedJoint& j) { return j.a < 0; });
@@ -193,11 +195,25 @@ Built build_bodies(b2World& world, const Plan& plan) {
   return built;
 }
 
+Structure build(b2World& world, const Plan& plan, const StructureDef& def, Built* built) {
+  std::vector<ElasticPlasticJointDef> defs;
+  for (const PlannedJoint& j : plan.joints) defs.push_back(elastic_plastic_def(plan, j));
+  Built own = build_bodies(world, plan);
+  Structure structure(world, def);
+  for (std::size_t i = 0; i < defs.size(); ++i) {
+    defs[i].bodyA = body_of(own, plan.joints[i].a);
+    defs[i].bodyB = body_of(own, plan.joints[i].b);
+    own.joints.push_back(structure.create_joint(defs[i]));
+  }
+  if (built) *built = std::move(own);
+  return structure;
+}
+
 Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {
   Built built = build_bodies(world, plan);
   for (const PlannedJoint& j : plan.joints)
-    built.joints.push_back(create_stock_joint(world, plan, j, j.a < 0 ? built.ground : built.bodies[j.a],
-                                              j.b < 0 ? built.ground : built.bodies[j.b], all_rigid));
+    built.joints.push_back(
+        create_stock_joint(world, plan, j, body_of(built, j.a), body_of(built, j.b), all_rigid));
   return built;
 }
 

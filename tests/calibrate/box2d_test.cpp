@@ -154,6 +154,21 @@ TEST(World, BodiesHaveTheOutlinesMass) {
   EXPECT_EQ(built.bodies[0]->GetType(), b2_staticBody);
 }
 
+// The level-load call with ductile joints: the root carries the beam's weight, ½ q L², at rest.
+TEST(World, DuctileCantileverStandsAndCarriesItsWeight) {
+  const Plan plan = calibrate(cantilever(10));
+  b2World world({0, -9.81f});
+  Built built;
+  Structure structure = build(world, plan, {}, &built);
+  for (int i = 0; i < 900; ++i) {
+    world.Step(1 / 60.0f, 8, 3);
+    structure.update();
+  }
+  const ElasticPlasticJoint* root = structure.joints().back();
+  EXPECT_EQ(root, built.joints.back());
+  EXPECT_NEAR(-root->force(rotation) / (7800 * 9.81 * 20 * 20 / 2), 1, 1e-3);
+}
+
 TEST(World, PiecesOfOneBodyDoNotCollideButThoseOfTwoDo) {
   SceneDef scene = cantilever(4);
   BodyDef other = scene.bodies[1];

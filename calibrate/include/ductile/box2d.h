@@ -56,6 +56,9 @@ struct Built {
 /// world.
 Built build_bodies(b2World& world, const Plan& plan);
 
+/// The plan with ductile joints. Keep the structure beside the world, and call its update() after each Step.
+Structure build(b2World& world, const Plan& plan, const StructureDef& def = {}, Built* built = nullptr);
+
 /// The plan with stock joints that never give way: welds (with the joints' bending stiffness and damping
 /// unless `all_rigid`), and where a row is free the revolute, prismatic, wheel or motor joint that leaves it
 /// free.
