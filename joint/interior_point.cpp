@@ -2,11 +2,11 @@
 // but a dozen rounds suffice whatever the number of rows that change their state at once (a struck chain, a
 // collapse).
 //
-//   M (v − v*) + Jᵀ s = 0        J v + b = s/G + z⁺ − z⁻        z⁺ (F⁺ − s) = μ,   z⁻ (F⁻ + s) = μ,   μ → 0
+//   M (v − v*) + Jᵀ s = 0        J v + b = s/G + z⁺ − z⁻        z⁺ p⁺ = μ,   z⁻ p⁻ = μ,   μ → 0
 //
-// s are the impulses, kept strictly within the caps, z± ≥ 0 the plastic slips. Each round is one system with
-// the pattern of H: the slope of a row is 1/(1/G + z⁺/(F⁺ − s) + z⁻/(F⁻ + s)). Mehrotra's
-// predictor–corrector. Hardening is left out here: the Newton rounds that follow put it in.
+// s are the impulses, p⁺ = F⁺ − s and p⁻ = F⁻ + s what is left to the caps, z± the plastic slips; all p, z >
+// 0. Each round is one system with the pattern of H: the slope of a row is 1/(1/G + z⁺/p⁺ + z⁻/p⁻).
+// Mehrotra's predictor–corrector. Hardening is left out here: the Newton rounds that follow put it in.
 
 #include <algorithm>
 #include <cmath>
@@ -17,100 +17,101 @@ namespace ductile {
 
 namespace {
 constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
-constexpr double boundary = 0.995;  // share of the way to a bound that a step may go
 }  // namespace
 
 int Solver::interior_point() {
-  const auto bounded = [](double cap) { return std::isfinite(cap); };
-  // Start well inside: slips of the size of the velocities at hand.
+  constexpr double boundary = 0.995;  // share of the way to a bound that a step may go
+  constexpr double accuracy = 1e-11;  // of the work: the Newton rounds that follow need the right rows only
+  const double work = scale_ + speed_;
+
+  // Start well inside, with slips of the size of the velocities at hand.
   double slip = 0;
-  int rows = 0;
-  for (const SolverJoint& j : joints) {
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.law.G[i] > 0) || !(bounded(j.law.cap[i]) || bounded(j.law.cap_reverse[i]))) continue;
-      slip += std::abs(j.x[i]);
-      ++rows;
-    }
-  }
-  if (rows == 0) return 0;
-  slip /= rows;
-  double work = scale_ + speed_;  // J: what the slips' work is small against
+  int bounds = 0;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
-    Barrier& w = barrier_[k];
-    w = {};
     for (unsigned i = 0; i < 3; ++i) {
+      Barrier& w = barrier_[k][i];
+      w = {};
       if (!(j.law.G[i] > 0)) continue;
-      // A cap of zero leaves no inside; a share of the other one stands in for it.
-      w.s[i] = std::clamp(j.law.G[i] * j.x[i], -0.9 * j.law.cap_reverse[i], 0.9 * j.law.cap[i]);
-      if (bounded(j.law.cap[i])) w.over[i] = std::max(j.x[i], 0.0) + slip / 10;
-      if (bounded(j.law.cap_reverse[i])) w.under[i] = std::max(-j.x[i], 0.0) + slip / 10;
-      if (bounded(j.law.cap[i]) && bounded(j.law.cap_reverse[i])) {
-        const double middle = (j.law.cap[i] - j.law.cap_reverse[i]) / 2;
-        const double half = 0.9 * (j.law.cap[i] + j.law.cap_reverse[i]) / 2;
-        w.s[i] = std::clamp(j.law.G[i] * j.x[i], middle - half, middle + half);
+      const double cap[2] = {j.law.cap[i], j.law.cap_reverse[i]};
+      if (std::isinf(cap[0]) && std::isinf(cap[1])) {
+        w.s = j.law.G[i] * j.x[i];
+        continue;
+      }
+      const double inside =
+          0.05 * std::min(cap[0] + cap[1], std::abs(j.law.G[i] * j.x[i]) + std::min(cap[0], cap[1]));
+      w.s = std::clamp(j.law.G[i] * j.x[i], inside - cap[1], cap[0] - inside);
+      for (int side = 0; side < 2; ++side) {
+        w.p[side] = side == 0 ? cap[0] - w.s : cap[1] + w.s;
+        w.bounded[side] = std::isfinite(cap[side]) && w.p[side] > 0;
+        if (!w.bounded[side]) continue;
+        slip += std::abs(j.x[i]);
+        ++bounds;
       }
     }
   }
+  if (bounds == 0) return 0;
+  slip /= bounds;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    for (unsigned i = 0; i < 3; ++i) {
+      Barrier& w = barrier_[k][i];
+      const double x = joints[k].x[i];
+      w.z[0] = std::max(x, 0.0) + slip / 10;
+      w.z[1] = std::max(-x, 0.0) + slip / 10;
+    }
+  }
+
+  const auto each_bound = [this](auto&& visit) {
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      for (unsigned i = 0; i < 3; ++i) {
+        for (int side = 0; side < 2; ++side) {
+          if (barrier_[k][i].bounded[side]) visit(barrier_[k][i], side);
+        }
+      }
+    }
+  };
 
   int factorisations = 0;
   for (int round = 0; round < 40; ++round) {
-    // Complementarity, and the slopes that go with it.
-    double gap = 0;
-    int bounds = 0;
+    double gap = 0;  // Σ z p
+    each_bound([&](const Barrier& w, int side) { gap += w.z[side] * w.p[side]; });
+    if (!(gap > accuracy * work)) break;
     for (std::size_t k = 0; k < joints.size(); ++k) {
       SolverJoint& j = joints[k];
-      const Barrier& w = barrier_[k];
       for (unsigned i = 0; i < 3; ++i) {
-        j.slope[i] = 0;
-        if (!(j.law.G[i] > 0)) continue;
+        const Barrier& w = barrier_[k][i];
         double compliance = 1 / j.law.G[i];
-        if (bounded(j.law.cap[i])) {
-          compliance += w.over[i] / (j.law.cap[i] - w.s[i]);
-          gap += w.over[i] * (j.law.cap[i] - w.s[i]);
-          ++bounds;
-        }
-        if (bounded(j.law.cap_reverse[i])) {
-          compliance += w.under[i] / (j.law.cap_reverse[i] + w.s[i]);
-          gap += w.under[i] * (j.law.cap_reverse[i] + w.s[i]);
-          ++bounds;
-        }
-        j.slope[i] = 1 / compliance;
+        for (int side = 0; side < 2; ++side) compliance += w.bounded[side] ? w.z[side] / w.p[side] : 0;
+        j.slope[i] = j.law.G[i] > 0 ? 1 / compliance : 0;
       }
     }
-    if (!(gap > 1e-13 * work)) break;
-    const double mu = gap / bounds;
     factor();
     ++factorisations;
 
-    // Predictor (μ = 0), then a corrector with the centring and the second-order terms that it shows to be
-    // needed.
-    double centring = 0, step = 1;
+    // Predictor (μ = 0), then a corrector with the centring and the second-order terms that the predictor
+    // calls for.
+    double mu = 0, step = 1;
     for (const bool corrector : {false, true}) {
       for (std::size_t i = 0; i < free_; ++i) {
         const SolverBody& b = bodies[i];
         const Vec3 given = b.v - b.v_free;
         g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
       }
-      const auto residual = [&](const SolverJoint& j, const Barrier& w, unsigned i) {
-        double r = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v)[i] + j.law.bias[i] - w.s[i] / j.law.G[i];
-        if (bounded(j.law.cap[i])) {
-          const double second = corrector ? -w.ds[i] * w.dover[i] : 0;
-          r -= (centring * mu - second) / (j.law.cap[i] - w.s[i]);
-        }
-        if (bounded(j.law.cap_reverse[i])) {
-          const double second = corrector ? w.ds[i] * w.dunder[i] : 0;
-          r += (centring * mu - second) / (j.law.cap_reverse[i] + w.s[i]);
-        }
-        return r;
-      };
       for (std::size_t k = 0; k < joints.size(); ++k) {
         const SolverJoint& j = joints[k];
-        Barrier& w = barrier_[k];
-        Rows s;
+        const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+        Rows s{};
         for (unsigned i = 0; i < 3; ++i) {
-          w.r[i] = j.law.G[i] > 0 ? residual(j, w, i) : 0;
-          s[i] = w.s[i] + j.slope[i] * w.r[i];
+          if (!(j.law.G[i] > 0)) continue;
+          Barrier& w = barrier_[k][i];
+          w.r = v[i] + j.law.bias[i] - w.s / j.law.G[i];
+          for (int side = 0; side < 2; ++side) {
+            if (!w.bounded[side]) continue;
+            // dp dz of the predictor; dp = ∓ds
+            w.second[side] = corrector ? (side == 0 ? -w.ds : w.ds) * w.dz[side] : 0;
+            w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side]) / w.p[side];
+          }
+          s[i] = w.s + j.slope[i] * w.r;
         }
         scatter(j, s);
       }
@@ -119,65 +120,83 @@ int Solver::interior_point() {
         d_[i] = -1.0 * g_[i];
       }
       ldlt_.solve({d_.data(), free_});
-
-      double longest = 1;
-      const auto limit = [&](double value, double change) {
-        if (change < 0) longest = std::min(longest, -boundary * value / change);
-      };
-      double gap_after = 0;
-      for (int pass = 0; pass < 2; ++pass) {
-        for (std::size_t k = 0; k < joints.size(); ++k) {
-          const SolverJoint& j = joints[k];
-          Barrier& w = barrier_[k];
-          if (pass == 0) {
-            const Rows y = relative(j, d_[z(j.a)], d_[z(j.b)]);
-            for (unsigned i = 0; i < 3; ++i) {
-              if (!(j.law.G[i] > 0)) continue;
-              const double ds = j.slope[i] * (y[i] + w.r[i]);
-              const double second_over = corrector ? -w.ds[i] * w.dover[i] : 0;
-              const double second_under = corrector ? w.ds[i] * w.dunder[i] : 0;
-              w.ds[i] = ds;
-              if (bounded(j.law.cap[i])) {
-                const double p = j.law.cap[i] - w.s[i];
-                w.dover[i] = (centring * mu - second_over - w.over[i] * p + w.over[i] * ds) / p;
-                limit(p, -ds);
-                limit(w.over[i], w.dover[i]);
-              }
-              if (bounded(j.law.cap_reverse[i])) {
-                const double q = j.law.cap_reverse[i] + w.s[i];
-                w.dunder[i] = (centring * mu - second_under - w.under[i] * q - w.under[i] * ds) / q;
-                limit(q, ds);
-                limit(w.under[i], w.dunder[i]);
-              }
-            }
-          } else {
-            for (unsigned i = 0; i < 3; ++i) {
-              if (!(j.law.G[i] > 0)) continue;
-              if (bounded(j.law.cap[i])) {
-                gap_after += (w.over[i] + longest * w.dover[i]) * (j.law.cap[i] - w.s[i] - longest * w.ds[i]);
-              }
-              if (bounded(j.law.cap_reverse[i])) {
-                gap_after += (w.under[i] + longest * w.dunder[i]) *
-                             (j.law.cap_reverse[i] + w.s[i] + longest * w.ds[i]);
-              }
-            }
+      for (std::size_t k = 0; k < joints.size(); ++k) {
+        const SolverJoint& j = joints[k];
+        const Rows y = relative(j, d_[z(j.a)], d_[z(j.b)]);
+        for (unsigned i = 0; i < 3; ++i) {
+          Barrier& w = barrier_[k][i];
+          w.ds = j.slope[i] * (y[i] + w.r);
+          for (int side = 0; side < 2; ++side) {
+            if (!w.bounded[side]) continue;
+            const double dp = side == 0 ? -w.ds : w.ds;
+            w.dz[side] = (mu - w.second[side] - w.z[side] * dp) / w.p[side] - w.z[side];
           }
         }
-        if (corrector) break;
       }
-      step = longest;
-      centring = std::pow(std::clamp(gap_after / gap, 0.0, 1.0), 3);
+      step = 1;
+      each_bound([&](const Barrier& w, int side) {
+        const double dp = side == 0 ? -w.ds : w.ds;
+        if (dp < 0) step = std::min(step, -boundary * w.p[side] / dp);
+        if (w.dz[side] < 0) step = std::min(step, -boundary * w.z[side] / w.dz[side]);
+      });
+      if (corrector) break;
+      double after = 0;
+      each_bound([&](const Barrier& w, int side) {
+        const double dp = side == 0 ? -w.ds : w.ds;
+        after += (w.z[side] + step * w.dz[side]) * (w.p[side] + step * dp);
+      });
+      mu = std::pow(std::clamp(after / gap, 0.0, 1.0), 3) * gap / bounds;
     }
     for (std::size_t i = 0; i < free_; ++i) bodies[i].v += step * d_[i];
-    for (Barrier& w : barrier_) {
-      for (unsigned i = 0; i < 3; ++i) {
-        w.s[i] += step * w.ds[i];
-        w.over[i] += step * w.dover[i];
-        w.under[i] += step * w.dunder[i];
+    for (auto& rows : barrier_) {
+      for (Barrier& w : rows) w.s += step * w.ds;
+    }
+    each_bound([&](Barrier& w, int side) {
+      w.p[side] += step * (side == 0 ? -w.ds : w.ds);
+      w.z[side] += step * w.dz[side];
+    });
+  }
+
+  // The rows that flow are known now. Velocities are not yet good enough to tell by: a rigid row multiplies
+  // what they lack by κ. So the law is taken on those linear pieces, whatever x says, and solved there.
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    unsigned piece = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      for (unsigned side = 0; side < 2; ++side) {
+        const Barrier& w = barrier_[k][i];
+        if (w.bounded[side] && w.z[side] * joints[k].law.G[i] > w.p[side]) piece |= 1u << (i + 3 * side);
       }
     }
+    joints[k].piece = static_cast<std::uint8_t>(piece);
   }
-  factored_ = false;
+  short_step_ = false;
+  factor_tangents();
+  ++factorisations;
+  for (int refinement = 0; refinement < 2; ++refinement) {
+    for (std::size_t i = 0; i < free_; ++i) {
+      const SolverBody& b = bodies[i];
+      const Vec3 given = b.v - b.v_free;
+      g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
+    }
+    for (const SolverJoint& j : joints) {
+      const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+      Rows s;
+      for (unsigned i = 0; i < 3; ++i) {
+        const double trial = j.law.G[i] * (v[i] + j.law.bias[i]);
+        const double held = (j.piece >> i & 1) != 0         ? j.law.cap[i]
+                            : (j.piece >> (i + 3) & 1) != 0 ? -j.law.cap_reverse[i]
+                                                            : trial;
+        s[i] = held + j.law.after_yield[i] * (trial - held);
+      }
+      scatter(j, s);
+    }
+    for (std::size_t i = 0; i < free_; ++i) {
+      if (bodies[i].inertia == 0) g_[i].w = 0;
+      d_[i] = -1.0 * g_[i];
+    }
+    ldlt_.solve({d_.data(), free_});
+    for (std::size_t i = 0; i < free_; ++i) bodies[i].v += d_[i];
+  }
   return factorisations;
 }
 

@@ -318,7 +318,8 @@ bool Solver::solve(SolveReport& report) {
       // there.
       report.factorisations += interior_point();
       norm = evaluate();
-      smoothed = searched = true;
+      smoothed = true;
+      searched = conjugate = false;
     }
     if (!factored_ || searched || (stale && (expected - 1) * round_work > factor_work)) {
       factor_tangents();

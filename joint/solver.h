@@ -13,6 +13,7 @@
 // advance().
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -88,7 +89,7 @@ class Solver {
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   static constexpr double tolerance = 1e-8;
   static constexpr int round_bound = 100;
-  static constexpr int newton_rounds = 12;
+  static constexpr int newton_rounds = 5;
 
   /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
   /// others (static and kinematic bodies): their v is known.
@@ -154,12 +155,13 @@ class Solver {
   bool crossed_ = false;  // rows changed their state since the evaluation before
   bool flows_ = false;    // any row is beyond its cap
   std::vector<Vec3> g_, d_, z_, g0_, v0_;
+  // One row in interior_point(): see there. Sides: the cap and the reverse cap.
   struct Barrier {
-    Rows s, over, under;     // impulse; plastic slip beyond the cap and beyond the reverse cap, ≥ 0
-    Rows ds, dover, dunder;  // their steps
-    Rows r;                  // what is left of J v + b = s/G + z⁺ − z⁻, barrier terms included
+    double s, ds, r;
+    double p[2], z[2], dz[2], second[2];
+    bool bounded[2];
   };
-  std::vector<Barrier> barrier_;
+  std::vector<std::array<Barrier, 3>> barrier_;
   std::vector<Pose> poses_;
 };
 
