@@ -7,6 +7,7 @@ target_compile_features(ductile_options INTERFACE cxx_std_20)
 if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(ductile_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Werror
     -Wno-missing-field-initializers   # designated initialisers leave the rest at its default on purpose
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>  # which GCC's -Wconversion leaves out in C++
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false alarm of GCC 12 in std::string operator+ (GCC bug 105651)
 endif()
 
