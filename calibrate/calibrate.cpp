@@ -51,7 +51,7 @@ Box box_of(const Outline& outline) {
 // From end to end of the outline through its centroid, along the axis about which its area is most slender;
 // in the direction of x, then of y.
 std::array<Point, 2> long_axis(const Outline& outline) {
-  const Moments m = moments(outline);
+  const AreaMoments m = moments(outline);
   const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
   const Point u = std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1};
   double low = 0, high = 0;
@@ -335,7 +335,7 @@ class Planner {
     const Placement place(body);
     const Strip& strip = strips_.back();
     const int first = static_cast<int>(plan_.pieces.size()), n = static_cast<int>(parts.pieces.size());
-    std::vector<Moments> area;
+    std::vector<AreaMoments> area;
     for (const Outline& piece : parts.pieces) area.push_back(moments(piece));
 
     const std::vector<int> order = order_of(body, cuts, area);
@@ -343,7 +343,7 @@ class Planner {
     for (int i = 0; i < n; ++i) rank[order[i]] = i;
     for (int i = 0; i < n; ++i) {
       Outline& outline = parts.pieces[order[i]];
-      const Moments& m = area[order[i]];
+      const AreaMoments& m = area[order[i]];
       Piece& piece = plan_.pieces.emplace_back();
       piece.name = cuts.empty() ? body.name : body.name + '/' + std::to_string(i);
       piece.body = index;
@@ -365,7 +365,7 @@ class Planner {
   // Pieces by their projection on the line of the split, then across it; where the split has no line, by
   // lower x, then lower y in the world. What differs by less than 1e-6 of the body's size is level.
   std::vector<int> order_of(const BodyDef& body, const std::vector<Cut>& cuts,
-                            const std::vector<Moments>& area) {
+                            const std::vector<AreaMoments>& area) {
     std::vector<int> order(area.size());
     std::iota(order.begin(), order.end(), 0);
     if (cuts.empty()) return order;
@@ -376,7 +376,7 @@ class Planner {
     u = unit(u);
     const double level = 1e-6 * box_of(body.outline).diagonal();
     std::vector<std::pair<double, double>> key;
-    for (const Moments& m : area)
+    for (const AreaMoments& m : area)
       key.emplace_back(std::round(dot(m.centroid, u) / level), std::round(dot(m.centroid, left(u)) / level));
     std::sort(order.begin(), order.end(), [&](int i, int j) { return key[i] < key[j]; });
     return order;

@@ -12,9 +12,9 @@ double doubled_area(const Ring& ring) {
   return sum;
 }
 
-Moments moments(const Outline& outline) {
+AreaMoments moments(const Outline& outline) {
   // Green's theorem over the edges, about a vertex of the outline itself.
-  Moments m;
+  AreaMoments m;
   Point first{};
   const Point origin = outline.outer.empty() ? Point{} : outline.outer.front();
   const auto add = [&](const Ring& ring, double sign) {

@@ -5,7 +5,7 @@
 
 namespace ductile {
 
-struct Moments {
+struct AreaMoments {
   double area = 0;                ///< m²
   Point centroid;                 ///< m
   double xx = 0, yy = 0, xy = 0;  ///< m⁴, ∫ x² dA, ∫ y² dA, ∫ xy dA about the centroid
@@ -14,7 +14,7 @@ struct Moments {
 
 /// Of an outline, whatever the orientation of its rings; rounding grows with the outline's size, not with its
 /// distance from the origin.
-Moments moments(const Outline& outline);
+AreaMoments moments(const Outline& outline);
 
 /// Doubled signed area of a ring, positive counter-clockwise.
 double doubled_area(const Ring& ring);

@@ -83,7 +83,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   for (const Region& region : profile_->regions()) {
     const Material& m = region.material;
     const double density = m.density > 0 ? m.density : body.material ? body.material->density : 0;
-    const Moments area = moments(region.outline);
+    const AreaMoments area = moments(region.outline);
     mass += density * area.area;
     inertia += density * (area.yy + area.area * area.centroid.y * area.centroid.y);
     fracture_strain_ = std::min(fracture_strain_, m.fracture_strain);

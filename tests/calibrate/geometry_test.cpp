@@ -30,7 +30,7 @@ void expect_convex(const Ring& ring) {
 }
 
 TEST(Moments, Rectangle) {
-  const Moments m = moments({rectangle(1e6, 0, 1e6 + 4, 2), {}});
+  const AreaMoments m = moments({rectangle(1e6, 0, 1e6 + 4, 2), {}});
   EXPECT_DOUBLE_EQ(m.area, 8);
   EXPECT_EQ(m.centroid, (Point{1e6 + 2, 1}));
   EXPECT_DOUBLE_EQ(m.polar(), 8.0 * (16 + 4) / 12);
@@ -47,7 +47,7 @@ TEST(Moments, RingsOfAnyOrientation) {
 
 TEST(Moments, RightTriangle) {
   // Legs b, h: centroid at a third, ∫ r² dA = bh(b² + h²)/36.
-  const Moments m = moments({{{0, 0}, {3, 0}, {0, 5}}, {}});
+  const AreaMoments m = moments({{{0, 0}, {3, 0}, {0, 5}}, {}});
   EXPECT_DOUBLE_EQ(m.area, 7.5);
   EXPECT_DOUBLE_EQ(m.centroid.x, 1);
   EXPECT_DOUBLE_EQ(m.centroid.y, 5.0 / 3);
@@ -238,7 +238,7 @@ TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
     Random random(static_cast<std::uint64_t>(seed));
     const Outline outline = random_outline(random);
     std::vector<Cut> cuts = random_cuts(random, outline);
-    const Moments whole = moments(outline);
+    const AreaMoments whole = moments(outline);
     Split s;
     for (;;) try {
         s = split(outline, cuts, "body");
