@@ -105,19 +105,23 @@ std::vector<Interaction> Section::interaction(Point direction, double reference,
   };
 
   // The ends, where all fibres are in tension or in compression, belong to both senses.
+  const DoubleDouble h = first_moment(data_->strength, dd, s_ref),
+                     g = first_moment(data_->asymmetry, dd, s_ref);
   const auto [lowest, highest] = extent(direction);
   const double first = lowest - reference, last = highest - reference;
-  const double top = at(0, 1).M, bottom = at(0, -1).M;
-  const double left = left_by_shear(Q, data_->Q);
+  const CurvePoint tension{first, data_->N, to_double(g + h)},
+      compression{last, -data_->Nc, to_double(g - h)};
+  // The curve is highest and lowest where its slope is zero: at the reference line.
+  const double height = at(0, 1).M - at(0, -1).M;
   std::vector<Interaction> curve;
-  const CurvePoint tension{first, data_->N, at(first, 1).M}, compression{last, -data_->Nc, at(last, 1).M};
-  Walk walk(data_->N + data_->Nc, top - bottom, std::clamp(tolerance, 1e-10, 0.1), curve);
+  Walk walk(data_->N + data_->Nc, height, std::clamp(tolerance, 1e-10, 0.1), curve);
   curve.push_back({tension.N, tension.M});
   walk.refine(tension, compression, [&](double s) { return at(s, 1); });
   walk.refine({first, compression.N, compression.M}, {last, tension.N, tension.M},
               [&](double s) { return at(s, -1); });
   curve.pop_back();  // back at the start
   keep_convex(curve);
+  const double left = left_by_shear(Q, data_->Q);
   for (Interaction& point : curve) point = {left * point.N, left * point.M};
   return curve;
 }

@@ -17,52 +17,56 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 template <class Real>
 struct Root {
   Real s, F;
-  double chord;  // c there; infinite in the middle of a gap, which is not a root to be found
+  double chord;   // c there; infinite in a gap, where any s will do
+  Real reported;  // s, or the middle of the gap that it borders
 };
 
 template <class Real>
 Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start) {
   constexpr bool is_double = std::is_same_v<Real, double>;
-  // N: what the rounding of the coordinates as given may do to G. Two parts of equal strength with a gap
-  // between them are meant to be equal when they differ by no more.
-  const double rounding = 4 * epsilon * boundary.reach * (boundary.magnitude + boundary.radius);
   const double ulp = (is_double ? epsilon : epsilon * epsilon) * boundary.radius;
-  const auto in_gap = [&](const Cut<Real>& cut) {
-    return !cut.inside && std::abs(to_double(cut.difference - target)) <= rounding;
+  // N: what rounding of the coordinates as given may do to G. Two parts of equal strength with a gap between
+  // them are meant to be equal when they differ by no more.
+  const double rounding = 2 * epsilon * boundary.reach * boundary.magnitude;
+  const auto is_gap = [&](const Cut<Real>& cut) {
+    return !cut.inside && std::isfinite(cut.below) && std::isfinite(cut.above) &&
+           std::abs(to_double(cut.difference - target)) <= rounding;
   };
-  const auto middle = [&](const Cut<Real>& cut, Real s0) -> Root<Real> {
-    const double up = std::isinf(cut.above) ? -cut.below : cut.above;
-    const double down = std::isinf(cut.below) ? -cut.above : cut.below;
-    const Real t = (up - down) / 2;
-    return {s0 + t, cut.moment - cut.difference * t, std::numeric_limits<double>::infinity()};
-  };
+  const auto middle = [&](const Cut<Real>& cut, Real s) { return s + Real((cut.above - cut.below) / 2); };
 
   Real low = -boundary.radius, high = boundary.radius, s0 = start;
   double step = 2 * boundary.radius, step_before = step;
   for (;;) {
     const Cut<Real> here = cut<Real>(boundary, d, s0);
-    const bool exhausted = to_double(high - low) <= ulp;
-    if (in_gap(here) || (exhausted && !here.inside)) return middle(here, s0);
     const double rest = to_double(here.difference - target);
     (rest > 0 ? low : high) = s0;
 
     // rest − 2ct − c't² = 0, in the form that does not cancel.
     const double c = here.chord, discriminant = c * c + here.chord_slope * rest;
-    const double t = discriminant >= 0 ? rest / (c + std::sqrt(discriminant)) : rest / (2 * c);
+    const double t = rest == 0           ? 0
+                     : discriminant >= 0 ? rest / (c + std::sqrt(discriminant))
+                                         : rest / (2 * c);
     const bool in_range = discriminant >= 0 && -here.below <= t && t <= here.above && t * rest >= 0;
     const bool fine =
         is_double || std::abs(t) <= 1e-6 * boundary.radius;  // t has the digits of a double only
-    if (here.inside && (exhausted || std::abs(t) <= ulp || (in_range && fine))) {
+    const bool exhausted = to_double(high - low) <= ulp;
+    if (rest == 0 || exhausted || (here.inside && (std::abs(t) <= ulp || (in_range && fine)))) {
+      if (!here.inside) {
+        const bool gap = is_gap(here);
+        return {s0, here.moment, gap ? std::numeric_limits<double>::infinity() : 0,
+                gap ? middle(here, s0) : s0};
+      }
       const Real s = s0 + Real(t);
-      // Near a vertex the root may be the rim of a gap in which G stays at the target.
+      const Real F = here.moment - (here.difference - Real((c + here.chord_slope * t / 3) * t)) * Real(t);
+      // Near a vertex the root may be the rim of a gap.
       const double near = std::min(rounding / (2 * c), boundary.radius) + 4 * epsilon * boundary.radius;
       if (here.above - t <= near || here.below + t <= near) {
         for (const double side : {4 * near, -4 * near}) {
           const Cut<Real> probe = cut<Real>(boundary, d, s + Real(side));
-          if (in_gap(probe)) return middle(probe, s + Real(side));
+          if (is_gap(probe)) return {s, F, c, middle(probe, s + Real(side))};
         }
       }
-      return {s, here.moment - (here.difference - Real((c + here.chord_slope * t / 3) * t)) * Real(t), c};
+      return {s, F, c, s};
     }
 
     Real next = s0 + Real(t);
@@ -93,10 +97,10 @@ NeutralAxis Section::Data::neutral_axis(Point direction, DoubleDouble target) co
   const double tolerance = 5e-14 * std::abs(quick.F);
   const Point o = boundary.origin;
   if (error_s * H <= tolerance && error_G * boundary.radius <= tolerance)
-    return {quick.s, quick.F, o.x * d.x + o.y * d.y + quick.s, false};
+    return {quick.s, quick.F, o.x * d.x + o.y * d.y + quick.reported, false};
   const auto dd = unit<DoubleDouble>(direction);
   const Root<DoubleDouble> fine = search<DoubleDouble>(boundary, dd, target, quick.s);
-  return {fine.s, fine.F, to_double(dd.x * o.x + dd.y * o.y + fine.s), true};
+  return {fine.s, fine.F, to_double(dd.x * o.x + dd.y * o.y + fine.reported), true};
 }
 
 }  // namespace ductile

@@ -10,10 +10,11 @@ namespace ductile {
 
 /// Where a fully plastic section changes from tension to compression.
 struct NeutralAxis {
-  DoubleDouble s;   // coordinate along d from the local origin, m
-  DoubleDouble F;   // Σ h ∬ |s' − s| dA, N m
-  double absolute;  // coordinate along d from the origin of the caller's axes, m
-  bool cancels;     // double precision did not do
+  DoubleDouble s;  // coordinate along d from the local origin, m
+  DoubleDouble F;  // Σ h ∬ |s' − s| dA, N m
+  double
+      absolute;  // coordinate along d from the origin of the caller's axes, m; middle where it is not unique
+  bool cancels;  // double precision did not do
 };
 
 // With h = (f_t + f_c)/2 and g = (f_t − f_c)/2 the stress of a fully plastic section, the side above s0 in
@@ -33,7 +34,7 @@ struct Section::Data {
   bool one_E = true, one_f = true;  // the same in all regions
   bool f_differ = false;            // f_t ≠ f_c in some region
 
-  /// The root of G(s) = target; the middle where it is not unique.
+  /// The root of G(s) = target.
   NeutralAxis neutral_axis(Point direction, DoubleDouble target) const;
 };
 
