@@ -14,10 +14,19 @@ double Material::shear() const {
 
 namespace materials {
 std::span<const NamedMaterial> all() {
-  static const std::array list{
-      NamedMaterial{"S235", S235, "EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm"},
-      NamedMaterial{"S275", S275, "EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm"},
-      NamedMaterial{"S355", S355, "EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm"},
+  static constexpr std::string_view steel = "EN 1993-1-1:2005 Table 3.1, t ≤ 40 mm; elongation EN 10025";
+  static constexpr std::array list{
+      NamedMaterial{"S235", S235, steel},
+      NamedMaterial{"S275", S275, steel},
+      NamedMaterial{"S355", S355, steel},
+      NamedMaterial{"S420", S420, steel},
+      NamedMaterial{"S460", S460, steel},
+      NamedMaterial{"aluminium", aluminium, "EN AW-6061 T6, EN 1999-1-1:2007 Table 3.2b"},
+      NamedMaterial{"cast iron", cast_iron, "EN-GJL-250, EN 1561 Annex A"},
+      NamedMaterial{"oak", oak, "D30, EN 338:2016 Table 3"},
+      NamedMaterial{"pine", pine, "C24, EN 338:2016 Table 1"},
+      NamedMaterial{"concrete", concrete, "C30/37, EN 1992-1-1:2004 Table 3.1"},
+      NamedMaterial{"glass", glass, "float glass, EN 572-1"},
   };
   return list;
 }

@@ -1,0 +1,233 @@
+// Profiles against closed forms and published tables, and curves against their chord tolerance.
+#include "ductile/profiles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "ductile/curves.h"
+#include "shapes.h"
+#include "steel_tables.h"
+
+namespace {
+using namespace ductile;
+using namespace ductile::shapes;
+using std::numbers::pi;
+
+Section section(const Profile& profile) { return Section(profile.outline, {.yield_stress = 1}); }
+
+// ---- curves ----
+
+double distance(Point p, Point a, Point b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  const double t = std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / (x * x + y * y), 0.0, 1.0);
+  return std::hypot(p.x - a.x - t * x, p.y - a.y - t * y);
+}
+
+/// The farthest that 10000 points of the curve are from the polyline.
+double farthest(const Ring& polyline, const std::function<Point(double)>& curve) {
+  double worst = 0;
+  for (int i = 0; i <= 10000; ++i) {
+    const Point p = curve(i / 10000.0);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < polyline.size(); ++k)
+      nearest = std::min(nearest, distance(p, polyline[k], polyline[k + 1]));
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+TEST(Curves, ArcsKeepWithinTheToleranceWithoutWaste) {
+  struct Arc {
+    Point centre, a, b;
+    double from, sweep;
+  };
+  for (const auto& [c, a, b, from, sweep] :
+       {Arc{{0, 0}, {1, 0}, {0, 1}, 0, 2 * pi}, Arc{{5, -3}, {0.02, 0}, {0, 0.02}, 1, -1.5},
+        Arc{{0, 0}, {3, 1}, {-0.1, 0.3}, -2, 3}, Arc{{1, 1}, {1, 0}, {0.7, 0.8}, 0.3, 6}}) {
+    const auto curve = [&](double t) -> Point {
+      const double phi = from + sweep * t;
+      return {c.x + a.x * std::cos(phi) + b.x * std::sin(phi),
+              c.y + a.y * std::cos(phi) + b.y * std::sin(phi)};
+    };
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+      Ring ring{curve(0)};
+      flatten_arc(ring, c, a, b, from, sweep, tolerance);
+      EXPECT_LE(farthest(ring, curve), tolerance * (1 + 1e-9));
+      EXPECT_NEAR(ring.back().x, curve(1).x, 1e-14);
+      if (ring.size() > 20) {  // one chord less would not do
+        Ring fewer{curve(0)};
+        const double n = static_cast<double>(ring.size() - 2);
+        for (int i = 1; i <= n; ++i) fewer.push_back(curve(i / n));
+        EXPECT_GT(farthest(fewer, curve), 0.99 * tolerance);
+      }
+    }
+  }
+}
+
+TEST(Curves, BeziersKeepWithinTheTolerance) {
+  struct Cubic {
+    Point p0, p1, p2, p3;
+  };
+  for (const auto& [p0, p1, p2, p3] :
+       {Cubic{{0, 0}, {1, 2}, {3, -1}, {4, 1}}, Cubic{{0, 0}, {1, 1}, {0, 1}, {1, 0}},  // loop-like
+        Cubic{{0, 0}, {0, 0}, {1, 1}, {1, 1}}, Cubic{{0, 0}, {10, 0}, {-9, 0}, {1, 0}}}) {
+    const auto curve = [&](double t) -> Point {
+      const auto mix = [t](double a, double b) { return a + (b - a) * t; };  // de Casteljau
+      const auto on = [&](Point a, Point b) -> Point { return {mix(a.x, b.x), mix(a.y, b.y)}; };
+      const Point a = on(p0, p1), b = on(p1, p2), c = on(p2, p3);
+      return on(on(a, b), on(b, c));
+    };
+    for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
+      Ring ring{p0};
+      flatten_cubic(ring, p0, p1, p2, p3, tolerance);
+      EXPECT_LE(farthest(ring, curve), tolerance);
+      EXPECT_EQ(ring.back(), p3);
+    }
+  }
+  Ring ring{{0, 0}};
+  flatten_cubic(ring, {0, 0}, {1, 1}, {2, 2}, {3, 3}, 1e-6);
+  EXPECT_EQ(ring.size(), 2u);  // a straight line is one chord
+  Ring parabola{{0, 0}};
+  flatten_quadratic(parabola, {0, 0}, {1, 2}, {2, 0}, 1e-4);
+  EXPECT_LE(farthest(parabola, [](double t) -> Point { return {2 * t, 4 * t * (1 - t)}; }), 1e-4);
+}
+
+TEST(Curves, RefuseWhatCannotBeDrawn) {
+  Ring ring;
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(flatten_arc(ring, {0, 0}, {1, 0}, {0, 1}, 0, 1, 0), InvalidInput);
+  EXPECT_THROW(flatten_arc(ring, {0, 0}, {1, 0}, {0, 1}, 0, 1, -1), InvalidInput);
+  EXPECT_THROW(flatten_arc(ring, {0, 0}, {1, 0}, {0, 1}, 0, 1, nan), InvalidInput);
+  EXPECT_THROW(flatten_arc(ring, {0, 0}, {1, 0}, {0, 1}, 0, infinity, 1e-3), InvalidInput);
+  EXPECT_THROW(flatten_arc(ring, {nan, 0}, {1, 0}, {0, 1}, 0, 1, 1e-3), InvalidInput);
+  EXPECT_THROW(flatten_arc(ring, {0, 0}, {1e200, 0}, {0, 1}, 0, 1, 1e-3), InvalidInput);
+  EXPECT_THROW(flatten_cubic(ring, {0, 0}, {1e30, 0}, {0, 1}, {1, 1}, 1e-6), InvalidInput);
+  EXPECT_THROW(flatten_cubic(ring, {0, 0}, {nan, 0}, {0, 1}, {1, 1}, 1e-6), InvalidInput);
+  EXPECT_THROW(flatten_cubic(ring, {infinity, 0}, {1, 0}, {0, 1}, {1, 1}, 1e-6), InvalidInput);
+  EXPECT_TRUE(ring.empty());
+}
+
+// ---- shapes with closed forms ----
+
+TEST(Profiles, DiscAndTubeWithinTheBoundThatTheyReturn) {
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    const double D = 0.3, t = 0.02, d = D - 2 * t;
+    const Profile disc = profiles::disc(D, tolerance), tube = profiles::tube(D, t, tolerance);
+    const double A = pi * D * D / 4, Wpl = D * D * D / 6, Wel = pi * D * D * D / 32;
+    EXPECT_LE(std::abs(section(disc).area() - A), disc.area_error * (1 + 1e-6));
+    EXPECT_GT(disc.area_error,
+              0.99 * std::abs(section(disc).area() - A));  // the bound is no looser than need be
+    const double tube_A = pi * (D * D - d * d) / 4, tube_Wpl = (D * D * D - d * d * d) / 6,
+                 tube_Wel = pi * (std::pow(D, 4) - std::pow(d, 4)) / (32 * D);
+    EXPECT_LE(std::abs(section(tube).area() - tube_A), tube.area_error);
+    for (const Point direction : {along_x, along_y}) {
+      EXPECT_LE(std::abs(section(disc).elastic(direction).W_plastic - Wpl), disc.modulus_error);
+      EXPECT_LE(std::abs(section(disc).elastic(direction).W_elastic - Wel), disc.modulus_error);
+      EXPECT_LE(std::abs(section(tube).elastic(direction).W_plastic - tube_Wpl), tube.modulus_error);
+      EXPECT_LE(std::abs(section(tube).elastic(direction).W_elastic - tube_Wel), tube.modulus_error);
+    }
+    EXPECT_LT(disc.area_error / A, 10 * tolerance / D);
+  }
+}
+
+TEST(Profiles, ATubeThinnerThanTheToleranceIsStillATube) {
+  const Profile tube = profiles::tube(1, 1e-3, 0.1);
+  EXPECT_GT(section(tube).area(), 0);
+}
+
+TEST(Profiles, RectangleAndBox) {
+  EXPECT_DOUBLE_EQ(section(profiles::rectangle(0.1, 0.2)).area(), 0.02);
+  const Section box = section(profiles::box(0.2, 0.3, 0.01, 0.02));
+  EXPECT_DOUBLE_EQ(box.area(), 0.2 * 0.3 - 0.18 * 0.26);
+  EXPECT_DOUBLE_EQ(box.elastic(along_y).W_plastic, (0.2 * 0.3 * 0.3 - 0.18 * 0.26 * 0.26) / 4);
+}
+
+TEST(Profiles, ISectionWithAndWithoutFillets) {
+  const double h = 0.3, b = 0.15, tw = 0.0071, tf = 0.0107;
+  EXPECT_NEAR(section(profiles::i_section(h, b, tw, tf, 0, 1e-5)).area(), 2 * b * tf + (h - 2 * tf) * tw,
+              1e-17);
+  EXPECT_EQ(profiles::i_section(h, b, tw, tf, 0, 1e-5).area_error, 0);
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    const double r = 0.015;
+    const Profile profile = profiles::i_section(h, b, tw, tf, r, tolerance);
+    const double A = 2 * b * tf + (h - 2 * tf) * tw + (4 - pi) * r * r;
+    EXPECT_LE(std::abs(section(profile).area() - A), profile.area_error * (1 + 1e-6));
+    EXPECT_GT(profile.area_error, 0.99 * std::abs(section(profile).area() - A));
+  }
+  // Fillets that meet at mid height and fill the flange's width.
+  EXPECT_TRUE(validate(profiles::i_section(0.1, 0.1, 0.02, 0.01, 0.04, 1e-4).outline).empty());
+}
+
+// ---- rolled sections ----
+
+/// Half of the last digit that a table prints: four significant ones, or as many as it has.
+double rounding(const char* printed) {
+  const double value = std::atof(printed);
+  const char* point = std::strchr(printed, '.');
+  const double last = point ? std::pow(10, -static_cast<double>(std::strlen(point + 1))) : 1;
+  return std::max(last, std::pow(10, std::floor(std::log10(value)) - 3)) / 2;
+}
+
+class RolledSection : public testing::TestWithParam<steel_tables::Row> {};
+
+TEST_P(RolledSection, HasThePublishedProperties) {
+  const steel_tables::Row& row = GetParam();
+  const Profile profile = profiles::rolled(row.name, 1e-8);
+  const Section steel = section(profile);
+  const Elastic strong = steel.elastic(along_y), weak = steel.elastic(along_x);
+  const auto expect = [&](double value, const char* printed, const char* what) {
+    EXPECT_NEAR(value, std::atof(printed), rounding(printed) * (1 + 1e-9)) << row.name << " " << what;
+  };
+  expect(steel.area() * 1e4, row.A, "A");
+  expect(strong.I * 1e8, row.Iy, "I_y");
+  expect(strong.W_elastic * 1e6, row.Wel_y, "W_el,y");
+  expect(strong.W_plastic * 1e6, row.Wpl_y, "W_pl,y");
+  expect(weak.I * 1e8, row.Iz, "I_z");
+  expect(weak.W_elastic * 1e6, row.Wel_z, "W_el,z");
+  expect(weak.W_plastic * 1e6, row.Wpl_z, "W_pl,z");
+  // Drawn as coarsely as by default it stays within its bound of that.
+  const Profile coarse = profiles::rolled(row.name);
+  EXPECT_LE(std::abs(section(coarse).area() - steel.area()), coarse.area_error);
+  EXPECT_LE(std::abs(section(coarse).elastic(along_y).W_plastic - strong.W_plastic), coarse.modulus_error);
+  EXPECT_LE(std::abs(section(coarse).elastic(along_y).W_elastic - strong.W_elastic), coarse.modulus_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, RolledSection, testing::ValuesIn(steel_tables::rows), [](const auto& info) {
+  std::string name = info.param.name;
+  std::erase(name, ' ');
+  return name;
+});
+
+TEST(Profiles, EveryRolledSectionIsTested) {
+  EXPECT_EQ(std::size(steel_tables::rows), profiles::rolled().size());
+  EXPECT_EQ(profiles::rolled().size(), 18u + 24 + 24);
+}
+
+TEST(Profiles, NamesMayBeWrittenAnyWay) {
+  EXPECT_EQ(profiles::rolled("ipe300").outline.outer, profiles::rolled("IPE 300").outline.outer);
+  EXPECT_THROW(profiles::rolled("IPE 310"), InvalidInput);
+}
+
+TEST(Profiles, RefuseDimensionsThatMakeNone) {
+  using namespace profiles;
+  const double nan = std::nan("");
+  EXPECT_THROW(profiles::rectangle(0, 1), InvalidInput);
+  EXPECT_THROW(profiles::rectangle(1, nan), InvalidInput);
+  EXPECT_THROW(box(1, 1, 0.5, 0.1), InvalidInput);
+  EXPECT_THROW(box(1, 1, 0.1, 0.6), InvalidInput);
+  EXPECT_THROW(disc(-1, 1e-3), InvalidInput);
+  EXPECT_THROW(disc(1, 0), InvalidInput);
+  EXPECT_THROW(disc(1, 1e-15), InvalidInput);
+  EXPECT_THROW(tube(1, 0.5, 1e-3), InvalidInput);
+  EXPECT_THROW(i_section(0.3, 0.15, 0.16, 0.01, 0, 1e-5), InvalidInput);
+  EXPECT_THROW(i_section(0.3, 0.15, 0.01, 0.15, 0, 1e-5), InvalidInput);
+  EXPECT_THROW(i_section(0.3, 0.15, 0.01, 0.01, 0.08, 1e-5), InvalidInput);
+  EXPECT_THROW(i_section(0.3, 0.15, 0.01, 0.01, -1, 1e-5), InvalidInput);
+}
+}  // namespace
