@@ -8,26 +8,6 @@ namespace ductile {
 
 namespace {
 
-// Scalar L D Lᵀ of one block, in place: below the diagonal L, on it 1/D. Reads the lower triangle only.
-void factor3(double* a) {
-  const double d0 = 1 / a[0];
-  const double l10 = a[3] * d0, l20 = a[6] * d0;
-  const double d1 = 1 / (a[4] - l10 * a[3]);
-  const double t21 = a[7] - l20 * a[3];
-  const double l21 = t21 * d1;
-  const double d2 = 1 / (a[8] - l20 * a[6] - l21 * t21);
-  a[0] = d0, a[3] = l10, a[4] = d1, a[6] = l20, a[7] = l21, a[8] = d2;
-}
-
-// (x0, x1, x2) ← block⁻¹ (x0, x1, x2)
-inline void solve3(const double* a, double& x0, double& x1, double& x2) {
-  x1 -= a[3] * x0;
-  x2 -= a[6] * x0 + a[7] * x1;
-  x2 *= a[8];
-  x1 = a[4] * x1 - a[7] * x2;
-  x0 = a[0] * x0 - a[3] * x1 - a[6] * x2;
-}
-
 // target −= l tᵀ
 inline void subtract_product(double* target, const double* l, const double* t) {
   for (int i = 0; i < 3; ++i) {
@@ -106,14 +86,14 @@ void BlockLdlt::clear() {
 void BlockLdlt::factor() {
   const int* target = targets_.data();
   for (std::size_t j = 0; j < diagonal_.size(); ++j) {
-    const double* d = diagonal_[j].a;
-    factor3(diagonal_[j].a);
+    const Block& d = diagonal_[j];
+    factor_block(diagonal_[j]);
     Block* const column = lower_.data() + column_[j];
     const int count = column_[j + 1] - column_[j];
     for (int p = 0; p < count; ++p) {
       double* l = column[p].a;
       unscaled_[z(p)] = column[p];
-      for (int i = 0; i < 3; ++i) solve3(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
+      for (int i = 0; i < 3; ++i) solve_block(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
       for (int q = 0; q <= p; ++q) {
         const int place = *target++;
         subtract_product(place < 0 ? diagonal_[z(-1 - place)].a : lower_[z(place)].a, l, unscaled_[z(q)].a);
@@ -133,7 +113,7 @@ void BlockLdlt::solve(std::span<Vec3> x) const {
       r.y -= l[3] * v.x + l[4] * v.y + l[5] * v.w;
       r.w -= l[6] * v.x + l[7] * v.y + l[8] * v.w;
     }
-    solve3(diagonal_[j].a, x[j].x, x[j].y, x[j].w);
+    solve_block(diagonal_[j], x[j].x, x[j].y, x[j].w);
   }
   for (std::size_t j = n; j-- > 0;) {
     Vec3 v = x[j];

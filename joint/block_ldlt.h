@@ -19,6 +19,28 @@ struct Block {
   double a[9];
 };
 
+/// Scalar L D Lᵀ of one block, in place: below the diagonal L, on it 1/D. Reads the lower triangle only.
+inline void factor_block(Block& block) {
+  double* a = block.a;
+  const double d0 = 1 / a[0];
+  const double l10 = a[3] * d0, l20 = a[6] * d0;
+  const double d1 = 1 / (a[4] - l10 * a[3]);
+  const double t21 = a[7] - l20 * a[3];
+  const double l21 = t21 * d1;
+  const double d2 = 1 / (a[8] - l20 * a[6] - l21 * t21);
+  a[0] = d0, a[3] = l10, a[4] = d1, a[6] = l20, a[7] = l21, a[8] = d2;
+}
+
+/// (x0, x1, x2) ← block⁻¹ (x0, x1, x2) of a factored block.
+inline void solve_block(const Block& block, double& x0, double& x1, double& x2) {
+  const double* a = block.a;
+  x1 -= a[3] * x0;
+  x2 -= a[6] * x0 + a[7] * x1;
+  x2 *= a[8];
+  x1 = a[4] * x1 - a[7] * x2;
+  x0 = a[0] * x0 - a[3] * x1 - a[6] * x2;
+}
+
 class BlockLdlt {
  public:
   /// Elimination order of n bodies joined by `edges`: result[k] is the body to eliminate as number k.

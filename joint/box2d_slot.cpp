@@ -103,8 +103,8 @@ class WorldWatch : public b2CircleShape {
 
 b2Body* watch_world(b2World& world, Structure::Impl& structure) { return WorldWatch::post(world, structure); }
 
-Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known)
-    : members(std::move(enlisted_members)) {
+Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known, SolverKind solver_kind)
+    : members(std::move(enlisted_members)), kind(solver_kind) {
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   std::unordered_map<b2Body*, int> number;
   std::vector<b2Body*> bodies, others;
@@ -228,6 +228,7 @@ void Component::first_velocity(const b2SolverData& data) {
     (mirrors[i].type == b2_dynamicBody ? b.v_free : b.v) = own;
   }
   solver.begin(data.step.dt);
+  if (kind == SolverKind::iterative) solver.warm_start();
   solve(data);
 }
 
@@ -239,11 +240,13 @@ void Component::next_velocity(const b2SolverData& data) {
     if (now.v == given.v && now.w == given.w) continue;
     touched = true;
     SolverBody& b = solver.bodies[i];
-    b.v_free += into_own_frame(b.turn, double{now.v.x} - given.v.x, double{now.v.y} - given.v.y,
-                               double{now.w} - given.w);
+    const Vec3 change = into_own_frame(b.turn, double{now.v.x} - given.v.x, double{now.v.y} - given.v.y,
+                                       double{now.w} - given.w);
+    b.v_free += change;
+    if (kind == SolverKind::iterative) b.v += change;
     given = now;
   }
-  if (touched) {
+  if (touched || kind == SolverKind::iterative) {
     solve(data);
   } else {
     ++report->skipped;
@@ -252,7 +255,11 @@ void Component::next_velocity(const b2SolverData& data) {
 
 void Component::solve(const b2SolverData& data) {
   SolveReport solved;
-  solver.solve(solved);
+  if (kind == SolverKind::direct) {
+    solver.solve(solved);
+  } else {
+    solver.sweep();
+  }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const SolverBody& b = solver.bodies[i];
     data.velocities[mirrors[i].island_index] = mirrors[i].given = to_box2d(b.turn, b.v);
@@ -272,7 +279,9 @@ void Component::position(const b2SolverData& data) {
     goal[i] = kept ? solver.bodies[i].pose : relative(at);
     pushed |= !kept;
   }
-  if (pushed) {
+  if (kind == SolverKind::iterative) {
+    solver.sweep_positions(goal);
+  } else if (pushed) {
     for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
     solver.project(goal, false);
     ++report->projections;

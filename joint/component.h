@@ -54,7 +54,7 @@ struct Component {
     int32 island_index = 0;
   };
 
-  Component(std::vector<Member*> enlisted, const KnownPoses& known);
+  Component(std::vector<Member*> enlisted, const KnownPoses& known, SolverKind kind);
 
   /// Whether the bodies are still what the component was formed for.
   bool still_fits();
@@ -72,6 +72,7 @@ struct Component {
   std::vector<Member*> members;       // as solver.joints
   std::vector<Mirror> mirrors;        // as solver.bodies
   double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
+  SolverKind kind;
   StepReport* report = nullptr;
   std::uint64_t batch = 0;   // island at hand
   std::size_t enlisted = 0;  // joints of it that this island has

@@ -112,6 +112,12 @@ class Solver {
   /// kept.
   bool project(std::span<const Pose> goal, bool try_goal);
 
+  /// Instead of solve() and project(), joint by joint (sweep.cpp): the impulses of the last step again, one
+  /// pass over the joints' velocities, and one over their positions from where the bodies are.
+  void warm_start();
+  void sweep();
+  void sweep_positions(std::span<const Pose> at);
+
   /// Caps or stiffness were edited.
   void laws_changed() { factored_ = false; }
   /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
@@ -133,6 +139,7 @@ class Solver {
   double evaluate_poses(std::span<const Pose> goal);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
+  bool is_rigid(const SolverJoint& joint, unsigned row) const;
   bool line_search(double slope0, double slope1);
   double objective() const;
   void coast();

@@ -169,7 +169,7 @@ void Structure::Impl::form() {
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
   for (auto& group : groups) {
     if (group.empty()) continue;
-    components.push_back(std::make_unique<Component>(std::move(group), known_));
+    components.push_back(std::make_unique<Component>(std::move(group), known_, def.solver));
     Component* c = components.back().get();
     c->report = &report;
     c->batch = batch_;
