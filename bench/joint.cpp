@@ -1,0 +1,222 @@
+// What the structure costs: the whole b2World::Step (and Structure::update) with our joints against the same
+// scene with stock b2WeldJoint, 60 Hz, 8/3 iterations, sleeping off on both sides.
+//
+// A stock structure under load folds, and a folded one costs more in the broad phase; its joints cost the
+// same whatever they carry. So where ours stands, swings or sways under load, stock stays straight in a
+// gravity of 1e-3 m/s²: the cheapest stock there is. In rigid motion both move alike.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <functional>
+
+#include "ratio.h"
+#include "structures.h"
+
+namespace ductile {
+namespace {
+
+constexpr double g = 10, nearly_none = 1e-3;
+
+struct Case {
+  std::string name;
+  std::function<Layout()> layout;
+  double gravity = g, stock_gravity = nearly_none;
+  std::function<void(Built&)> start = [](Built&) {};        // both sides
+  std::function<void(Built&)> before_step = [](Built&) {};  // ours, not timed
+  double settle = 5;                                        // s that ours runs before it is timed
+  int steps = 300;                                          // timed
+};
+
+// A few steps of one, a few of the other: each finds its own data in the cache, as in a game.
+constexpr int few = 5;
+
+double time_steps(Built& b, const std::function<void(Built&)>& before_step) {
+  double sum = 0;
+  for (int i = 0; i < few; ++i) {
+    before_step(b);
+    sum += seconds([&] { b.step(); });
+  }
+  return sum / few;
+}
+
+void report(benchmark::State& state, const Built& b, std::size_t joints) {
+  const double steps = static_cast<double>(state.iterations()) * few;
+  state.counters["joints"] = static_cast<double>(joints);
+  state.counters["rounds"] = b.sum.rounds / steps;
+  state.counters["factorisations"] = b.sum.factorisations / steps;
+  state.counters["solves"] = b.sum.solves / steps;
+  state.counters["skipped"] = b.sum.skipped / steps;
+  state.counters["projections"] = b.sum.projections / steps;
+  state.counters["bounds_hit"] = b.sum.bounds_hit;
+  state.counters["ns_per_joint"] = 1e3 * state.counters["us"].value / static_cast<double>(joints);
+  state.counters["bytes_per_joint"] = static_cast<double>(b.structure->bytes()) / static_cast<double>(joints);
+}
+
+void run(benchmark::State& state, const Case& c) {
+  const Layout layout = c.layout();
+  Built ours(layout, Built::ours, c.gravity), stock(layout, Built::stock, c.stock_gravity);
+  c.start(ours);
+  c.start(stock);
+  for (int i = 0; i < 60 * c.settle; ++i) {
+    c.before_step(ours);
+    ours.step();
+  }
+  stock.run(0.25);
+  ours.sum = {};
+  alternate(
+      state, "stock", [&] { return time_steps(ours, c.before_step); },
+      [&] { return time_steps(stock, [](Built&) {}); });
+  report(state, ours, layout.welds.size());
+  double bent = 0;
+  for (const auto* joint : ours.structure->joints())
+    bent = std::max(bent, std::abs(joint->elastic(rotation)));
+  state.counters["elastic_rotation"] = bent;
+  // These cases are elastic: what flows or breaks would be another case.
+  if (ours.structure->joints().size() != layout.welds.size()) state.SkipWithError("joints broke");
+  for (const auto* joint : ours.structure->joints()) {
+    if (joint->dissipated() > 0) return state.SkipWithError("joints flowed");
+  }
+}
+
+// Ground that shakes sideways, as seen from it: at 2 Hz, with 3 m/s².
+void shake(Built& b) {
+  const double t = b.steps / 60.0;
+  b.world.SetGravity(Built::vec(3 * std::cos(4 * std::numbers::pi * t), -g));
+}
+
+void spin(Built& b) { b.set_rigid_motion(1, 2, 0.5); }
+
+Layout softened(Layout layout, double by) {
+  layout.E /= by;
+  return layout;
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const int pieces : {10, 40}) {
+    const std::string name = "joint/chain/" + std::to_string(pieces);
+    all.push_back({name + "/rest", [=] { return chains(100, pieces, false); }});
+    all.push_back(
+        {.name = name + "/swinging", .layout = [=] { return chains(100, pieces, true); }, .settle = 1});
+  }
+  const std::tuple<std::string, int, int> frames[] = {{"160", 4, 4}, {"2000", 15, 15}};
+  for (const auto& [size, storeys, bays] : frames) {
+    const std::string name = "joint/frame/" + size;
+    const auto layout = [storeys = storeys, bays = bays] { return frame(storeys, bays); };
+    all.push_back({name + "/rest", layout});
+    all.push_back({.name = name + "/rigid_motion",
+                   .layout = [=] { return layout().let_go(); },
+                   .gravity = 0,
+                   .stock_gravity = 0,
+                   .start = spin,
+                   .settle = 1});
+    all.push_back({.name = name + "/swaying", .layout = layout, .before_step = shake});
+  }
+  all.push_back({"joint/grid/30/rest", [] { return grid(30); }});
+  all.push_back({.name = "joint/grid/30/rigid_motion",
+                 .layout = [] { return grid(30).let_go(); },
+                 .gravity = 0,
+                 .stock_gravity = 0,
+                 .start = spin,
+                 .settle = 1});
+  for (const int softer : {1, 100, 1000}) {
+    all.push_back(
+        {.name = "joint/grid/30/deforming" + (softer == 1 ? "" : "/softer_" + std::to_string(softer)),
+         .layout = [=] { return softened(grid(30), softer); },
+         .before_step = shake});
+  }
+  for (const int pieces : {1000, 10000, 100000}) {
+    const std::string name = "joint/scale/chain/" + std::to_string(pieces);
+    const int steps = pieces > 10000 ? 50 : 300;
+    const auto layout = [=] { return serpentine(pieces); };
+    all.push_back({.name = name + "/rest", .layout = layout, .settle = 1, .steps = steps});
+    all.push_back(
+        {.name = name + "/swaying", .layout = layout, .before_step = shake, .settle = 1, .steps = steps});
+  }
+  all.push_back({.name = "joint/scale/building/10000", .layout = [] { return frame(25, 44); }, .settle = 2});
+  return all;
+}
+
+// A bomb into a frame, and the five seconds after it, against a step of the same frame, standing, that
+// factors H once (a stiffness was set anew). Several times over: vs_quiet is the median over the episodes of
+// the mean over the steps; worst_us the dearest step, each step by its fastest episode.
+void impact(benchmark::State& state, const Layout& layout, double bomb_mass, double x, double y) {
+  constexpr int steps = 300;
+  std::vector<double> ratios, times, quiet_times, fastest(steps, INFINITY);
+  double flowing = 0, broken = 0;
+  StepReport sum;
+  for (auto _ : state) {
+    Built hit(layout, Built::ours, g), quiet(layout, Built::ours, g);
+    hit.run(2);
+    quiet.run(2);
+    hit.sum = quiet.sum = {};
+    hit.throw_bomb(bomb_mass, 1, x, y, 30, 0);
+    double after = 0;
+    std::vector<double> quiet_steps;
+    for (int i = 0; i < steps; ++i) {
+      const double one = seconds([&] { hit.step(); });
+      after += one / steps;
+      auto& best = fastest[static_cast<std::size_t>(i)];
+      best = std::min(best, one);
+      const RowDef same{.stiffness =
+                            layout.E * std::pow(layout.pieces[0].height, 3) / 12 / layout.welds[0].span};
+      quiet.structure->joints()[0]->set_stiffness(rotation, same.stiffness, 0);
+      quiet_steps.push_back(seconds([&] { quiet.step(); }));
+    }
+    if (quiet.sum.factorisations != steps) return state.SkipWithError("the quiet step does not factor once");
+    state.SetIterationTime(after);
+    times.push_back(after);
+    quiet_times.push_back(median(quiet_steps));
+    ratios.push_back(after / quiet_times.back());
+    flowing = 0;
+    for (const auto* joint : hit.structure->joints()) flowing += joint->dissipated() > 0 ? 1 : 0;
+    broken = static_cast<double>(layout.welds.size() - hit.structure->joints().size());
+    sum = hit.sum;
+  }
+  state.counters["vs_quiet"] = median(ratios);
+  state.counters["us"] = 1e6 * median(times);
+  state.counters["quiet_us"] = 1e6 * median(quiet_times);
+  const double worst = *std::max_element(fastest.begin(), fastest.end());
+  state.counters["worst_us"] = 1e6 * worst;
+  state.counters["worst_vs_quiet"] = worst / median(quiet_times);
+  state.counters["joints"] = static_cast<double>(layout.welds.size());
+  state.counters["flowed"] = flowing;
+  state.counters["broken"] = broken;
+  state.counters["rounds"] = static_cast<double>(sum.rounds) / steps;
+  state.counters["factorisations"] = static_cast<double>(sum.factorisations) / steps;
+  state.counters["bounds_hit"] = sum.bounds_hit;
+}
+
+const bool registered = [] {
+  for (const Case& c : cases()) {
+    benchmark::RegisterBenchmark(c.name.c_str(), [c](benchmark::State& state) { run(state, c); })
+        ->UseManualTime()
+        ->Iterations(c.steps / few)
+        ->Unit(benchmark::kMicrosecond);
+  }
+  struct Impact {
+    const char* name;
+    int size;
+    double mass, y;
+    bool breaks;
+  };
+  // At 30 m/s from the left against a column between two storeys.
+  for (const Impact& i : {Impact{"joint/impact/frame/160", 4, 2e3, 3.9, true},
+                          Impact{"joint/impact/frame/160/heavy", 4, 5e4, 3.9, false},
+                          Impact{"joint/impact/frame/2000", 15, 2e4, 18.9, true},
+                          Impact{"joint/impact/frame/2000/heavy", 15, 2e5, 18.9, false}}) {
+    benchmark::RegisterBenchmark(i.name,
+                                 [i](benchmark::State& state) {
+                                   Layout layout = frame(i.size, i.size);
+                                   layout.breaks = i.breaks;
+                                   impact(state, layout, i.mass, -2, i.y);
+                                 })
+        ->UseManualTime()
+        ->Iterations(3)
+        ->Unit(benchmark::kMicrosecond);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace ductile

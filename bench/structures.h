@@ -1,0 +1,236 @@
+// Structures of many equal boxes, built either with our joints or with stock welds, for timing one against
+// the other. Steel, SI, depth 1 m.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "ductile/joint.h"
+
+namespace ductile {
+
+struct Steel {
+  static constexpr double density = 7800, E = 210e9, fy = 350e6, fracture_strain = 0.2;
+};
+
+/// Where pieces lie and where they are joined. Built into a world by Built.
+struct Layout {
+  struct Piece {
+    double x, y, angle, length, height;
+  };
+  struct Weld {
+    int a, b;  // pieces; a = -1: the ground
+    double x, y, angle;
+    double span;          // ℓ of EA/ℓ and EI/ℓ, m
+    bool pinned = false;  // no moment
+  };
+  std::vector<Piece> pieces;
+  std::vector<Weld> welds;
+  double E = Steel::E;
+  bool breaks = true;
+
+  int box(double x, double y, double angle, double length, double height) {
+    pieces.push_back({x, y, angle, length, height});
+    return static_cast<int>(pieces.size()) - 1;
+  }
+  void weld(int a, int b, double x, double y, double angle, double span, bool pinned = false) {
+    welds.push_back({a, b, x, y, angle, span, pinned});
+  }
+  /// Without the joints to the ground.
+  Layout let_go() const {
+    Layout free = *this;
+    std::erase_if(free.welds, [](const Weld& w) { return w.a < 0; });
+    return free;
+  }
+};
+
+/// `count` level cantilevers of 20 m × 1 m in a square array, so far apart that none meets another while
+/// swinging.
+inline Layout chains(int count, int pieces, bool pinned) {
+  Layout layout;
+  const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+  const double l = 20.0 / pieces;
+  for (int c = 0; c < count; ++c) {
+    const double x = 45.0 * (c % side - side / 2), y = 45.0 * (c / side - side / 2);
+    int previous = -1;
+    for (int i = 0; i < pieces; ++i) {
+      const int piece = layout.box(x + (i + 0.5) * l, y, 0, l, 1);
+      layout.weld(previous, piece, x + i * l, y, 0, previous < 0 ? l / 2 : l, pinned && previous < 0);
+      previous = piece;
+    }
+  }
+  return layout;
+}
+
+/// Storeys × bays of 2.5 m, each member of four parts 0.625 m × 0.1 m (scenes.md: Frame): storeys·(9·bays +
+/// 4) joints, 160 for 4 × 4. Columns are joined to the beam above at the node, beams run through.
+inline Layout frame(int storeys, int bays) {
+  constexpr int parts = 4;
+  constexpr double bay = 2.5, l = bay / parts, h = 0.1, up = std::numbers::pi / 2;
+  Layout layout;
+  std::vector<int> heads(static_cast<std::size_t>(bays) + 1, -1);  // what the next column stands on
+  for (int s = 0; s < storeys; ++s) {
+    std::vector<int> beam;
+    const double y = bay * (s + 1);
+    for (int m = 0; m < bays * parts; ++m) {
+      beam.push_back(layout.box((m + 0.5) * l, y, 0, l, h));
+      if (m > 0) layout.weld(beam[static_cast<std::size_t>(m) - 1], beam.back(), m * l, y, 0, l);
+    }
+    for (int i = 0; i <= bays; ++i) {
+      int& head = heads[static_cast<std::size_t>(i)];
+      for (int k = 0; k < parts; ++k) {
+        const int part = layout.box(bay * i, bay * s + (k + 0.5) * l, up, l, h);
+        layout.weld(head, part, bay * i, bay * s + k * l, up, head < 0 ? l / 2 : l);
+        head = part;
+      }
+      layout.weld(head, beam[static_cast<std::size_t>(std::min(i * parts, bays * parts - 1))], bay * i, y, up,
+                  l);
+    }
+  }
+  return layout;
+}
+
+/// n × n boxes of 1 m, each welded to its neighbours and the first column to the ground: n(2n − 1) joints.
+inline Layout grid(int n) {
+  Layout layout;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int box = layout.box(i + 0.5, j + 0.5, 0, 1, 1);
+      layout.weld(i == 0 ? -1 : box - n, box, i, j + 0.5, 0, i == 0 ? 0.5 : 1);
+      if (j > 0) layout.weld(box - 1, box, i + 0.5, j, std::numbers::pi / 2, 1);
+    }
+  }
+  return layout;
+}
+
+/// One chain of `pieces` boxes of 0.5 m, laid to and fro in rows of 250 and held to the ground every 50
+/// pieces: any length, and yet no coordinate so large that floats fail.
+inline Layout serpentine(int pieces) {
+  constexpr int row = 250, held = 50;
+  constexpr double l = 0.5, pitch = 1.5;
+  Layout layout;
+  for (int i = 0; i < pieces; ++i) {
+    const int r = i / row, k = i % row;
+    const bool back = r % 2 != 0;
+    const double x = ((back ? row - 1 - k : k) + 0.5) * l, y = pitch * r, angle = back ? std::numbers::pi : 0;
+    const int box = layout.box(x, y, angle, l, l);
+    if (i == 0) {
+      layout.weld(-1, box, x - l / 2, y, 0, l / 2);
+    } else if (k == 0) {
+      layout.weld(box - 1, box, x, y - pitch / 2, std::numbers::pi / 2, pitch);  // the turn to the next row
+    } else {
+      layout.weld(box - 1, box, x - (back ? -l : l) / 2, y, angle, l);
+    }
+    if (i % held == held / 2) layout.weld(-1, box, x, y, angle, l);
+  }
+  return layout;
+}
+
+/// A layout in a world of its own. Pieces of a structure do not collide with each other; nothing sleeps.
+struct Built {
+  enum Kind { ours, stock };
+
+  Built(const Layout& layout, Kind kind, double gravity) : world({0, static_cast<float>(-gravity)}) {
+    world.SetAllowSleeping(false);
+    if (kind == ours) structure.emplace(world);
+    b2BodyDef at_origin;
+    b2Body* ground = world.CreateBody(&at_origin);
+    for (const Layout::Piece& p : layout.pieces) {
+      b2BodyDef def;
+      def.type = b2_dynamicBody;
+      def.position = vec(p.x, p.y);
+      def.angle = static_cast<float>(p.angle);
+      b2PolygonShape shape;
+      shape.SetAsBox(static_cast<float>(p.length / 2), static_cast<float>(p.height / 2));
+      b2FixtureDef fixture;
+      fixture.shape = &shape;
+      fixture.density = static_cast<float>(Steel::density);
+      fixture.filter.groupIndex = -1;
+      pieces.push_back(world.CreateBody(&def));
+      pieces.back()->CreateFixture(&fixture);
+    }
+    for (const Layout::Weld& w : layout.welds) {
+      b2Body* a = w.a < 0 ? ground : pieces[static_cast<std::size_t>(w.a)];
+      b2Body* b = pieces[static_cast<std::size_t>(w.b)];
+      if (kind == ours) {
+        const double h = layout.pieces[static_cast<std::size_t>(w.b)].height;
+        structure->create_joint(joint(layout, w, h, a, b));
+      } else {
+        b2WeldJointDef def;
+        def.Initialize(a, b, vec(w.x, w.y));
+        world.CreateJoint(&def);
+      }
+    }
+  }
+
+  /// One step as a game makes it.
+  void step() {
+    world.Step(1.0f / 60, 8, 3);
+    ++steps;
+    if (!structure) return;
+    structure->update();
+    const StepReport& r = structure->report();
+    sum.solves += r.solves;
+    sum.skipped += r.skipped;
+    sum.rounds += r.rounds;
+    sum.factorisations += r.factorisations;
+    sum.projections += r.projections;
+    sum.bounds_hit += r.bounds_hit;
+    sum.residual = std::max(sum.residual, r.residual);
+  }
+  void run(double seconds) {
+    for (int i = 0; i < 60 * seconds; ++i) step();
+  }
+  /// All pieces as one rigid body that moves at v and turns at w about the origin.
+  void set_rigid_motion(double vx, double vy, double w) {
+    for (b2Body* p : pieces) {
+      const b2Vec2 c = p->GetWorldCenter();
+      p->SetLinearVelocity(vec(vx - w * c.y, vy + w * c.x));
+      p->SetAngularVelocity(static_cast<float>(w));
+    }
+  }
+
+  /// A ball that comes flying at (vx, vy).
+  void throw_bomb(double mass, double radius, double x, double y, double vx, double vy) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = vec(x, y);
+    def.linearVelocity = vec(vx, vy);
+    def.bullet = true;
+    b2CircleShape ball;
+    ball.m_radius = static_cast<float>(radius);
+    b2FixtureDef fixture;
+    fixture.shape = &ball;
+    fixture.density = static_cast<float>(mass / (std::numbers::pi * radius * radius));
+    world.CreateBody(&def)->CreateFixture(&fixture);
+  }
+
+  static b2Vec2 vec(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+  static ElasticPlasticJointDef joint(const Layout& layout, const Layout::Weld& w, double h, b2Body* a,
+                                      b2Body* b) {
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, vec(w.x, w.y), vec(std::cos(w.angle), std::sin(w.angle)));
+    const double G = layout.E / 2.6;
+    const double N = h * Steel::fy, Q = N / std::numbers::sqrt3, M = h * N / 4;
+    def.rows[axial] = {.stiffness = layout.E * h / w.span, .cap = N, .cap_reverse = N};
+    def.rows[shear] = {.stiffness = 5.0 / 6 * G * h / w.span, .cap = Q, .cap_reverse = Q};
+    def.rows[rotation] = {.stiffness = layout.E * h * h * h / 12 / w.span, .cap = M, .cap_reverse = M};
+    if (w.pinned) def.rows[rotation] = RowDef::free();
+    if (layout.breaks) {
+      def.max_rotation = 2 * Steel::fracture_strain;  // ε_f L_p / y with L_p = h, y = h/2
+      def.max_elongation = Steel::fracture_strain * h;
+    }
+    return def;
+  }
+
+  b2World world;
+  std::optional<Structure> structure;
+  std::vector<b2Body*> pieces;
+  int steps = 0;   // since the start
+  StepReport sum;  // over all steps
+};
+
+}  // namespace ductile
