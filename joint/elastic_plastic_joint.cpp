@@ -48,6 +48,13 @@ void check(const ElasticPlasticJointDef& def) {
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
   }
+  if (!def.interaction.empty()) {
+    try {
+      YieldSurface(def.interaction, def.rows[shear].cap);
+    } catch (const std::invalid_argument& error) {
+      require(false, error.what());
+    }
+  }
   if (!wrong.empty()) throw std::invalid_argument(wrong);
 }
 

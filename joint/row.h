@@ -4,29 +4,18 @@
 //   G = h²k + hc      b = hk·e / G      x = Jv + b      s = clamp(G x, −hF⁻, hF⁺)
 // s is the impulse of the internal force R = s/h (tension positive) that the row takes against the relative
 // velocity Jv; it is the derivative of a convex potential φ(x), quadratic below the cap and linear (or, with
-// hardening, of a lower curvature) above: Huber's function. mechanics: ∇φ is monotone, so one step is one
-// convex problem.
+// hardening, of a lower curvature) above: Huber's function. Where N, Q and M share one yield surface, s is
+// the projection of G x onto it in the metric G⁻¹, which is the derivative of a convex potential as well. So
+// one step is one convex problem.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+
+#include "yield_surface.h"
 
 namespace ductile {
-
-using Rows = std::array<double, 3>;  // axial, shear, rotation
-
-/// An N–M polygon with its shear cap: the yield body of a joint with interaction, in impulses per unit step
-/// (N, N m). Convex and with the origin inside. A point (N, Q, M) is inside where gauge(N, M)² + (Q/Q_max)² ≤
-/// 1: the section's own reduction f·√(1 − (Q/Q_max)²) of the N–M curve, for Tresca and von Mises alike.
-struct YieldSurface {
-  struct Facet {
-    double n, m;  // n·N + m·M ≤ 1
-  };
-  std::vector<Facet> facets;
-  double shear;  // Q_max, N; infinite: no reduction
-};
 
 struct RowLaw {
   Rows G{};            // kg or kg m²: impulse per unit of relative velocity; 0: free
@@ -34,11 +23,20 @@ struct RowLaw {
   Rows cap{};          // N s or N m s, > 0 or infinite
   Rows cap_reverse{};  // likewise
   Rows after_yield{};  // slope beyond the cap as a share of G (hardening); 0: perfectly plastic
+  const YieldSurface* surface = nullptr;  // instead of the caps
+  double h = 0;                           // s
 };
 
-/// Impulses s(x). The result tells the linear piece of each row's law: bit i that row i is beyond its cap,
-/// bit 3 + i that it is beyond its reverse cap.
+/// Says that a joint flows on its yield surface.
+inline constexpr unsigned on_surface = 64;
+
+/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit
+/// 3 + i that it is beyond its reverse cap (each combination is linear), or on_surface.
 inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
+  if (law.surface != nullptr) {
+    for (unsigned i = 0; i < 3; ++i) s[i] = law.G[i] * x[i];
+    return law.surface->project(law.G, law.h, s) ? on_surface : 0;
+  }
   unsigned piece = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const double trial = law.G[i] * x[i];
@@ -49,10 +47,13 @@ inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
   return piece;
 }
 
-/// Whether a row flows in that piece.
-inline bool flows(unsigned piece, unsigned i) { return ((piece | piece >> 3) >> i & 1u) != 0; }
+/// The rows that flow in that piece, one bit each.
+inline unsigned flowing(unsigned piece) { return piece == on_surface ? 7u : (piece | piece >> 3) & 7u; }
 
-/// ds/dx of a row in that piece.
+/// Whether a row flows in that piece.
+inline bool flows(unsigned piece, unsigned i) { return (flowing(piece) >> i & 1u) != 0; }
+
+/// ds/dx of a row in that piece; on a yield surface 0 (see YieldSurface::tangent for all of it).
 inline double tangent(const RowLaw& law, unsigned piece, unsigned i) {
   return flows(piece, i) ? law.after_yield[i] * law.G[i] : law.G[i];
 }

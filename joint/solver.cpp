@@ -101,6 +101,8 @@ void Solver::set_law(SolverJoint& j) const {
     law.cap_reverse[i] = h_ * j.cap_reverse[i];
     law.after_yield[i] = std::min(j.hardening[i] / k, 0.99);
   }
+  j.law.surface = j.surface;
+  j.law.h = h_;
 }
 
 void Solver::begin(double h) {
@@ -121,16 +123,17 @@ double Solver::evaluate() {
     speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
   }
   changed_ = 0;
-  crossed_ = flows_ = false;
+  crossed_ = flows_ = curved_ = false;
   for (SolverJoint& j : joints) {
     j.x0 = j.x;
     j.x = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     for (unsigned i = 0; i < 3; ++i) j.x[i] += j.law.bias[i];
     const unsigned piece = respond(j.law, j.x, j.impulse);
-    crossed_ |= piece != j.piece;
+    crossed_ |= piece != j.piece || piece == on_surface;
     flows_ |= piece != 0;
     j.piece = static_cast<std::uint8_t>(piece);
-    changed_ += std::popcount(((piece | piece >> 3) ^ j.factored) & 7u);
+    changed_ += std::popcount(flowing(piece) ^ j.factored);
+    curved_ |= piece == on_surface;
     scatter(j, j.impulse);
   }
   return norm_of_gradient();
@@ -179,9 +182,17 @@ void Solver::factor_tangents() {
   for (SolverJoint& j : joints) {
     for (unsigned i = 0; i < 3; ++i) {
       j.slope[i] = tangent(j.law, j.piece, i);
-      if (short_step_ && flows(j.piece, i)) j.slope[i] = std::max(j.slope[i], j.impulse[i] / j.x[i]);
+      if (short_step_ && flows(j.piece, i) && j.piece != on_surface)
+        j.slope[i] = std::max(j.slope[i], j.impulse[i] / j.x[i]);
     }
-    j.factored = static_cast<std::uint8_t>((j.piece | j.piece >> 3) & 7);
+    j.slope_nq = j.slope_nm = j.slope_qm = 0;
+    if (j.piece == on_surface) {
+      const Coupling c = j.law.surface->tangent(
+          j.law.G, h_, {j.law.G[0] * j.x[0], j.law.G[1] * j.x[1], j.law.G[2] * j.x[2]});
+      j.slope = {c.nn, c.qq, c.mm};
+      j.slope_nq = c.nq, j.slope_nm = c.nm, j.slope_qm = c.qm;
+    }
+    j.factored = static_cast<std::uint8_t>(flowing(j.piece));
   }
   factor();
   newton_ = !short_step_;
@@ -205,10 +216,22 @@ void Solver::factor() {
                          0,           0,           -rot_a};
     const double B[9] = {j.axis_b.c, j.axis_b.s, rot_b * j.bu, -j.axis_b.s, j.axis_b.c, rot_b * j.bv,
                          0,          0,          rot_b};
-    const auto add = [&G = j.slope](double* block, const double* left, const double* right) {
+    const auto add = [&j](double* block, const double* left, const double* right) {
+      const double* d = j.slope.data();
       for (unsigned r = 0; r < 3; ++r) {
         for (unsigned c = 0; c < 3; ++c) {
-          for (unsigned i = 0; i < 3; ++i) block[3 * r + c] += left[3 * i + r] * G[i] * right[3 * i + c];
+          for (unsigned i = 0; i < 3; ++i) block[3 * r + c] += left[3 * i + r] * d[i] * right[3 * i + c];
+        }
+      }
+      if (j.piece != on_surface) return;
+      const double coupled[3][3] = {
+          {0, j.slope_nq, j.slope_nm}, {j.slope_nq, 0, j.slope_qm}, {j.slope_nm, j.slope_qm, 0}};
+      for (unsigned r = 0; r < 3; ++r) {
+        for (unsigned c = 0; c < 3; ++c) {
+          for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned k = 0; k < 3; ++k)
+              block[3 * r + c] += left[3 * i + r] * coupled[i][k] * right[3 * k + c];
+          }
         }
       }
     };
@@ -321,7 +344,7 @@ bool Solver::solve(SolveReport& report) {
       smoothed = true;
       searched = conjugate = false;
     }
-    if (!factored_ || searched || (stale && (expected - 1) * round_work > factor_work)) {
+    if (!factored_ || searched || curved_ || (stale && (expected - 1) * round_work > factor_work)) {
       factor_tangents();
       ++report.factorisations;
       conjugate = false;
@@ -344,7 +367,7 @@ bool Solver::solve(SolveReport& report) {
     }
     zg = zg_new;
     conjugate = true;
-    const bool exact = newton_ && beta == 0 && changed_ == 0;
+    const bool exact = newton_ && beta == 0 && changed_ == 0 && !curved_;
     const double before = norm;
     norm = evaluate();
     searched = crossed_;
@@ -394,12 +417,12 @@ void Solver::advance() {
 // elastic part; the plastic offset is incremented.
 void Solver::flow(SolverJoint& j, const Rows& before) const {
   for (unsigned i = 0; i < 3; ++i) {
-    if (!flows(j.piece, i)) continue;
+    if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
     const double G = j.law.G[i], s = j.impulse[i];
     // Spring and damper in series with the slider: s/h = k e' + c (e' − e)/h.
     const double elastic = h_ * (s + j.damping[i] * (before[i] - j.neutral[i])) / G;
     const double increment = j.gap[i] - j.neutral[i] - elastic;
-    if (!(increment * j.x[i] > 0)) continue;
+    if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     j.plastic[i] += increment;
     (increment > 0 ? j.flowed_forward : j.flowed_back)[i] += std::abs(increment);

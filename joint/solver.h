@@ -64,13 +64,14 @@ struct SolverJoint {
   Rows gap{};                             // u, v, θ at the current poses
   double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
   RowLaw law;
-  Rows spring{};              // the stiffness that the step can integrate (≤ stiffness)
-  Rows damping{};             // c, N s/m or N m s
-  Rows x{}, x0{};             // J v + b at the last evaluation and the one before
-  Rows m_eff{};               // effective masses of the rows at rest
-  Rows slope{};               // ds/dx that is in H
-  int block = -1;             // of H, when both bodies are free
-  std::uint8_t factored = 0;  // rows that were flowing in the factor at hand
+  Rows spring{};   // the stiffness that the step can integrate (≤ stiffness)
+  Rows damping{};  // c, N s/m or N m s
+  Rows x{}, x0{};  // J v + b at the last evaluation and the one before
+  Rows m_eff{};    // effective masses of the rows at rest
+  Rows slope{};    // ds/dx that is in H
+  double slope_nq = 0, slope_nm = 0, slope_qm = 0;  // and what couples the rows on a yield surface
+  int block = -1;                                   // of H, when both bodies are free
+  std::uint8_t factored = 0;                        // rows that were flowing in the factor at hand
 };
 
 struct SolveReport {
@@ -160,6 +161,7 @@ class Solver {
   double speed_ = 0;      // |v|²_M
   int changed_ = 0;       // rows whose state is not the factor's
   bool crossed_ = false;  // rows changed their state since the evaluation before
+  bool curved_ = false;   // any joint flows on its yield surface
   bool flows_ = false;    // any row is beyond its cap
   std::vector<Vec3> g_, d_, z_, g0_, v0_;
   // One row in interior_point(): see there. Sides: the cap and the reverse cap.

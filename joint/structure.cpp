@@ -52,6 +52,10 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     m.own.cap_reverse[i] = row.cap_reverse;
     m.own.hardening[i] = row.hardening;
   }
+  if (!d.interaction.empty()) {
+    m.surface = std::make_unique<YieldSurface>(d.interaction, d.rows[shear].cap);
+    m.own.surface = m.surface.get();
+  }
   m.own.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
   m.own.follow = d.axisFollow;
   m.own.reference = weld->GetReferenceAngle();
@@ -184,7 +188,8 @@ void Structure::Impl::look_for_breaks(Component& component) {
     SolverJoint& j = component.solver.joints[m->index];
     if (j.piece == 0 || m->broken) continue;
     const Rows force = component.solver.force(j);
-    const auto row = static_cast<unsigned>(std::countr_zero(static_cast<unsigned>(j.piece))) % 3;
+    const unsigned row =
+        j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
     const double energy = j.dissipated[0] + j.dissipated[1] + j.dissipated[2];
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
@@ -207,6 +212,7 @@ void Structure::Impl::break_joint(Member& member) {
   member.broken = true;
   SolverJoint& j = member.data();
   j.cap = j.cap_reverse = {};
+  j.surface = nullptr;
   if (member.break_group == 0) return;
   for (const auto& other : members) {
     if (other->break_group == member.break_group && !other->broken) break_joint(*other);

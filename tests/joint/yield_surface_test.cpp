@@ -1,0 +1,139 @@
+// N, Q and M on one yield surface.
+#include "../../joint/yield_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "beam.h"
+
+namespace ductile {
+namespace {
+
+// |m| = 1 − n² of a rectangle, as a polygon of 2k points.
+std::vector<AxialMoment> rectangle(double N, double M, int k) {
+  std::vector<AxialMoment> points;
+  for (int i = 0; i < 2 * k; ++i) {
+    const bool upper = i < k;
+    const double n = upper ? 1 - 2.0 * i / k : -1 + 2.0 * (i - k) / k;
+    points.push_back({n * N, (upper ? 1 : -1) * (1 - n * n) * M});
+  }
+  return points;
+}
+
+double distance(const Rows& G, const Rows& a, const Rows& b) {
+  double sum = 0;
+  for (unsigned i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]) / G[i];
+  return sum;
+}
+
+class Projection : public testing::TestWithParam<double> {};
+
+// The nearest point of a convex body is the one from which everything else in it lies behind the plane
+// through it.
+TEST_P(Projection, IsTheNearestPointInTheMetric) {
+  const double shear = GetParam();
+  const YieldSurface surface(rectangle(2, 3, 12), shear);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Rows G{std::exp(2 * normal(random)), std::exp(2 * normal(random)), std::exp(2 * normal(random))};
+    const double h = 0.1;
+    const Rows from{normal(random), normal(random), normal(random)};
+    Rows s = from;
+    if (!surface.project(G, h, s)) {
+      EXPECT_EQ(s, from);
+      continue;
+    }
+    EXPECT_NEAR(surface.usage({s[0] / h, s[1] / h, s[2] / h}), 1, 1e-12);
+    for (int other = 0; other < 50; ++other) {
+      Rows inside{normal(random), normal(random), normal(random)};
+      const double usage = surface.usage({inside[0] / h, inside[1] / h, inside[2] / h});
+      for (double& value : inside) value /= std::max(usage, 1e-9);
+      double behind = 0;  // (from − s)ᵀ G⁻¹ (inside − s) ≤ 0
+      for (unsigned i = 0; i < 3; ++i) behind += (from[i] - s[i]) * (inside[i] - s[i]) / G[i];
+      EXPECT_LE(behind, 1e-12 * distance(G, from, s) + 1e-14);
+    }
+  }
+}
+
+TEST_P(Projection, TangentIsItsDerivative) {
+  const YieldSurface surface(rectangle(2, 3, 12), GetParam());
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  int compared = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const Rows G{std::exp(normal(random)), std::exp(normal(random)), std::exp(normal(random))};
+    const Rows x{normal(random), normal(random), normal(random)};
+    const double h = 0.1, step = 1e-6;
+    const auto s_of = [&](Rows at) {
+      for (unsigned i = 0; i < 3; ++i) at[i] *= G[i];
+      surface.project(G, h, at);
+      return at;
+    };
+    Rows t{G[0] * x[0], G[1] * x[1], G[2] * x[2]};
+    if (!(surface.usage({t[0] / h, t[1] / h, t[2] / h}) > 1.01)) continue;
+    const Coupling c = surface.tangent(G, h, t);
+    const double D[3][3] = {{c.nn, c.nq, c.nm}, {c.nq, c.qq, c.qm}, {c.nm, c.qm, c.mm}};
+    double worst = 0, kink = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      Rows up = x, down = x;
+      up[k] += step;
+      down[k] -= step;
+      const Rows su = s_of(up), sd = s_of(down), s0 = s_of(x);
+      for (unsigned i = 0; i < 3; ++i) {
+        kink = std::max(kink, std::abs(su[i] - 2 * s0[i] + sd[i]) / step);  // between two facets
+        worst = std::max(worst, std::abs((su[i] - sd[i]) / (2 * step) - D[i][k]));
+      }
+    }
+    if (kink > 1e-3) continue;
+    EXPECT_LT(worst, 1e-5);
+    ++compared;
+  }
+  EXPECT_GT(compared, 300);
+}
+INSTANTIATE_TEST_SUITE_P(Shear, Projection, testing::Values(1.5, unlimited));
+
+TEST(YieldSurface, RefusesWhatIsNotConvexOrMissesTheOrigin) {
+  const std::vector<AxialMoment> away{{1, 1}, {2, 1}, {1, 2}};
+  EXPECT_THROW(YieldSurface(away, 1), std::invalid_argument);
+  const std::vector<AxialMoment> dented{{1, 0}, {0.1, 0.1}, {0, 1}, {-1, 0}, {0, -1}};
+  EXPECT_THROW(YieldSurface(dented, 1), std::invalid_argument);
+  EXPECT_THROW(YieldSurface(rectangle(1, 1, 8), 0), std::invalid_argument);
+}
+
+// A cantilever that leans down by 60° hangs partly in tension: its root yields at m = 1 − n², well before m
+// = 1.
+TEST(YieldSurface, AxialForceLowersTheMomentThatTheRootCarries) {
+  for (const auto& [share, flows] : {std::pair{0.98, false}, std::pair{1.02, true}}) {
+    Beam beam({.pieces = 4, .length = 10, .angle = -std::acos(0.5)});
+    const double weight = beam.mass() * 10, N = weight * std::sin(std::acos(0.5)), M = weight * 5 * 0.5;
+    // n = 0.6 and m = share·(1 − 0.36)
+    const auto curve = rectangle(N / 0.6, M / (0.64 * share), 400);
+    ElasticPlasticJointDef def;
+    def.Initialize(beam.wall, beam.pieces[0], beam.point(0),
+                   {0.5f, -static_cast<float>(std::sin(std::acos(0.5)))});
+    def.interaction = curve;
+    beam.world.DestroyJoint(beam.joints[0]);
+    ElasticPlasticJoint* root = beam.structure.create_joint(def);
+    // Gravity grows slowly, so that nothing overshoots.
+    for (int i = 0; i < 600; ++i) {
+      beam.world.SetGravity({0, -10 * std::min(1.0f, static_cast<float>(i) / 400)});
+      beam.run(1.0 / 60);
+    }
+    EXPECT_EQ(std::abs(root->plastic(rotation)) > 1e-3, flows) << share;
+    if (!flows) {
+      EXPECT_NEAR(std::abs(root->force(rotation)), M, 1e-3 * M);
+    }
+    EXPECT_EQ(beam.bounds_hit, 0);
+    // Normality: on m = 1 − n² the slip along the axis goes with the rotation as dm/dn = −2n.
+    if (flows) {
+      const double n = root->force(axial) / (N / 0.6), ratio = 2 * n * (M / (0.64 * share)) / (N / 0.6);
+      EXPECT_NEAR(root->plastic(axial) / std::abs(root->plastic(rotation)), ratio, 0.1 * ratio);
+      EXPECT_GT(root->dissipated(), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ductile
