@@ -92,7 +92,11 @@ double ElasticPlasticJoint::usage(Row row) const {
   return limit > 0 ? std::abs(f) / limit : 0;
 }
 
-double ElasticPlasticJoint::elastic(Row row) const { return state().gap[row] - state().neutral[row]; }
+double ElasticPlasticJoint::elastic(Row row) const {
+  return member_ != nullptr && member_->component != nullptr
+             ? member_->component->solver.elastic(state(), static_cast<unsigned>(row))
+             : 0;
+}
 double ElasticPlasticJoint::plastic(Row row) const { return state().plastic[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {
@@ -120,12 +124,8 @@ double ElasticPlasticJoint::dissipated() const {
 }
 
 double ElasticPlasticJoint::elastic_energy() const {
-  const SolverJoint& j = state();
   double sum = 0;
-  for (unsigned i = 0; i < 3; ++i) {
-    const double e = j.gap[i] - j.neutral[i];
-    sum += j.spring[i] * e * e / 2;
-  }
+  for (const Row row : {axial, shear, rotation}) sum += state().spring[row] * elastic(row) * elastic(row) / 2;
   return sum;
 }
 

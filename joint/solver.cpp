@@ -99,7 +99,9 @@ void Solver::set_law(SolverJoint& j) const {
     law.bias[i] = h_ * k * (j.gap[i] - j.neutral[i]) / G;
     law.cap[i] = h_ * j.cap[i];
     law.cap_reverse[i] = h_ * j.cap_reverse[i];
-    law.after_yield[i] = std::min(j.hardening[i] / k, 0.99);
+    // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
+    const double after = std::min(j.hardening[i], 0.99 * k), H = after * k / (k - after);
+    law.after_yield[i] = h_ * h_ * H / (h_ * h_ * H + G);
   }
   j.law.surface = j.surface;
   j.law.h = h_;
@@ -404,24 +406,21 @@ void Solver::advance() {
   for (SolverJoint& j : joints) {
     const Rows before = j.gap;
     locate(j);
-    if (coasting_) {
-      for (unsigned i = 0; i < 3; ++i) j.neutral[i] += j.gap[i] - before[i];
-    } else if (j.piece != 0) {
-      flow(j, before);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (coasting_ || j.law.G[i] == 0) j.neutral[i] += j.gap[i] - before[i];
     }
+    if (!coasting_ && j.piece != 0) flow(j);
   }
   coasting_ = false;
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
 // elastic part; the plastic offset is incremented.
-void Solver::flow(SolverJoint& j, const Rows& before) const {
+void Solver::flow(SolverJoint& j) const {
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
-    const double G = j.law.G[i], s = j.impulse[i];
-    // Spring and damper in series with the slider: s/h = k e' + c (e' − e)/h.
-    const double elastic = h_ * (s + j.damping[i] * (before[i] - j.neutral[i])) / G;
-    const double increment = j.gap[i] - j.neutral[i] - elastic;
+    const double s = j.impulse[i];
+    const double increment = j.gap[i] - j.neutral[i] - elastic(j, i);
     if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     j.plastic[i] += increment;
@@ -513,9 +512,10 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   const bool kept = norm <= 1e4 * target;
   for (SolverJoint& j : joints) {
     for (unsigned i = 0; i < 3; ++i) {
-      if (kept && !flows(j.piece, i)) continue;
+      const bool free = j.law.G[i] == 0;
+      if (kept && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += j.gap[i] - j.x0[i];
-      j.plastic[i] += j.gap[i] - j.x0[i];
+      if (!free) j.plastic[i] += j.gap[i] - j.x0[i];
     }
   }
   return kept;
@@ -529,6 +529,11 @@ void Solver::place(SolverBody& b, const Pose& at) {
 void Solver::displace(SolverBody& b, const Vec3& by) {
   place(b, {b.pose.x + b.turn.c * by.x - b.turn.s * by.y, b.pose.y + b.turn.s * by.x + b.turn.c * by.y,
             b.pose.angle + by.w});
+}
+
+// Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, b = hk·e/G.
+double Solver::elastic(const SolverJoint& j, unsigned i) const {
+  return j.law.G[i] > 0 ? h_ * j.impulse[i] / j.law.G[i] + j.damping[i] * j.law.bias[i] / j.spring[i] : 0;
 }
 
 Rows Solver::force(const SolverJoint& j) const {

@@ -126,6 +126,9 @@ class Solver {
   void locate();
   /// Of the last solve, N, N, N m.
   Rows force(const SolverJoint& joint) const;
+  /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies part
+  /// along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
+  double elastic(const SolverJoint& joint, unsigned row) const;
   double step() const { return h_; }
   std::size_t bytes() const;
 
@@ -144,7 +147,7 @@ class Solver {
   bool line_search(double slope0, double slope1);
   double objective() const;
   void coast();
-  void flow(SolverJoint& joint, const Rows& before) const;
+  void flow(SolverJoint& joint) const;
   static void displace(SolverBody& body, const Vec3& by);
 
   std::size_t free_ = 0;

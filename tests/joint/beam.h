@@ -50,20 +50,23 @@ struct Beam {
       piece->SetMassData(&data);
       ElasticPlasticJointDef joint;
       joint.Initialize(previous, piece, point(i * l), axis);
-      if (d.youngs_modulus > 0) {
-        const double span = i == 0 ? l / 2 : l;
-        const double A = d.height, I = std::pow(d.height, 3) / 12, G = d.youngs_modulus / 2.6;
-        joint.rows[axial].stiffness = d.youngs_modulus * A / span;
-        joint.rows[shear].stiffness = 5.0 / 6 * G * A / span;
-        joint.rows[rotation].stiffness = d.youngs_modulus * I / span;
-      }
-      joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = d.moment_cap;
+      set_rows(joint, i == 0 ? l / 2 : l);
       joints.push_back(structure.create_joint(joint));
       pieces.push_back(piece);
       previous = piece;
     }
   }
 
+  // Rows of a joint that stands for so much of the beam.
+  void set_rows(ElasticPlasticJointDef& joint, double span) const {
+    if (def.youngs_modulus > 0) {
+      const double A = def.height, I = std::pow(def.height, 3) / 12, G = def.youngs_modulus / 2.6;
+      joint.rows[axial].stiffness = def.youngs_modulus * A / span;
+      joint.rows[shear].stiffness = 5.0 / 6 * G * A / span;
+      joint.rows[rotation].stiffness = def.youngs_modulus * I / span;
+    }
+    joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = def.moment_cap;
+  }
   b2Vec2 point(double s) const {
     return {static_cast<float>(def.x + s * std::cos(def.angle)),
             static_cast<float>(def.y + s * std::sin(def.angle))};

@@ -1,0 +1,416 @@
+// Statics, collapse, impact, spin, hardening, breaking: the joint against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "beam.h"
+#include "bodies.h"
+
+namespace ductile {
+namespace {
+
+// A beam whose far end is held too.
+struct BuiltInBeam : Beam {
+  explicit BuiltInBeam(const BeamDef& d, bool slides = false) : Beam(d) {
+    b2BodyDef block;
+    block.position = point(d.length);
+    right = world.CreateBody(&block);
+    ElasticPlasticJointDef joint;
+    joint.Initialize(pieces.back(), right, point(d.length), vec(std::cos(d.angle), std::sin(d.angle)));
+    set_rows(joint, d.length / d.pieces / 2);
+    if (slides) joint.rows[axial] = RowDef::free();
+    joints.push_back(structure.create_joint(joint));
+  }
+  b2Body* right;
+};
+
+class FixedFixedBeam : public testing::TestWithParam<int> {};
+
+// Joint i at x_i = i·l stands for the span l (at the ends l/2). The ends do not turn: Σ span_i M(x_i) = 0
+// with M(x) = q x (L − x)/2 − M_end is the trapezoidal rule, so M_end = qL²/12 (1 − 1/n²), M_mid = qL²/24 (1
+// + 2/n²).
+TEST_P(FixedFixedBeam, EndAndMiddleMomentsAreTheDiscreteBeams) {
+  const int n = GetParam();
+  const BeamDef def{.pieces = n, .youngs_modulus = 210e9, .gravity = 0.1};  // so small that it spans no cable
+  BuiltInBeam beam(def);
+  beam.run(10);
+  const double qL2 = def.density * def.height * def.gravity * def.length * def.length;
+  const double end = qL2 / 12 * (1 - 1.0 / (n * n)), middle = qL2 / 24 * (1 + 2.0 / (n * n));
+  EXPECT_NEAR(beam.joints.front()->force(rotation), -end, 1e-5 * end);
+  EXPECT_NEAR(beam.joints.back()->force(rotation), -end, 1e-5 * end);
+  EXPECT_NEAR(beam.joints[static_cast<std::size_t>(n / 2)]->force(rotation), middle, 1e-5 * middle);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Pieces, FixedFixedBeam, testing::Values(2, 4, 10, 40));
+
+class SlidingBeam : public testing::TestWithParam<std::tuple<int, double, double>> {};
+
+// Both ends built in, the far one free to slide along the axis, a load P at a distance a from the left and b
+// from the right: P ab/L = 2 M_p when the hinges at both ends and under the load are complete (a = b: 8
+// M_p/L).
+TEST_P(SlidingBeam, CollapsesAtTheLoadOfLimitAnalysis) {
+  const auto [n, share, modulus] = GetParam();
+  const double plastic_moment = 8.75e7, length = 20;
+  BuiltInBeam beam({.pieces = n, .youngs_modulus = modulus, .moment_cap = plastic_moment, .gravity = 0},
+                   true);
+  const auto node = static_cast<std::size_t>(std::lround(share * n));
+  const double a = length * static_cast<double>(node) / n, b = length - a;
+  const double collapse = 2 * plastic_moment * length / (a * b);
+  const double seconds = 30, l = length / n;
+  const auto flowed = [&](std::size_t i) { return beam.joints[i]->accumulated_rotation() > 0; };
+  double complete = 0;
+  for (double t = 0; t < seconds && complete == 0; t += 1.0 / 60) {
+    const double load = 1.1 * collapse * t / seconds;
+    for (const int side : {-1, 0}) {
+      b2Body* piece = beam.pieces[node + static_cast<std::size_t>(side)];
+      piece->ApplyForce(vec(0, -load / 2), piece->GetWorldPoint(vec(side < 0 ? l / 2 : -l / 2, 0)), true);
+    }
+    beam.run(1.0 / 60);
+    if (flowed(0) && flowed(node) && flowed(static_cast<std::size_t>(n))) complete = load;
+  }
+  EXPECT_NEAR(complete / collapse, 1, 5e-3);
+  for (std::size_t i = 1; i < static_cast<std::size_t>(n); ++i) {
+    EXPECT_TRUE(i == node || !flowed(i)) << i;
+  }
+  EXPECT_LT(std::abs(beam.joints.back()->force(axial)), 1e-9 * collapse);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Beams, SlidingBeam,
+                         testing::Combine(testing::Values(4, 10, 20), testing::Values(0.5, 0.3),
+                                          testing::Values(0.0, 210e9)));
+
+// A piece held to the ground by a rigid-plastic axial row, the other rows unlimited; its axis lies along x.
+struct HeldPiece {
+  explicit HeldPiece(double mass, RowDef row, double gravity = 0)
+      : world(vec(0, -gravity)), structure(world), ground(add_box(world, {.x = -1, .type = b2_staticBody})) {
+    world.SetAllowSleeping(false);
+    piece = add_box(world, {.x = 1, .mass = mass});
+    def.Initialize(ground, piece, {0, 0}, {1, 0});
+    def.rows[axial] = row;
+    joint = structure.create_joint(def);
+  }
+  void step(double dt) {
+    world.Step(static_cast<float>(dt), 8, 3);
+    bounds_hit += structure.report().bounds_hit;
+    structure.update();
+  }
+  b2World world;
+  Structure structure;
+  b2Body *ground, *piece;
+  ElasticPlasticJointDef def;
+  ElasticPlasticJoint* joint;
+  int bounds_hit = 0;
+};
+
+struct StruckBar {
+  double set, dissipated;
+  int bounds_hit;
+};
+
+// Mass m at v hits the resting piece, sticks, and both are braked by N: V = m v/(m + m_p), a = N/(m + m_p).
+constexpr double striker = 500, struck = 1500, speed = 8, crushing_force = 2e5;
+constexpr double common_speed = striker * speed / (striker + struck);
+constexpr double braking = crushing_force / (striker + struck);
+constexpr double exact_set = common_speed * common_speed / (2 * braking);
+
+StruckBar strike(double dt, bool welded) {
+  HeldPiece bar(struck, {.cap = crushing_force, .cap_reverse = crushing_force});
+  b2Body* mass = add_box(bar.world, {.x = welded ? 2 : 2.01, .mass = striker, .group = 0});
+  mass->SetLinearVelocity(vec(-speed, 0));
+  mass->SetBullet(true);
+  if (welded) {
+    ElasticPlasticJointDef weld;
+    weld.Initialize(bar.piece, mass, {1.5f, 0}, {1, 0});
+    bar.structure.create_joint(weld);
+  }
+  for (double t = 0; t < 0.5; t += dt) bar.step(dt);
+  return {bar.joint->compression(), bar.joint->dissipated(), bar.bounds_hit};
+}
+
+// Σ h (V − k a h) over the steps k ≥ 1 in which the two still move: implicit Euler's set.
+double discrete_set(double dt) {
+  const double whole = std::floor(common_speed / (braking * dt));
+  return dt * (common_speed * whole - braking * dt * whole * (whole + 1) / 2);
+}
+
+TEST(StruckBar, SetIsThatOfImplicitEuler) {
+  for (const double dt : {1.0 / 240, 1.0 / 1000, 1.0 / 5000}) {
+    const StruckBar bar = strike(dt, true);
+    EXPECT_NEAR(bar.set, discrete_set(dt), 1e-5 * exact_set) << dt;
+    EXPECT_NEAR(bar.dissipated, crushing_force * bar.set, 1e-6 * crushing_force * bar.set) << dt;
+    EXPECT_EQ(bar.bounds_hit, 0);
+  }
+}
+
+TEST(StruckBar, SetConvergesWithFirstOrder) {
+  const double coarse = strike(1.0 / 1000, true).set, fine = strike(1.0 / 2000, true).set,
+               finest = strike(1.0 / 10000, true).set;
+  EXPECT_NEAR((exact_set - coarse) / (exact_set - fine), 2, 0.1);
+  EXPECT_NEAR(finest, exact_set, 0.01 * exact_set);
+}
+
+TEST(StruckBar, ContactGivesTheSame) {
+  for (const double dt : {1.0 / 1000, 1.0 / 5000}) {
+    const StruckBar bar = strike(dt, false);
+    EXPECT_NEAR(bar.set, discrete_set(dt), 1e-4 * exact_set) << dt;
+    EXPECT_EQ(bar.bounds_hit, 0);
+  }
+}
+
+class Block : public testing::TestWithParam<std::tuple<bool, double>> {};
+
+TEST_P(Block, AtTheTipIsCarriedByTheRoot) {
+  const auto [welded, ratio] = GetParam();
+  const int n = 10;
+  Beam beam({.pieces = n});
+  const double mass = ratio * beam.mass() / n, x = 19;
+  b2Body* block = add_box(beam.world, {.x = x, .y = 1, .mass = mass, .group = 0});
+  if (welded) {
+    ElasticPlasticJointDef joint;
+    joint.Initialize(beam.pieces.back(), block, vec(x, 0.5), {0, 1});
+    beam.structure.create_joint(joint);
+  }
+  beam.run(4);
+  double sum = 0;
+  for (int i = 0; i < 60; ++i) {
+    beam.run(1.0 / 60);
+    sum += beam.joints[0]->force(rotation) / 60;
+  }
+  const double exact = beam.root_moment() - mass * 10 * block->GetPosition().x;
+  EXPECT_NEAR(sum, exact, 1e-3 * std::abs(exact));
+  EXPECT_NEAR(block->GetPosition().y, 1, 0.02);
+  EXPECT_NEAR(block->GetPosition().x, x, 0.02);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Resting, Block,
+                         testing::Combine(testing::Values(false), testing::Values(1, 10, 100)));
+INSTANTIATE_TEST_SUITE_P(Welded, Block,
+                         testing::Combine(testing::Values(true), testing::Values(1, 10, 100, 1e4, 1e6)));
+
+// ---- Free spin
+
+struct Spin {
+  const char* name;
+  double u, v;  // plastic set of every joint, m
+  int pieces = 2;
+  double omega = 6, dt = 1.0 / 60;
+  double loss = 0.01;  // of the energy, that ten seconds may cost
+  RowDef rotation = {};
+  double x = 0;
+};
+
+class FreeSpin : public testing::TestWithParam<Spin> {};
+
+TEST_P(FreeSpin, KeepsEnergyAndAngularMomentum) {
+  const Spin& spin = GetParam();
+  b2World world({0, 0});
+  world.SetAllowSleeping(false);
+  Structure structure(world);
+  std::vector<b2Body*> pieces;
+  for (int i = 0; i < spin.pieces; ++i) {
+    pieces.push_back(add_box(world, {.x = spin.x + i * (1 + spin.u), .y = i * spin.v, .height = 0.5}));
+    if (i == 0) continue;
+    b2Body *a = pieces[pieces.size() - 2], *b = pieces.back();
+    ElasticPlasticJointDef joint;
+    joint.Initialize(a, b, a->GetWorldPoint({0.5f, 0}), {1, 0});
+    joint.localAnchorB = {-0.5f, 0};  // what plastic flow would have left: anchors (u, v) apart
+    joint.rows[rotation] = spin.rotation;
+    structure.create_joint(joint);
+  }
+  b2Vec2 middle{0, 0};
+  for (const b2Body* b : pieces) middle += b->GetWorldCenter();
+  middle *= 1.0f / static_cast<float>(spin.pieces);
+  for (b2Body* b : pieces) {
+    b->SetAngularVelocity(static_cast<float>(spin.omega));
+    b->SetLinearVelocity(b2Cross(static_cast<float>(spin.omega), b->GetWorldCenter() - middle));
+  }
+  const double energy = kinetic_energy(pieces), momentum = angular_momentum(pieces, middle);
+  double highest = 0, fastest = 0;
+  const int steps = static_cast<int>(10 / spin.dt);
+  for (int i = 0; i < steps; ++i) {
+    world.Step(static_cast<float>(spin.dt), 8, 3);
+    double stored = 0;
+    for (const ElasticPlasticJoint* j : structure.joints()) stored += j->elastic_energy();
+    highest = std::max(highest, kinetic_energy(pieces) + stored);
+    fastest = std::max(fastest, angular_momentum(pieces, middle));
+    EXPECT_EQ(structure.report().bounds_hit, 0);
+    structure.update();
+  }
+  const double told = momentum * 1e-5 * (1 + spin.x / 100);  // what Box2D's floats can tell
+  EXPECT_NEAR(kinetic_energy(pieces), energy, spin.loss * energy);
+  EXPECT_NEAR(angular_momentum(pieces, middle), momentum, told);
+  EXPECT_LE(highest, energy * (1 + 1e-6));
+  EXPECT_LE(fastest, momentum + told);
+}
+const Spin spins[] = {{"straight", 0, 0},
+                      {"shear_set", 0, 0.3},
+                      {"axial_set", 0.3, 0},
+                      {"both", 0.2, -0.25},
+                      {"chain", 0.1, 0.3, 5},
+                      {"slow", 0, 0.3, 2, 1},
+                      {"fast", 0, 0.3, 2, 20, 1.0 / 60, 0.06},  // a third of a radian per step
+                      {"fine", 0, 0.3, 2, 20, 1.0 / 240},
+                      {"elastic", 0, 0.3, 3, 6, 1.0 / 60, 0.01, {.stiffness = 1e7}},
+                      {"far", 0, 0.3, 2, 6, 1.0 / 60, 0.01, {}, 500}};
+INSTANTIATE_TEST_SUITE_P(Sets, FreeSpin, testing::ValuesIn(spins),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(Spin, TensionIsTheCentripetalForce) {
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body* pieces[2];
+  for (int i = 0; i < 2; ++i) {
+    pieces[i] = add_box(world, {.x = i - 0.5});
+    pieces[i]->SetAngularVelocity(2);
+    pieces[i]->SetLinearVelocity(vec(0, 2 * (i - 0.5)));
+  }
+  ElasticPlasticJointDef def;
+  def.Initialize(pieces[0], pieces[1], {0, 0}, {1, 0});
+  auto* joint = structure.create_joint(def);
+  const double dt = 1.0 / 240;
+  for (int i = 0; i < 240; ++i) world.Step(static_cast<float>(dt), 8, 3);
+  EXPECT_NEAR(joint->force(axial), 1000 * 0.5 * 4, 1000 * 0.5 * 4 * 1e-3);
+  EXPECT_NEAR(joint->force(shear), 0, 2);
+  EXPECT_NEAR(joint->force(rotation), 0, 2);
+}
+
+// ---- Rows
+
+// Pulls the piece with a force that rises to `to` from `from` so slowly that inertia plays no part, in n
+// steps.
+void pull(HeldPiece& held, double from, double to, int n = 600) {
+  for (int i = 1; i <= n; ++i) {
+    held.piece->ApplyForceToCenter(vec(from + (to - from) * i / n, 0), true);
+    held.step(1.0 / 60);
+  }
+}
+
+TEST(Hardening, ElongationAndWorkFollowTheBilinearLaw) {
+  const double k = 1e8, after = 2e6, yield = 1e5, load = 1.6e5;
+  HeldPiece held(
+      1000, {.stiffness = k, .damping_ratio = 1, .cap = yield, .cap_reverse = yield, .hardening = after});
+  pull(held, 0, load);
+  const double plastic = (load - yield) * (1 / after - 1 / k);
+  EXPECT_NEAR(held.joint->plastic(axial), plastic, 1e-3 * plastic);
+  EXPECT_NEAR(held.joint->elastic(axial), load / k, 1e-3 * load / k);
+  EXPECT_NEAR(held.joint->cap(axial), load, 1e-3 * load);
+  EXPECT_NEAR(held.joint->dissipated(), (yield + load) / 2 * plastic, 2e-3 * load * plastic);
+  EXPECT_NEAR(held.piece->GetPosition().x - 1, plastic + load / k, 1e-3 * plastic);
+  // Isotropic: the other direction has hardened as well, and neither flows again below the load reached.
+  const double flowed = held.joint->elongation();
+  pull(held, load, -0.99 * load);
+  EXPECT_EQ(held.joint->compression(), 0);
+  pull(held, -0.99 * load, 0.99 * load);
+  EXPECT_EQ(held.joint->elongation(), flowed);
+  EXPECT_EQ(held.bounds_hit, 0);
+}
+
+TEST(Hardening, RigidUntilYield) {
+  const double after = 2e6, yield = 1e5, load = 1.5e5;
+  HeldPiece held(1000, {.cap = yield, .cap_reverse = yield, .hardening = after});
+  pull(held, 0, 0.99 * yield);
+  EXPECT_EQ(held.joint->elongation(), 0);
+  pull(held, 0.99 * yield, load);
+  EXPECT_NEAR(held.joint->elongation(), (load - yield) / after, 2e-3 * (load - yield) / after);
+}
+
+TEST(Caps, HoldInTheirOwnDirectionOnly) {
+  for (const double sign : {1.0, -1.0}) {
+    HeldPiece weak(1000, sign > 0 ? RowDef{.cap = 1e5} : RowDef{.cap_reverse = 1e5});
+    pull(weak, 0, -sign * 1e7);
+    EXPECT_EQ(weak.joint->plastic(axial), 0);
+    EXPECT_NEAR(weak.joint->force(axial), -sign * 1e7, 1e2);
+    pull(weak, -sign * 1e7, sign * 0.999e5, 6000);
+    EXPECT_EQ(weak.joint->plastic(axial), 0);
+    weak.piece->ApplyForceToCenter(vec(sign * 1.1e5, 0), true);
+    weak.step(1.0 / 60);
+    weak.piece->ApplyForceToCenter(vec(sign * 1.1e5, 0), true);
+    weak.step(1.0 / 60);
+    EXPECT_GT(sign * weak.joint->plastic(axial), 0);
+    EXPECT_NEAR(weak.joint->force(axial), sign * 1e5, 1);
+    EXPECT_NEAR(weak.joint->usage(axial), 1, 1e-9);
+  }
+}
+
+// The axis points right. Gravity bends the free end of a cantilever clockwise, M < 0; upside down, M > 0.
+TEST(Caps, OfTheMomentHaveTheSignOfTheBend) {
+  for (const double gravity : {10.0, -10.0}) {
+    const double moment = 7800 * 10 * 5.0 * 5.0 / 2;
+    for (const bool forward : {false, true}) {
+      Beam beam({.pieces = 5, .length = 5, .gravity = gravity});
+      for (ElasticPlasticJoint* j : beam.joints) {
+        j->set_caps(rotation, forward ? moment / 1.3 : unlimited, forward ? unlimited : moment / 1.3);
+      }
+      beam.run(1);
+      EXPECT_EQ(beam.joints[0]->accumulated_rotation() > 0, forward == (gravity < 0)) << gravity << forward;
+    }
+  }
+}
+
+TEST(Caps, ByAMaximumElasticRotation) {
+  const double k = 1e6, angle = 0.02;
+  HeldPiece held(1000, {});
+  held.joint->set_caps(axial, unlimited, unlimited);
+  const RowDef row = RowDef::elastic_up_to(k, angle);
+  held.joint->set_stiffness(rotation, row.stiffness, 1);
+  held.joint->set_caps(rotation, row.cap, row.cap_reverse);
+  double yielded_at = 0;
+  for (int i = 1; yielded_at == 0 && i <= 3000; ++i) {
+    held.piece->ApplyTorque(static_cast<float>(1.1 * k * angle * i / 3000), true);
+    const double before = held.piece->GetAngle();
+    held.step(1.0 / 60);
+    if (held.joint->accumulated_rotation() > 0) yielded_at = before;
+  }
+  EXPECT_NEAR(yielded_at, angle, 1e-3 * angle);
+  EXPECT_NEAR(held.joint->force(rotation), k * angle, 1e-9 * k * angle);
+}
+
+// A pendulum that hangs on a pin: rotation = free().
+TEST(FreeRow, DissipatesAndAccumulatesNothing) {
+  for (const Row row : {axial, shear, rotation}) {
+    b2World world({0, -10});
+    Structure structure(world);
+    b2Body* ground = add_box(world, {.type = b2_staticBody});
+    b2Body* piece = add_box(world, {.x = 1});
+    ElasticPlasticJointDef def;
+    def.Initialize(ground, piece, {0.5f, 0}, row == shear ? b2Vec2{1, 0} : b2Vec2{0, 1});
+    def.axisFollow = 0;
+    def.rows[row] = RowDef::free();
+    def.max_rotation = def.max_elongation = def.max_compression = def.max_slip = 0;
+    ElasticPlasticJoint* joint = structure.create_joint(def);
+    for (int i = 0; i < 120; ++i) {
+      world.Step(1.0f / 60, 8, 3);
+      structure.update();
+    }
+    ASSERT_EQ(structure.joints().size(), 1u);
+    EXPECT_GT((piece->GetPosition() - b2Vec2{1, 0}).Length() + std::abs(piece->GetAngle()), 0.1);
+    EXPECT_EQ(joint->force(row), 0);
+    EXPECT_EQ(joint->usage(row), 0);
+    EXPECT_EQ(joint->dissipated(), 0);
+    EXPECT_EQ(joint->elastic(row), 0);
+    EXPECT_EQ(joint->plastic(row), 0);
+    EXPECT_EQ(joint->accumulated_rotation() + joint->elongation() + joint->compression() + joint->slip(), 0);
+    EXPECT_EQ(joint->capacity_used(), 0);
+  }
+}
+
+// A free row that is given a cap holds from where it is, not from where it once was.
+TEST(FreeRow, GivenACapHoldsWhereItIs) {
+  HeldPiece held(1000, {}, 10);
+  held.joint->set_caps(rotation, 0, 0);
+  for (int i = 0; i < 40; ++i) held.step(1.0 / 60);
+  const double angle = held.piece->GetAngle();
+  ASSERT_GT(std::abs(angle), 0.5);
+  const double before = kinetic_energy({&held.piece, 1});
+  held.joint->set_caps(rotation, unlimited, unlimited);
+  held.step(1.0 / 60);
+  EXPECT_LT(kinetic_energy({&held.piece, 1}), before);
+  for (int i = 0; i < 60; ++i) held.step(1.0 / 60);
+  EXPECT_NEAR(held.piece->GetAngle(), angle, 1e-3);
+  EXPECT_LT(kinetic_energy({&held.piece, 1}), 1e-3);
+}
+
+}  // namespace
+}  // namespace ductile
