@@ -29,28 +29,42 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
-void write_text(const fs::path& file, std::string_view text) {
-  const auto fail = [&] {
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), "cannot write " + file.string());
-  };
-  const auto write = [&](const fs::path& path) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary);
-    if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) fail();
-  };
-  // A device or a pipe is written to, not replaced; a link stays a link to what is replaced.
-  if (fs::exists(file) && !fs::is_regular_file(file)) return write(file);
-  const fs::path target = fs::exists(file) ? fs::canonical(file) : file;
-  fs::path fresh = target;
-  fresh += ".new" + std::to_string(::getpid());
-  std::error_code ignored;
-  try {
-    write(fresh);
-    fs::rename(fresh, target);
-  } catch (...) {
-    fs::remove(fresh, ignored);
-    throw;
+namespace {
+[[noreturn]] void cannot_write(const fs::path& file) {
+  throw std::system_error(errno ? errno : EIO, std::generic_category(), "cannot write " + file.string());
+}
+}  // namespace
+
+NewFile::NewFile(const fs::path& file) : target_(file), fresh_(file) {
+  if (fs::is_regular_file(file)) target_ = fs::canonical(file);  // a link stays, what it shows is replaced
+  if (!fs::exists(file) || fs::is_regular_file(file)) {
+    fresh_ = target_;
+    fresh_ += ".new" + std::to_string(::getpid());
   }
+  errno = 0;
+  out_.open(fresh_, std::ios::binary);
+  if (!out_) cannot_write(target_);
+}
+
+NewFile::~NewFile() {
+  std::error_code ignored;
+  if (fresh_ != target_) fs::remove(fresh_, ignored);
+}
+
+void NewFile::write(std::string_view text) {
+  if (!out_.write(text.data(), static_cast<std::streamsize>(text.size()))) cannot_write(target_);
+}
+
+void NewFile::keep() {
+  out_.close();
+  if (!out_) cannot_write(target_);
+  if (fresh_ != target_) fs::rename(fresh_, target_);
+}
+
+void write_text(const fs::path& file, std::string_view text) {
+  NewFile fresh(file);
+  fresh.write(text);
+  fresh.keep();
 }
 
 }  // namespace ductile

@@ -1,12 +1,184 @@
+#include "ductile/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "command.h"
+#include "ductile/files.h"
 
 namespace ductile::tool {
+namespace {
 
-void add_simulate(CLI::App& app, std::string&) {
+constexpr double most_steps = 1e7;
+
+struct Options {
+  std::string scene, history, solver = "direct";
+  double time = 0;
+  Stepping stepping;
+  bool json = false;
+};
+
+Json json(const Point& p) { return {number(p.x), number(p.y)}; }
+
+Json joints_json(const Simulation& simulation) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < simulation.plan().joints.size(); ++i) {
+    const JointReading j = simulation.joint(i);
+    list.push_back({{"name", simulation.plan().joints[i].name},
+                    {"N", number(j.N)},
+                    {"Q", number(j.Q)},
+                    {"M", number(j.M)},
+                    {"usage", {{"N", number(j.usage.N)}, {"Q", number(j.usage.Q)}, {"M", number(j.usage.M)}}},
+                    {"plastic_rotation", number(j.plastic_rotation)},
+                    {"accumulated_rotation", number(j.accumulated_rotation)},
+                    {"plastic_axial", number(j.plastic_axial)},
+                    {"plastic_shear", number(j.plastic_shear)},
+                    {"capacity_used", number(j.capacity_used)},
+                    {"broken", j.broken},
+                    {"broken_at", number(j.broken_at)},
+                    {"dissipated", number(j.dissipated)}});
+  }
+  return list;
+}
+
+Json pieces_json(const Simulation& simulation) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < simulation.plan().pieces.size(); ++i) {
+    const PieceReading p = simulation.piece(i);
+    list.push_back({{"name", simulation.plan().pieces[i].name},
+                    {"position", json(p.position)},
+                    {"angle", number(p.angle)},
+                    {"velocity", json(p.velocity)},
+                    {"angular_velocity", number(p.angular_velocity)}});
+  }
+  return list;
+}
+
+/// One row a step: time, then every piece's pose and every joint's forces and plastic offsets.
+class History {
+ public:
+  explicit History(const std::string& file) : file_(file) {}
+
+  void head(const Plan& plan) {
+    std::string line = "time";
+    for (const Piece& piece : plan.pieces) line += fmt::format(",{0} x,{0} y,{0} angle", piece.name);
+    for (const PlannedJoint& joint : plan.joints) {
+      line += fmt::format(
+          ",{0} N,{0} Q,{0} M,{0} plastic_rotation,{0} plastic_axial,{0} plastic_shear,{0} broken",
+          joint.name);
+    }
+    file_.write(line + "\n");
+  }
+  void row(const Simulation& simulation) {
+    fmt::memory_buffer line;
+    const auto out = std::back_inserter(line);
+    fmt::format_to(out, "{}", simulation.time());
+    for (std::size_t i = 0; i < simulation.plan().pieces.size(); ++i) {
+      const PieceReading p = simulation.piece(i);
+      fmt::format_to(out, ",{},{},{}", p.position.x, p.position.y, p.angle);
+    }
+    for (std::size_t i = 0; i < simulation.plan().joints.size(); ++i) {
+      const JointReading j = simulation.joint(i);
+      fmt::format_to(out, ",{},{},{},{},{},{},{}", j.N, j.Q, j.M, j.plastic_rotation, j.plastic_axial,
+                     j.plastic_shear, j.broken ? 1 : 0);
+    }
+    line.push_back('\n');
+    file_.write({line.data(), line.size()});
+  }
+  void keep() { file_.keep(); }
+
+ private:
+  NewFile file_;
+};
+
+std::string table(const Simulation& simulation, const std::string& scene) {
+  std::size_t widest = 5, yielded = 0, broken = 0;
+  std::vector<JointReading> joints;
+  for (std::size_t i = 0; i < simulation.plan().joints.size(); ++i) {
+    joints.push_back(simulation.joint(i));
+    widest = std::max(widest, simulation.plan().joints[i].name.size());
+    yielded += joints.back().dissipated > 0;
+    broken += joints.back().broken;
+  }
+  std::string text =
+      fmt::format("{}: {} steps of {:.6g} s, {} of {} joints yielded, {} broke; {} us a step\n\n", scene,
+                  simulation.steps(), simulation.stepping.dt, yielded, joints.size(), broken,
+                  shown(simulation.time_per_step_us()));
+  text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>12} {:>12} {:>6}\n", "joint", widest, "N [N]",
+                      "Q [N]", "M [N m]", "M use", "rot. [rad]", "diss. [J]", "limit");
+  const auto percent = [](double share) {
+    return std::isfinite(share) ? fmt::format("{:.0f} %", 100 * share) : std::string("-");
+  };
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointReading& j = joints[i];
+    text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>12} {:>12} {:>6}\n",
+                        simulation.plan().joints[i].name, widest, shown(j.N), shown(j.Q), shown(j.M),
+                        percent(j.usage.M), shown(j.plastic_rotation), shown(j.dissipated),
+                        j.broken ? "broke" : percent(j.capacity_used));
+  }
+  return text;
+}
+
+std::string run(const Options& options) {
+  const double steps = std::round(options.time / options.stepping.dt);
+  if (!(steps <= most_steps)) {
+    throw InvalidInput({{"command line:--time", fmt::format("asks for {:.3g} steps", steps),
+                         fmt::format("let it be at most {:.0e} steps of --dt", most_steps)}});
+  }
+  const JointSolver solver = options.solver == "direct"      ? JointSolver::direct
+                             : options.solver == "iterative" ? JointSolver::iterative
+                                                             : JointSolver::stock;
+  Plan plan = plan_of(options.scene);
+  std::optional<Simulation> simulation;
+  in_file(options.scene, [&] { simulation.emplace(std::move(plan), solver, options.stepping); });
+  std::optional<History> history;
+  if (!options.history.empty()) {
+    history.emplace(options.history);
+    history->head(simulation->plan());
+    history->row(*simulation);
+  }
+  for (double i = 0; i < steps; ++i) {
+    simulation->step();
+    if (history) history->row(*simulation);
+  }
+  if (history) history->keep();
+  if (!options.json) return table(*simulation, options.scene);
+  const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
+                    {"joints", joints_json(*simulation)},
+                    {"pieces", pieces_json(*simulation)}};
+  return result.dump() + "\n";
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, std::string& output) {
+  auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("simulate", "Run a scene and report forces, usage, damage and energy");
-  command->allow_extras();
-  command->callback([] { throw NotYet("ductile simulate"); });
+  command->add_option("SCENE", options->scene, "scene file")->required();
+  command->add_option("--time", options->time, "how long, s")->required()->check(finite(0));
+  command->add_option("--dt", options->stepping.dt, "time step, s (default 1/60)")->check(finite(0, true));
+  command
+      ->add_option(
+          "--solver", options->solver,
+          "direct: all joints together; iterative: as in the paper; stock: Box2D's welds, which never "
+          "yield")
+      ->check(CLI::IsMember({"direct", "iterative", "stock"}))
+      ->capture_default_str();
+  const CLI::Range iterations(0, 1'000'000);
+  command
+      ->add_option("--velocity-iterations", options->stepping.velocity_iterations,
+                   "as b2World::Step (default 8)")
+      ->check(iterations);
+  command
+      ->add_option("--position-iterations", options->stepping.position_iterations,
+                   "as b2World::Step (default 3)")
+      ->check(iterations);
+  command->add_option("--history", options->history, "write every step's values to this CSV file");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, &output] { output = run(*options); });
 }
 
 }  // namespace ductile::tool

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -62,8 +63,24 @@ class Drawing {
 /// The file's bytes. A problem when it cannot be read, or is larger than 256 MiB.
 std::string read_text(const std::filesystem::path& file);
 
-/// Writes the whole file or nothing: a new file in the same folder takes the old one's place. Throws
-/// std::system_error.
+/// A file that appears whole or not at all: written beside its place, and put there by keep(). What is there
+/// already stays until then; a device or a pipe is written to directly. Throws std::system_error.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& file);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void write(std::string_view text);
+  void keep();
+
+ private:
+  std::filesystem::path target_, fresh_;  // equal for a device
+  std::ofstream out_;
+};
+
+/// The same in one go.
 void write_text(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace ductile
