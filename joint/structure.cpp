@@ -78,8 +78,9 @@ void Structure::Impl::forget(Member& member) {
     dissolve(component, known_);
     std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
   }
-  std::erase(joints, member.joint);
-  std::erase_if(members, [&](const auto& m) { return m.get() == &member; });
+  const auto place = find(member.id);
+  joints.erase(joints.begin() + (place - members.begin()));
+  members.erase(place);
 }
 
 void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
@@ -197,8 +198,7 @@ void Structure::Impl::look_for_breaks(Component& component) {
     if (!std::exchange(m->yielded, true)) say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
     const bool exceeded = m->joint->capacity_used() > 1;
     if (!exceeded || (veto && !veto(*m->joint))) continue;
-    break_joint(*m);
-    say(*m, {JointEvent::broke, mode, m->joint, force[row], energy});
+    break_joint(*m, mode, static_cast<Row>(row));
   }
 }
 
@@ -207,15 +207,18 @@ void Structure::Impl::say(const Member& member, const JointEvent& event) {
   if (pending_.size() < pending_.capacity()) pending_.push_back({member.id, event});
 }
 
-// Until update() destroys it, a broken joint has no caps. Its group goes with it.
-void Structure::Impl::break_joint(Member& member) {
-  member.broken = true;
-  SolverJoint& j = member.data();
-  j.cap = j.cap_reverse = {};
-  j.surface = nullptr;
+// Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
+void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row) {
+  const auto let_go = [&](Member& m) {
+    m.broken = true;
+    say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
+    m.data().cap = m.data().cap_reverse = {};
+    m.data().surface = nullptr;
+  };
+  let_go(member);
   if (member.break_group == 0) return;
   for (const auto& other : members) {
-    if (other->break_group == member.break_group && !other->broken) break_joint(*other);
+    if (other->break_group == member.break_group && !other->broken) let_go(*other);
   }
 }
 
@@ -224,7 +227,7 @@ void Structure::Impl::update() {
   // The handler may destroy anything: joints are looked up by id each time.
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     const Pending p = pending_[i];
-    if (handler && member(p.id) != nullptr) handler(p.event);
+    if (handler && find(p.id) != members.end()) handler(p.event);
     if (world == nullptr) return;
   }
   pending_.clear();
@@ -233,10 +236,10 @@ void Structure::Impl::update() {
   }
 }
 
-const Member* Structure::Impl::member(std::uint32_t id) const {
+auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {
   const auto found = std::lower_bound(members.begin(), members.end(), id,
                                       [](const auto& m, std::uint32_t value) { return m->id < value; });
-  return found != members.end() && (*found)->id == id ? found->get() : nullptr;
+  return found != members.end() && (*found)->id == id ? found : members.end();
 }
 
 void Structure::Impl::shift_origin(const b2Vec2& new_origin, const Member& caller) {

@@ -41,9 +41,9 @@ struct Structure::Impl {
   void form();
   void dissolve(Component& component, KnownPoses& poses);
   void look_for_breaks(Component& component);
-  void break_joint(Member& member);
+  void break_joint(Member& member, JointEvent::Mode mode, Row row);
   void say(const Member& member, const JointEvent& event);
-  const Member* member(std::uint32_t id) const;
+  decltype(members)::iterator find(std::uint32_t id);
 
   // The island at hand.
   std::vector<Member*> enlisted_;

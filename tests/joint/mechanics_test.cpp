@@ -412,5 +412,228 @@ TEST(FreeRow, GivenACapHoldsWhereItIs) {
   EXPECT_LT(kinetic_energy({&held.piece, 1}), 1e-3);
 }
 
+// ---- The four phases of breaking
+
+struct Breaking {
+  const char* name;
+  Row row;
+  double sign;
+  JointEvent::Mode mode;
+  double ElasticPlasticJointDef::*limit;
+};
+const Breaking ways_to_break[] = {
+    {"tension", axial, 1, JointEvent::tension, &ElasticPlasticJointDef::max_elongation},
+    {"compression", axial, -1, JointEvent::compression, &ElasticPlasticJointDef::max_compression},
+    {"slip_up", shear, 1, JointEvent::shear, &ElasticPlasticJointDef::max_slip},
+    {"slip_down", shear, -1, JointEvent::shear, &ElasticPlasticJointDef::max_slip},
+    {"rotation", rotation, 1, JointEvent::rotation, &ElasticPlasticJointDef::max_rotation},
+    {"rotation_back", rotation, -1, JointEvent::rotation, &ElasticPlasticJointDef::max_rotation}};
+double ElasticPlasticJointDef::*const all_limits[] = {
+    &ElasticPlasticJointDef::max_elongation, &ElasticPlasticJointDef::max_compression,
+    &ElasticPlasticJointDef::max_slip, &ElasticPlasticJointDef::max_rotation};
+
+class BreakingJoint : public testing::TestWithParam<Breaking> {
+ protected:
+  static constexpr double cap = 1e5, limit = 0.02;
+  BreakingJoint()
+      : world({0, 0}),
+        structure(world),
+        ground(add_box(world, {.type = b2_staticBody})),
+        piece(add_box(world, {.x = 1, .mass = 3000})) {
+    // Held in the middle of the piece, so that a force on it turns nothing.
+    def.Initialize(ground, piece, {1, 0}, {1, 0});
+    def.axisFollow = 0;
+    def.rows[GetParam().row].cap = def.rows[GetParam().row].cap_reverse = cap;
+    structure.on_event([this](const JointEvent& e) { events.push_back(e); });
+  }
+  void load(double value) {
+    const Row row = GetParam().row;
+    if (row == rotation) return piece->ApplyTorque(static_cast<float>(value), true);
+    piece->ApplyForceToCenter(vec(row == axial ? value : 0, row == shear ? value : 0), true);
+  }
+  void step() {
+    world.Step(1.0f / 60, 8, 3);
+    hits += structure.report().bounds_hit;
+    structure.update();
+  }
+  double speed() const {
+    const Row row = GetParam().row;
+    return row == axial   ? piece->GetLinearVelocity().x
+           : row == shear ? piece->GetLinearVelocity().y
+                          : piece->GetAngularVelocity();
+  }
+  double inertia() const { return GetParam().row == rotation ? piece->GetInertia() : piece->GetMass(); }
+
+  b2World world;
+  Structure structure;
+  b2Body *ground, *piece;
+  ElasticPlasticJointDef def;
+  std::vector<JointEvent> events;
+  int hits = 0;
+};
+
+TEST_P(BreakingJoint, BreaksWhereItsOwnMaximumIsExceeded) {
+  def.*GetParam().limit = limit;
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  const double sign = GetParam().sign;
+  double used = 0, dissipated = 0;
+  for (int i = 0; i < 600 && !structure.joints().empty(); ++i) {
+    load(sign * 1.05 * cap);
+    world.Step(1.0f / 60, 8, 3);
+    hits += structure.report().bounds_hit;
+    EXPECT_EQ(joint->broken(), joint->capacity_used() > 1);
+    EXPECT_LE(used, 1);
+    used = joint->capacity_used(), dissipated = joint->dissipated();
+    const double flowed = std::abs(joint->plastic(GetParam().row));
+    EXPECT_NEAR(used, flowed / limit, 1e-12);
+    EXPECT_NEAR(dissipated, cap * flowed, 1e-9 * cap);
+    structure.update();
+  }
+  EXPECT_GT(used, 1);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, JointEvent::yield);
+  EXPECT_EQ(events[1].kind, JointEvent::broke);
+  EXPECT_EQ(events[1].mode, GetParam().mode);
+  EXPECT_NEAR(events[1].force, sign * cap, 1e-9 * cap);
+  EXPECT_EQ(events[1].energy, dissipated);
+  EXPECT_EQ(world.GetJointCount(), 0);
+  // What the joint no longer takes stays with the piece.
+  const double before = speed();
+  load(sign * cap);
+  step();
+  EXPECT_NEAR(speed(), before + sign * cap / inertia() / 60, 1e-6);
+  EXPECT_EQ(hits, 0);
+}
+
+TEST_P(BreakingJoint, NoOtherMaximumBreaksIt) {
+  for (const auto other : all_limits) {
+    if (other != GetParam().limit) def.*other = 1e-6;
+  }
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  for (int i = 0; i < 60; ++i) {
+    load(GetParam().sign * 1.05 * cap);
+    step();
+  }
+  ASSERT_EQ(structure.joints().size(), 1u);
+  EXPECT_GT(std::abs(joint->plastic(GetParam().row)), limit);
+  EXPECT_EQ(joint->capacity_used(), 0);
+  EXPECT_EQ(events.size(), 1u);
+}
+
+TEST_P(BreakingJoint, BackAndForthAccumulates) {
+  for (const auto any : all_limits) def.*any = 3 * limit;
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  int turns = 0;
+  double sign = GetParam().sign, largest = 0, forward = 0, back = 0, last = 0;
+  for (int i = 0; i < 3000 && !structure.joints().empty(); ++i) {
+    load(sign * 1.2 * cap);
+    world.Step(1.0f / 60, 8, 3);
+    const double now = joint->plastic(GetParam().row);
+    (now > last ? forward : back) += std::abs(now - last);
+    largest = std::max(largest, std::abs(now));
+    last = now;
+    if (std::abs(now) > limit / 2 && now * sign > 0) sign = -sign, ++turns;
+    const double accumulated = GetParam().row == axial ? std::max(forward, back) : forward + back;
+    EXPECT_NEAR(joint->capacity_used(), accumulated / (3 * limit), 1e-12);
+    structure.update();
+  }
+  EXPECT_TRUE(structure.joints().empty());
+  EXPECT_GT(turns, 2);
+  EXPECT_LT(largest, 2 * limit);
+}
+
+TEST_P(BreakingJoint, RestsWhereItFlowedToWhenUnloaded) {
+  def.rows[GetParam().row].stiffness = 1e7;
+  def.rows[GetParam().row].damping_ratio = 0.7;
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  for (int i = 0; std::abs(joint->plastic(GetParam().row)) < limit; ++i) {
+    ASSERT_LT(i, 600);
+    load(GetParam().sign * 1.05 * cap);
+    step();
+  }
+  for (int i = 0; i < 300; ++i) step();
+  const double plastic = joint->plastic(GetParam().row);
+  const double place = GetParam().row == axial   ? piece->GetPosition().x - 1
+                       : GetParam().row == shear ? piece->GetPosition().y
+                                                 : piece->GetAngle();
+  EXPECT_NEAR(place, plastic, 1e-6);
+  EXPECT_NEAR(joint->elastic(GetParam().row), 0, 1e-6);
+  // It yields there at the same load, after the same elastic strain.
+  for (int i = 1; i <= 900; ++i) {
+    load(GetParam().sign * 0.999 * cap * std::min(1.0, i / 600.0));
+    step();
+  }
+  EXPECT_EQ(joint->plastic(GetParam().row), plastic);
+  EXPECT_NEAR(joint->elastic(GetParam().row), GetParam().sign * 0.999 * cap / 1e7, 1e-7);
+}
+
+TEST_P(BreakingJoint, MayBeVetoed) {
+  def.*GetParam().limit = limit;
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  int asked = 0;
+  structure.may_break([&](const ElasticPlasticJoint& j) {
+    EXPECT_EQ(&j, joint);
+    EXPECT_GT(j.capacity_used(), 1);
+    return ++asked > 10;
+  });
+  int steps = 0;
+  for (; steps < 600 && !structure.joints().empty(); ++steps) {
+    load(GetParam().sign * 1.05 * cap);
+    step();
+  }
+  EXPECT_LT(steps, 600);
+  EXPECT_EQ(asked, 11);
+  EXPECT_EQ(events.size(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, BreakingJoint, testing::ValuesIn(ways_to_break),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(BreakGroup, GoesTogether) {
+  b2World world({0, -10});
+  Structure structure(world);
+  b2Body* ground = add_box(world, {.type = b2_staticBody});
+  std::vector<ElasticPlasticJoint*> joints;
+  for (int i = 0; i < 4; ++i) {
+    b2Body* piece = add_box(world, {.x = 2.0 * i, .y = -1});
+    ElasticPlasticJointDef def;
+    def.Initialize(ground, piece, vec(2 * i, -0.5), {0, -1});
+    def.break_group = i == 3 ? 2 : 1;
+    if (i == 0) {
+      def.rows[axial].cap = 9000;
+      def.max_elongation = 0;
+    }
+    joints.push_back(structure.create_joint(def));
+  }
+  std::vector<const ElasticPlasticJoint*> broke;
+  structure.on_event([&](const JointEvent& e) {
+    if (e.kind == JointEvent::broke) broke.push_back(e.joint);
+  });
+  world.Step(1.0f / 60, 8, 3);
+  EXPECT_TRUE(joints[0]->broken() && joints[1]->broken() && joints[2]->broken());
+  EXPECT_FALSE(joints[3]->broken());
+  structure.update();
+  EXPECT_EQ(broke, (std::vector<const ElasticPlasticJoint*>{joints[0], joints[1], joints[2]}));
+  EXPECT_EQ(structure.joints().size(), 1u);
+  EXPECT_EQ(structure.joints()[0], joints[3]);
+}
+
+TEST(BreakGroup, OfAHundredThousandGoesTogetherToo) {
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body *a = add_box(world, {.type = b2_staticBody}), *b = add_box(world, {.x = 1});
+  ElasticPlasticJointDef def;
+  def.Initialize(a, b, {0.5f, 0}, {1, 0});
+  def.break_group = 1;
+  def.max_elongation = 0;
+  def.rows[axial].cap = 1;
+  for (int i = 0; i < 100000; ++i) structure.create_joint(def);
+  b->SetLinearVelocity({1000, 0});
+  world.Step(1.0f / 60, 8, 3);
+  for (const ElasticPlasticJoint* j : structure.joints()) ASSERT_TRUE(j->broken());
+  structure.update();
+  EXPECT_EQ(world.GetJointCount(), 0);
+}
+
 }  // namespace
 }  // namespace ductile

@@ -82,7 +82,7 @@ struct ElasticPlasticJointDef : b2JointDef {
   /// N–M curve that replaces the independent caps of N and M (and with the shear cap, of Q): a convex polygon
   /// with the origin inside, counter-clockwise in the (N, M) plane. Empty: independent caps.
   std::vector<AxialMoment> interaction;
-  int break_group = 0;  ///< joints of one group ≠ 0 break together
+  int break_group = 0;  ///< joints of one group ≠ 0 break together, in the mode of the first
 };
 
 /// A joint of a Structure. The world owns it as it owns every joint: b2World::DestroyJoint and DestroyBody
