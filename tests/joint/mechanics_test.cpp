@@ -635,5 +635,148 @@ TEST(BreakGroup, OfAHundredThousandGoesTogetherToo) {
   EXPECT_EQ(world.GetJointCount(), 0);
 }
 
+// ---- Frames
+
+// n storeys of n bays; each bay's column and beam of n pieces, 0.1 m thick, 1 m deep, 10 m in all.
+struct Frame {
+  static constexpr int n = 4;
+  static constexpr double length = 10.0 / n / n, thickness = 0.1, bay = n * length, density = 7800;
+
+  explicit Frame(double modulus) : world({0, -10}), structure(world), youngs_modulus(modulus) {
+    world.SetAllowSleeping(false);
+    ground = add_box(world, {.x = 5, .y = -0.5, .width = 20, .type = b2_staticBody});
+    const double mass = density * length * thickness;
+    b2Body* column[n + 1][n][n];
+    for (int storey = 0; storey < n; ++storey) {
+      for (int line = 0; line <= n; ++line) {
+        for (int k = 0; k < n; ++k) {
+          b2Body*& part = column[line][storey][k];
+          const double y = bay * storey + (k + 0.5) * length;
+          part = add_box(world, {.x = bay * line,
+                                 .y = y,
+                                 .width = length,
+                                 .height = thickness,
+                                 .mass = mass,
+                                 .angle = std::numbers::pi / 2});
+          pieces.push_back(part);
+          b2Body* below = k > 0        ? column[line][storey][k - 1]
+                          : storey > 0 ? column[line][storey - 1][n - 1]
+                                       : ground;
+          join(below, part, bay * line, y - length / 2, {0, 1});
+          if (below == ground) feet.push_back(structure.joints().back());
+        }
+      }
+      const double y = bay * (storey + 1);
+      b2Body* beam[n * n];
+      for (int m = 0; m < n * n; ++m) {
+        beam[m] = add_box(
+            world, {.x = (m + 0.5) * length, .y = y, .width = length, .height = thickness, .mass = mass});
+        pieces.push_back(beam[m]);
+        if (m > 0) join(beam[m - 1], beam[m], m * length, y, {1, 0});
+      }
+      for (int line = 0; line <= n; ++line) {
+        join(column[line][storey][n - 1], beam[std::min(line * n, n * n - 1)], bay * line, y, {0, 1});
+      }
+    }
+  }
+  void join(b2Body* a, b2Body* b, double x, double y, b2Vec2 axis) {
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, vec(x, y), axis);
+    if (youngs_modulus > 0) {
+      const double span = a == ground ? length / 2 : length;
+      def.rows[axial].stiffness = youngs_modulus * thickness / span;
+      def.rows[shear].stiffness = 5.0 / 6 * youngs_modulus / 2.6 * thickness / span;
+      def.rows[rotation].stiffness = youngs_modulus * std::pow(thickness, 3) / 12 / span;
+    }
+    structure.create_joint(def);
+  }
+
+  b2World world;
+  Structure structure;
+  double youngs_modulus;
+  b2Body* ground;
+  std::vector<b2Body*> pieces;
+  std::vector<ElasticPlasticJoint*> feet;
+};
+
+class StandingFrame : public testing::TestWithParam<double> {};
+
+TEST_P(StandingFrame, FeetCarryTheWeightAndItStandsPlumb) {
+  Frame frame(GetParam());
+  ASSERT_EQ(frame.pieces.size(), 144u);
+  ASSERT_EQ(frame.structure.joints().size(), 160u);
+  std::vector<b2Vec2> at;
+  for (const b2Body* b : frame.pieces) at.push_back(b->GetPosition());
+  for (int i = 0; i < 600; ++i) {
+    frame.world.Step(1.0f / 60, 8, 3);
+    EXPECT_EQ(frame.structure.report().bounds_hit, 0);
+    frame.structure.update();
+  }
+  const double weight = 144 * 487.5 * 10;
+  double carried = 0, pushed = 0;
+  for (const ElasticPlasticJoint* foot : frame.feet) {
+    carried -= foot->force(axial);
+    pushed += foot->force(shear);
+  }
+  EXPECT_NEAR(carried, weight, 1e-5 * weight);
+  EXPECT_NEAR(pushed, 0, 1e-5 * weight);
+  // Five storeys' weight shortens the columns by 1e-4 m at most; beams of 2.5 m sag by qL⁴/384EI = 5e-5 m.
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    EXPECT_LT((frame.pieces[i]->GetPosition() - at[i]).Length(), GetParam() > 0 ? 5e-4 : 2e-5) << i;
+  }
+  EXPECT_LT(kinetic_energy(frame.pieces), 1e-3);
+}
+INSTANTIATE_TEST_SUITE_P(Stiffness, StandingFrame, testing::Values(0.0, 200e9));
+
+// ---- Parkes' struck cantilever
+
+// A tip mass G struck with v0; rigid-plastic theory (E. W. Parkes, Proc. R. Soc. A 228, 1955). A hinge runs
+// from the tip to the root: with the stretch x beyond it turning as one, momentum and its moment about the
+// tip give v = G v0/(G + mx/2) and M_p t = m x² v/6; then all turns about the root until M_p has used up the
+// energy.
+struct Parkes {
+  double root_rotation, tip_deflection;
+};
+
+Parkes parkes(double tip_mass, double mass_per_length, double length, double speed, double moment) {
+  const auto velocity = [&](double x) { return tip_mass * speed / (tip_mass + mass_per_length * x / 2); };
+  const auto time = [&](double x) { return mass_per_length * x * x * velocity(x) / 6 / moment; };
+  double deflection = 0;
+  const int n = 10000;
+  for (int i = 0; i < n; ++i) {
+    const double x0 = length * i / n, x1 = length * (i + 1) / n;
+    deflection += velocity((x0 + x1) / 2) * (time(x1) - time(x0));
+  }
+  const double omega = velocity(length) / length;
+  const double inertia = tip_mass * length * length + mass_per_length * std::pow(length, 3) / 3;
+  const double rotation = inertia * omega * omega / (2 * moment);
+  return {rotation, deflection + rotation * length};
+}
+
+TEST(Parkes, StruckCantileverApproachesRigidPlasticTheory) {
+  const double moment = 8.75e7, mass_per_length = 7800, length = 20, tip = 156000, speed = 12;
+  const Parkes exact = parkes(tip, mass_per_length, length, speed, moment);
+  for (const int n : {10, 20, 40}) {
+    Beam beam({.pieces = n, .moment_cap = moment, .gravity = 0});
+    b2Body* mass = add_box(beam.world, {.x = 20, .width = 0.1, .height = 0.1, .mass = tip});
+    ElasticPlasticJointDef weld;
+    weld.Initialize(beam.pieces.back(), mass, {20, 0}, {1, 0});
+    beam.structure.create_joint(weld);
+    mass->SetLinearVelocity(vec(0, -speed));
+    const double energy = tip * speed * speed / 2;
+    for (double t = 0; t < 0.7; t += 1.0 / 6000) beam.run(1.0 / 6000, 1.0 / 6000);
+    double dissipated = 0;
+    for (const ElasticPlasticJoint* j : beam.joints) dissipated += j->dissipated();
+    EXPECT_NEAR(std::abs(beam.joints[0]->plastic(rotation)), exact.root_rotation,
+                1.0 / n * exact.root_rotation);
+    EXPECT_NEAR(-mass->GetPosition().y, exact.tip_deflection, 0.04 * exact.tip_deflection);
+    // The rest goes in the first step, which sets the beam's end in motion at once: 5 % at 1500 Hz, 2 % at 24
+    // kHz. m_p)-like.
+    EXPECT_NEAR(dissipated, energy, 0.04 * energy);
+    EXPECT_LT(dissipated, energy);
+    EXPECT_EQ(beam.bounds_hit, 0);
+  }
+}
+
 }  // namespace
 }  // namespace ductile
