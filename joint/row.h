@@ -30,19 +30,25 @@ struct RowLaw {
 /// Says that a joint flows on its yield surface.
 inline constexpr unsigned on_surface = 64;
 
-/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit
-/// 3 + i that it is beyond its reverse cap (each combination is linear), or on_surface.
+/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit 3 + i that
+/// it is beyond its reverse cap (each combination is linear), or on_surface.
 inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
   if (law.surface != nullptr) {
     for (unsigned i = 0; i < 3; ++i) s[i] = law.G[i] * x[i];
     return law.surface->project(law.G, law.h, s) ? on_surface : 0;
   }
+  const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
+  unsigned beyond = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    s[i] = trial[i];
+    beyond |= static_cast<unsigned>(trial[i] > law.cap[i]) | static_cast<unsigned>(trial[i] < -law.cap_reverse[i]);
+  }
+  if (beyond == 0) return 0;
   unsigned piece = 0;
   for (unsigned i = 0; i < 3; ++i) {
-    const double trial = law.G[i] * x[i];
-    const double held = std::min(std::max(trial, -law.cap_reverse[i]), law.cap[i]);
-    s[i] = held + law.after_yield[i] * (trial - held);
-    piece |= (trial > held ? 1u : 0u) << i | (trial < held ? 8u : 0u) << i;
+    const double held = std::min(std::max(trial[i], -law.cap_reverse[i]), law.cap[i]);
+    s[i] = held + law.after_yield[i] * (trial[i] - held);
+    piece |= (trial[i] > held ? 1u : 0u) << i | (trial[i] < held ? 8u : 0u) << i;
   }
   return piece;
 }

@@ -11,7 +11,28 @@ namespace {
 
 constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
-Turn turn_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+// Joints bend little from step to step and in all: a few terms of the series do, to the last bit.
+Turn turn_of(double angle) {
+  if (!(std::abs(angle) < 0.06)) return {std::cos(angle), std::sin(angle)};
+  const double t = angle * angle;
+  return {1 - t / 2 * (1 - t / 12 * (1 - t / 30 * (1 - t / 56 * (1 - t / 90)))),
+          angle * (1 - t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72))))};
+}
+
+// J v
+inline Rows relative_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) {
+  return {j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
+          -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
+          b.w - a.w};
+}
+
+// g += Jᵀ s
+inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b) {
+  a += {-j.axis_a.c * s[0] + j.axis_a.s * s[1], -j.axis_a.s * s[0] - j.axis_a.c * s[1],
+        j.au * s[0] + j.av * s[1] - s[2]};
+  b += {j.axis_b.c * s[0] - j.axis_b.s * s[1], j.axis_b.s * s[0] + j.axis_b.c * s[1],
+        j.bu * s[0] + j.bv * s[1] + s[2]};
+}
 
 }  // namespace
 
@@ -26,17 +47,20 @@ void Solver::form(std::size_t free_bodies) {
   for (auto* v : {&g_, &d_, &z_, &g0_, &v0_}) v->assign(bodies.size(), {});
   poses_.assign(bodies.size(), {});
   barrier_.assign(joints.size(), {});
+  gaps_.assign(joints.size(), {});
   factored_ = false;
   mass_ = 0;
-  for (std::size_t i = 0; i < free_; ++i) mass_ += bodies[i].mass;
+  for (std::size_t i = 0; i < free_; ++i) {
+    SolverBody& b = bodies[i];
+    mass_ += b.mass;
+    b.inverse_mass = 1 / b.mass;
+    b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
+  }
   for (SolverJoint& j : joints) {
     if (is_free(j.a) && is_free(j.b)) j.block = ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b));
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
-    const auto inverse_mass = [&](int body) { return z(body) < free_ ? 1 / bodies[z(body)].mass : 0; };
-    const auto inverse_inertia = [&](int body) {
-      const SolverBody& b = bodies[z(body)];
-      return z(body) < free_ && b.inertia > 0 ? 1 / b.inertia : 0;
-    };
+    const auto inverse_mass = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_mass : 0; };
+    const auto inverse_inertia = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_inertia : 0; };
     const double ma = inverse_mass(j.a), mb = inverse_mass(j.b), ia = inverse_inertia(j.a),
                  ib = inverse_inertia(j.b);
     const Turn in_a = j.axis, in_b = in_a * turn_of(-j.reference);
@@ -48,7 +72,7 @@ void Solver::form(std::size_t free_bodies) {
                          ia + ib};
     for (unsigned i = 0; i < 3; ++i) j.m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
   }
-  h_ = 0;
+  laws_set_ = false;
 }
 
 void Solver::locate(SolverJoint& j) const {
@@ -83,7 +107,7 @@ void Solver::set_law(SolverJoint& j) const {
     const double limit = rigid_ratio * j.m_eff[i];
     if (!(j.stiffness[i] > 0) || !(limit > 0) || (j.cap[i] <= 0 && j.cap_reverse[i] <= 0)) {
       law.G[i] = law.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = j.spring[i] =
-          j.damping[i] = 0;
+          j.damping[i] = j.relaxation[i] = 0;
       continue;
     }
     double k = j.stiffness[i], c = 0;
@@ -96,7 +120,7 @@ void Solver::set_law(SolverJoint& j) const {
     j.spring[i] = k;
     j.damping[i] = c;
     law.G[i] = G;
-    law.bias[i] = h_ * k * (j.gap[i] - j.neutral[i]) / G;
+    j.relaxation[i] = h_ * k / G;
     law.cap[i] = h_ * j.cap[i];
     law.cap_reverse[i] = h_ * j.cap_reverse[i];
     // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
@@ -108,10 +132,16 @@ void Solver::set_law(SolverJoint& j) const {
 }
 
 void Solver::begin(double h) {
-  if (h != h_) factored_ = false;
   newton_ = false;
-  h_ = h;
-  for (SolverJoint& j : joints) set_law(j);
+  if (h != h_ || !laws_set_) {
+    h_ = h;
+    factored_ = false;
+    laws_set_ = true;
+    for (SolverJoint& j : joints) set_law(j);
+  }
+  for (SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = j.relaxation[i] * (j.gap[i] - j.neutral[i]);
+  }
 }
 
 // ∇f at bodies' v, into g_; returns |∇f|² in the norm of M⁻¹.
@@ -125,37 +155,28 @@ double Solver::evaluate() {
     speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
   }
   changed_ = 0;
-  crossed_ = flows_ = curved_ = false;
+  unsigned crossed = 0, any = 0;
   for (SolverJoint& j : joints) {
-    j.x0 = j.x;
-    j.x = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    j.x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     for (unsigned i = 0; i < 3; ++i) j.x[i] += j.law.bias[i];
     const unsigned piece = respond(j.law, j.x, j.impulse);
-    crossed_ |= piece != j.piece || piece == on_surface;
-    flows_ |= piece != 0;
-    j.piece = static_cast<std::uint8_t>(piece);
-    changed_ += std::popcount(flowing(piece) ^ j.factored);
-    curved_ |= piece == on_surface;
-    scatter(j, j.impulse);
+    if ((piece | j.piece | j.factored) != 0) {
+      crossed |= (piece ^ j.piece) | (piece & on_surface);
+      any |= piece;
+      j.piece = static_cast<std::uint8_t>(piece);
+      changed_ += std::popcount(flowing(piece) ^ j.factored);
+    }
+    add_transposed(j, j.impulse, g_[z(j.a)], g_[z(j.b)]);
   }
+  crossed_ = crossed != 0;
+  flows_ = any != 0;
+  curved_ = (any & on_surface) != 0;
   return norm_of_gradient();
 }
 
-// J v
-Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) {
-  return {
-      j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
-      -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
-      b.w - a.w};
-}
+Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) { return relative_velocity(j, a, b); }
 
-// g_ += Jᵀ s
-void Solver::scatter(const SolverJoint& j, const Rows& s) {
-  g_[z(j.a)] += {-j.axis_a.c * s[0] + j.axis_a.s * s[1], -j.axis_a.s * s[0] - j.axis_a.c * s[1],
-                 j.au * s[0] + j.av * s[1] - s[2]};
-  g_[z(j.b)] += {j.axis_b.c * s[0] - j.axis_b.s * s[1], j.axis_b.s * s[0] + j.axis_b.c * s[1],
-                 j.bu * s[0] + j.bv * s[1] + s[2]};
-}
+void Solver::scatter(const SolverJoint& j, const Rows& s) { add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]); }
 
 // |g_|² in the norm of M⁻¹; bodies that do not rotate take no moment.
 double Solver::norm_of_gradient() {
@@ -163,8 +184,7 @@ double Solver::norm_of_gradient() {
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
     if (b.inertia == 0) g_[i].w = 0;
-    norm += (g_[i].x * g_[i].x + g_[i].y * g_[i].y) / b.mass +
-            (b.inertia > 0 ? g_[i].w * g_[i].w / b.inertia : 0);
+    norm += (g_[i].x * g_[i].x + g_[i].y * g_[i].y) * b.inverse_mass + g_[i].w * g_[i].w * b.inverse_inertia;
   }
   return norm;
 }
@@ -277,11 +297,9 @@ bool Solver::line_search(double slope0, double slope1) {
   for (int i = 0; i < 60; ++i) {
     double slope = at_rest + t * curvature, rise = curvature;
     for (const SolverJoint& j : joints) {
-      Rows x, y, s;
-      for (unsigned r = 0; r < 3; ++r) {
-        y[r] = j.x[r] - j.x0[r];
-        x[r] = j.x0[r] + t * y[r];
-      }
+      const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
+      Rows x, s;
+      for (unsigned r = 0; r < 3; ++r) x[r] = j.x[r] + (t - 1) * y[r];
       const unsigned piece = respond(j.law, x, s);
       for (unsigned r = 0; r < 3; ++r) {
         slope += y[r] * s[r];
@@ -431,11 +449,12 @@ void Solver::flow(SolverJoint& j) const {
       const double growth = std::abs(s) / h_ - (s > 0 ? j.cap : j.cap_reverse)[i];
       j.cap[i] += growth;
       j.cap_reverse[i] += growth;
+      set_law(j);
     }
   }
 }
 
-// ½|x − goal|²_M + ½ Σ G (gap − x0)² over the rows that hold; its gradient into g_.
+// ½|x − goal|²_M + ½ Σ G (gap − gaps_)² over the rows that hold; its gradient into g_.
 double Solver::evaluate_poses(std::span<const Pose> goal) {
   double sum = 0;
   for (std::size_t i = 0; i < free_; ++i) {
@@ -445,11 +464,12 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
              b.inertia * dw};
     sum += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
   }
-  for (SolverJoint& j : joints) {
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    SolverJoint& j = joints[k];
     locate(j);
     Rows s;
     for (unsigned i = 0; i < 3; ++i) {
-      const double strain = j.gap[i] - j.x0[i];
+      const double strain = j.gap[i] - gaps_[k][i];
       s[i] = tangent(j.law, j.piece, i) * strain;
       sum += s[i] * strain / 2;
     }
@@ -461,7 +481,7 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   short_step_ = false;
   if (changed_ > 0 || !factored_) factor_tangents();
-  for (SolverJoint& j : joints) j.x0 = j.gap;
+  for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
   double reach = 1;  // farthest coordinate
   for (std::size_t i = 0; i < free_; ++i) {
@@ -510,12 +530,13 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no
   // energy.
   const bool kept = norm <= 1e4 * target;
-  for (SolverJoint& j : joints) {
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    SolverJoint& j = joints[k];
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
       if (kept && !free && !flows(j.piece, i)) continue;
-      j.neutral[i] += j.gap[i] - j.x0[i];
-      if (!free) j.plastic[i] += j.gap[i] - j.x0[i];
+      j.neutral[i] += j.gap[i] - gaps_[k][i];
+      if (!free) j.plastic[i] += j.gap[i] - gaps_[k][i];
     }
   }
   return kept;
@@ -527,8 +548,15 @@ void Solver::place(SolverBody& b, const Pose& at) {
 }
 
 void Solver::displace(SolverBody& b, const Vec3& by) {
-  place(b, {b.pose.x + b.turn.c * by.x - b.turn.s * by.y, b.pose.y + b.turn.s * by.x + b.turn.c * by.y,
-            b.pose.angle + by.w});
+  b.pose.x += b.turn.c * by.x - b.turn.s * by.y;
+  b.pose.y += b.turn.s * by.x + b.turn.c * by.y;
+  const double before = b.pose.angle;
+  b.pose.angle += by.w;
+  if (b.pose.angle == before) return;
+  // By what the angle has really grown, so that turn and angle do not drift apart; brought back to length 1.
+  const Turn t = b.turn * turn_of(b.pose.angle - before);
+  const double length = (3 - t.c * t.c - t.s * t.s) / 2;
+  b.turn = {length * t.c, length * t.s};
 }
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, b = hk·e/G.
@@ -544,7 +572,8 @@ Rows Solver::force(const SolverJoint& j) const {
 std::size_t Solver::bytes() const {
   return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
          (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity() + v0_.capacity()) * sizeof(Vec3) +
-         poses_.capacity() * sizeof(Pose);
+         poses_.capacity() * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
+         gaps_.capacity() * sizeof(Rows);
 }
 
 }  // namespace ductile

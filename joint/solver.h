@@ -33,45 +33,52 @@ struct SolverBody {
   Pose pose;
   Turn turn;                     // of the angle
   double mass = 1, inertia = 1;  // kg, kg m² about the centre of mass; inertia 0: does not rotate
+  double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;                   // v*: m/s and rad/s in the body's own frame
   Vec3 v;                        // the solution; also where the next solve starts
 };
 
-/// A joint as the solver sees it: two bodies and three rows.
+/// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what one
+/// evaluation reads and writes, the middle what a step needs besides, the rest what a change of the law needs.
 struct SolverJoint {
-  // Configuration.
+  // Evaluation: J, the law, and what it gave.
   int a = 0, b = 0;                       // bodies
+  Turn axis_a, axis_b;                    // the axis in A's and B's own frames
+  double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
+  RowLaw law;
+  Rows x{};                   // J v + b
+  Rows impulse{};             // s, N s
+  std::uint8_t piece = 0;     // of the law: which rows flow, and which way (row.h)
+  std::uint8_t factored = 0;  // rows that were flowing in the factor at hand
+  int block = -1;             // of H, when both bodies are free
+
+  // Poses.
+  Rows gap{};                             // u, v, θ
+  Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
+  Rows relaxation{};                      // hk/G: bias per strain, 1/s
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
   double reference = 0;  // angle of B against A at rest
-  Rows stiffness{};      // N/m, N/m, N m/rad; infinite: rigid; 0: free
+
+  // Factorisation.
+  Rows slope{};                                     // ds/dx that is in H
+  double slope_nq = 0, slope_nm = 0, slope_qm = 0;  // and what couples the rows on a yield surface
+
+  // What has flowed.
+  Rows plastic{};                        // net plastic offset
+  Rows flowed_forward{}, flowed_back{};  // accumulated plastic offset by sign, ≥ 0
+  Rows dissipated{};                     // J
+
+  // Configuration, and what the step makes of it.
+  Rows stiffness{};  // N/m, N/m, N m/rad; infinite: rigid; 0: free
   Rows damping_ratio{};
   Rows cap{}, cap_reverse{};  // N, N, N m
   Rows hardening{};           // N/m, N/m, N m/rad
   const YieldSurface* surface = nullptr;
-
-  // State.
-  Rows neutral{};                        // gap at which the row is stress-free: grows by plastic flow
-  Rows impulse{};                        // s of the last solve, N s
-  Rows plastic{};                        // net plastic offset
-  Rows flowed_forward{}, flowed_back{};  // accumulated plastic offset by sign, ≥ 0
-  Rows dissipated{};                     // J
-  std::uint8_t piece = 0;  // of the law in the last solve: which rows flow, and which way (row.h)
-
-  // Of the step at hand.
-  Turn axis_a, axis_b;                    // the axis in A's and B's own frames
-  Rows gap{};                             // u, v, θ at the current poses
-  double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
-  RowLaw law;
-  Rows spring{};   // the stiffness that the step can integrate (≤ stiffness)
-  Rows damping{};  // c, N s/m or N m s
-  Rows x{}, x0{};  // J v + b at the last evaluation and the one before
-  Rows m_eff{};    // effective masses of the rows at rest
-  Rows slope{};    // ds/dx that is in H
-  double slope_nq = 0, slope_nm = 0, slope_qm = 0;  // and what couples the rows on a yield surface
-  int block = -1;                                   // of H, when both bodies are free
-  std::uint8_t factored = 0;                        // rows that were flowing in the factor at hand
+  Rows m_eff{};               // effective masses of the rows at rest
+  Rows spring{};              // the stiffness that the step can integrate (≤ stiffness)
+  Rows damping{};             // c, N s/m or N m s
 };
 
 struct SolveReport {
@@ -120,7 +127,7 @@ class Solver {
   void sweep_positions(std::span<const Pose> at);
 
   /// Caps or stiffness were edited.
-  void laws_changed() { factored_ = false; }
+  void laws_changed() { laws_set_ = false; }
   /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
   static void place(SolverBody& body, const Pose& at);
   void locate();
@@ -155,6 +162,7 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   bool factored_ = false;
+  bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1;          // contraction of the residual by the last round
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
@@ -175,6 +183,7 @@ class Solver {
   };
   std::vector<std::array<Barrier, 3>> barrier_;
   std::vector<Pose> poses_;
+  std::vector<Rows> gaps_;
 };
 
 }  // namespace ductile

@@ -214,6 +214,7 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
     m.data().cap = m.data().cap_reverse = {};
     m.data().surface = nullptr;
+    if (m.component != nullptr) m.component->solver.laws_changed();
   };
   let_go(member);
   if (member.break_group == 0) return;
