@@ -177,6 +177,7 @@ void Component::read_mass(std::size_t i) {
   m.inertia = m.body->GetInertia();
   m.local_center = m.body->GetLocalCenter();
   const double offset = m.local_center.LengthSquared();
+  m.gyration = m.mass > 0 ? std::sqrt(m.inertia / m.mass) : 0;
   solver.bodies[i].mass = m.mass;
   solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
 }
@@ -192,7 +193,36 @@ bool Component::still_fits() {
   return masses;
 }
 
+void Component::disturb() {
+  at_rest_ = resting = false;
+  solver.laws_changed();
+}
+
+// A structure at rest is brought the same poses and velocities step after step, and answers them with the same.
+bool Component::as_before(const b2SolverData& data) {
+  if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    Mirror& m = mirrors[i];
+    if (m.type == b2_staticBody) {
+      if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
+      continue;
+    }
+    m.island_index = island_index(m.body);
+    const b2Velocity& v = data.velocities[m.island_index];
+    const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
+                                   m.gyration * std::abs(v.w - m.taken.w)});
+    if (!(change <= slack_) || !same(data.positions[m.island_index], m.left)) return false;
+  }
+  return true;
+}
+
 void Component::first_velocity(const b2SolverData& data) {
+  resting = as_before(data);
+  if (resting) {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    ++report->resting;
+    return;
+  }
   bool moved = false;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
@@ -211,7 +241,7 @@ void Component::first_velocity(const b2SolverData& data) {
       goal[i] = relative(at);
       moved = true;
     }
-    m.given = data.velocities[m.island_index];
+    m.taken = m.given = data.velocities[m.island_index];
   }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
@@ -228,7 +258,11 @@ void Component::first_velocity(const b2SolverData& data) {
     (mirrors[i].type == b2_dynamicBody ? b.v_free : b.v) = own;
   }
   solver.begin(data.step.dt);
-  if (kind == SolverKind::iterative) solver.warm_start();
+  if (kind == SolverKind::iterative) {
+    solver.warm_start();
+  } else {
+    solver.predict();
+  }
   solve(data);
 }
 
@@ -246,6 +280,7 @@ void Component::next_velocity(const b2SolverData& data) {
     if (kind == SolverKind::iterative) b.v += change;
     given = now;
   }
+  if (touched) resting = false;
   if (touched || kind == SolverKind::iterative) {
     solve(data);
   } else {
@@ -274,18 +309,21 @@ void Component::solve(const b2SolverData& data) {
 void Component::position(const b2SolverData& data) {
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    const b2Position& at = data.positions[mirrors[i].island_index];
-    const bool kept = same(at, box2d_pose(i));
+    b2Position& at = data.positions[mirrors[i].island_index];
+    const bool kept = same(at, mirrors[i].left);
     goal[i] = kept ? solver.bodies[i].pose : relative(at);
     pushed |= !kept;
+    at = mirrors[i].left;
   }
+  if (kind == SolverKind::direct && !pushed) return;
   if (kind == SolverKind::iterative) {
     solver.sweep_positions(goal);
-  } else if (pushed) {
+  } else {
     for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
     solver.project(goal, false);
     ++report->projections;
   }
+  at_rest_ = false;
   write_poses(data);
 }
 
@@ -307,7 +345,13 @@ void Component::write_poses(const b2SolverData& data) {
 // Box2D.
 void Component::advance() {
   solver.advance();
-  for (std::size_t i = 0; i < mirrors.size(); ++i) mirrors[i].left = box2d_pose(i);
+  bool kinematic = false;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    if (mirrors[i].type != b2_staticBody) mirrors[i].left = box2d_pose(i);
+    kinematic |= mirrors[i].type == b2_kinematicBody;
+  }
+  at_rest_ = kind == SolverKind::direct && !kinematic && solver.at_rest();
+  slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
 }
 
 }  // namespace ductile

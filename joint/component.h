@@ -48,7 +48,8 @@ struct Component {
     b2Body* body = nullptr;
     b2Position left{};   // pose as we left it
     b2Velocity given{};  // velocity as we left it
-    float mass = 0, inertia = 0;
+    b2Velocity taken{};  // velocity as Box2D brought it at the step's start
+    float mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
@@ -61,6 +62,8 @@ struct Component {
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
+  /// Something about its joints was changed: the next step is not this one.
+  void disturb();
   /// After the last velocity call: poses move, what has flowed is booked.
   void advance();
   void position(const b2SolverData& data);
@@ -76,13 +79,17 @@ struct Component {
   StepReport* report = nullptr;
   std::uint64_t batch = 0;   // island at hand
   std::size_t enlisted = 0;  // joints of it that this island has
+  bool resting = false;      // this step is the last one again
 
  private:
+  bool as_before(const b2SolverData& data);
   void read_mass(std::size_t body);
   void solve(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 
   std::vector<Pose> goal;
+  bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
+  float slack_ = 0;       // m/s that velocities may differ by in it
 };
 
 inline SolverJoint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }

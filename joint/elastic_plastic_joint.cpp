@@ -165,7 +165,7 @@ void ElasticPlasticJoint::set_limits(double max_rotation, double max_elongation,
 }
 
 void ElasticPlasticJoint::wake() {
-  if (member_->component != nullptr) member_->component->solver.laws_changed();
+  if (member_->component != nullptr) member_->component->disturb();
   m_bodyA->SetAwake(true);
   m_bodyB->SetAwake(true);
 }

@@ -144,6 +144,27 @@ void Solver::begin(double h) {
   }
 }
 
+void Solver::predict() {
+  for (std::size_t i = 0; i < free_; ++i) {
+    SolverBody& b = bodies[i];
+    const Vec3 v = b.v;
+    if (!flows_) b.v += b.v - b.v_last;
+    b.v_last = v;
+  }
+}
+
+bool Solver::at_rest() {
+  if (flows_ || coasting_ || !(speed_ <= 1e-10 * scale_)) return false;
+  // Moving on by h v changes a row's impulse by G J v at most.
+  std::fill(g_.begin(), g_.end(), Vec3{});
+  for (const SolverJoint& j : joints) {
+    Rows s;
+    for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (j.x[i] - j.law.bias[i]);
+    add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
+  }
+  return norm_of_gradient() <= rest_tolerance * rest_tolerance * scale_;
+}
+
 // ∇f at bodies' v, into g_; returns |∇f|² in the norm of M⁻¹.
 double Solver::evaluate() {
   scale_ = speed_ = 0;

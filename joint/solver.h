@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +37,7 @@ struct SolverBody {
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;                   // v*: m/s and rad/s in the body's own frame
   Vec3 v;                        // the solution; also where the next solve starts
+  Vec3 v_last;                   // the solution of the step before
 };
 
 /// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what one
@@ -110,6 +112,8 @@ class Solver {
 
   /// Prepares a step of h seconds from the current poses.
   void begin(double h);
+  /// Starts the next solve where the last two solutions point to.
+  void predict();
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
   /// Moves poses by h v, books plastic flow.
@@ -119,6 +123,13 @@ class Solver {
   /// itself is tried first: right where all of it may have been moved alike. False where gaps could not be
   /// kept.
   bool project(std::span<const Pose> goal, bool try_goal);
+
+  /// Whether nothing flows and what the last solution still moves changes no force by more than rest_tolerance: the next step
+  /// is this one if nothing else touches the bodies.
+  bool at_rest();
+  static constexpr double rest_tolerance = 1e-7;
+  /// Root mean square of the velocity that the structure's impulses made in the last solve, m/s.
+  double impulse_speed() const { return mass_ > 0 ? std::sqrt(scale_ / mass_) : 0; }
 
   /// Instead of solve() and project(), joint by joint (sweep.cpp): the impulses of the last step again, one
   /// pass over the joints' velocities, and one over their positions from where the bodies are.

@@ -133,6 +133,7 @@ void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
   }
   if (velocity_calls_ < data.step.velocityIterations) return;
   for (Component* c : active_) {
+    if (c->resting) continue;
     c->advance();
     look_for_breaks(*c);
   }
@@ -214,7 +215,7 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
     m.data().cap = m.data().cap_reverse = {};
     m.data().surface = nullptr;
-    if (m.component != nullptr) m.component->solver.laws_changed();
+    if (m.component != nullptr) m.component->disturb();
   };
   let_go(member);
   if (member.break_group == 0) return;
