@@ -198,7 +198,8 @@ void Component::disturb() {
   solver.laws_changed();
 }
 
-// A structure at rest is brought the same poses and velocities step after step, and answers them with the same.
+// A structure at rest is brought the same poses and velocities step after step, and answers them with the
+// same.
 bool Component::as_before(const b2SolverData& data) {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -219,7 +220,8 @@ bool Component::as_before(const b2SolverData& data) {
 void Component::first_velocity(const b2SolverData& data) {
   resting = as_before(data);
   if (resting) {
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i) data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
+      data.velocities[mirrors[i].island_index] = mirrors[i].given;
     ++report->resting;
     return;
   }

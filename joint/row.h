@@ -30,8 +30,8 @@ struct RowLaw {
 /// Says that a joint flows on its yield surface.
 inline constexpr unsigned on_surface = 64;
 
-/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit 3 + i that
-/// it is beyond its reverse cap (each combination is linear), or on_surface.
+/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit
+/// 3 + i that it is beyond its reverse cap (each combination is linear), or on_surface.
 inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
   if (law.surface != nullptr) {
     for (unsigned i = 0; i < 3; ++i) s[i] = law.G[i] * x[i];
@@ -41,7 +41,8 @@ inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
   unsigned beyond = 0;
   for (unsigned i = 0; i < 3; ++i) {
     s[i] = trial[i];
-    beyond |= static_cast<unsigned>(trial[i] > law.cap[i]) | static_cast<unsigned>(trial[i] < -law.cap_reverse[i]);
+    beyond |=
+        static_cast<unsigned>(trial[i] > law.cap[i]) | static_cast<unsigned>(trial[i] < -law.cap_reverse[i]);
   }
   if (beyond == 0) return 0;
   unsigned piece = 0;

@@ -21,9 +21,10 @@ Turn turn_of(double angle) {
 
 // J v
 inline Rows relative_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) {
-  return {j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
-          -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
-          b.w - a.w};
+  return {
+      j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
+      -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
+      b.w - a.w};
 }
 
 // g += Jᵀ s
@@ -60,7 +61,9 @@ void Solver::form(std::size_t free_bodies) {
     if (is_free(j.a) && is_free(j.b)) j.block = ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b));
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
     const auto inverse_mass = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_mass : 0; };
-    const auto inverse_inertia = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_inertia : 0; };
+    const auto inverse_inertia = [&](int body) {
+      return z(body) < free_ ? bodies[z(body)].inverse_inertia : 0;
+    };
     const double ma = inverse_mass(j.a), mb = inverse_mass(j.b), ia = inverse_inertia(j.a),
                  ib = inverse_inertia(j.b);
     const Turn in_a = j.axis, in_b = in_a * turn_of(-j.reference);
@@ -195,7 +198,9 @@ double Solver::evaluate() {
   return norm_of_gradient();
 }
 
-Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) { return relative_velocity(j, a, b); }
+Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) {
+  return relative_velocity(j, a, b);
+}
 
 void Solver::scatter(const SolverJoint& j, const Rows& s) { add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]); }
 

@@ -35,13 +35,14 @@ struct SolverBody {
   Turn turn;                     // of the angle
   double mass = 1, inertia = 1;  // kg, kg m² about the centre of mass; inertia 0: does not rotate
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
-  Vec3 v_free;                   // v*: m/s and rad/s in the body's own frame
-  Vec3 v;                        // the solution; also where the next solve starts
-  Vec3 v_last;                   // the solution of the step before
+  Vec3 v_free;                                   // v*: m/s and rad/s in the body's own frame
+  Vec3 v;                                        // the solution; also where the next solve starts
+  Vec3 v_last;                                   // the solution of the step before
 };
 
-/// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what one
-/// evaluation reads and writes, the middle what a step needs besides, the rest what a change of the law needs.
+/// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what
+/// one evaluation reads and writes, the middle what a step needs besides, the rest what a change of the law
+/// needs.
 struct SolverJoint {
   // Evaluation: J, the law, and what it gave.
   int a = 0, b = 0;                       // bodies
@@ -78,9 +79,9 @@ struct SolverJoint {
   Rows cap{}, cap_reverse{};  // N, N, N m
   Rows hardening{};           // N/m, N/m, N m/rad
   const YieldSurface* surface = nullptr;
-  Rows m_eff{};               // effective masses of the rows at rest
-  Rows spring{};              // the stiffness that the step can integrate (≤ stiffness)
-  Rows damping{};             // c, N s/m or N m s
+  Rows m_eff{};    // effective masses of the rows at rest
+  Rows spring{};   // the stiffness that the step can integrate (≤ stiffness)
+  Rows damping{};  // c, N s/m or N m s
 };
 
 struct SolveReport {
@@ -124,8 +125,8 @@ class Solver {
   /// kept.
   bool project(std::span<const Pose> goal, bool try_goal);
 
-  /// Whether nothing flows and what the last solution still moves changes no force by more than rest_tolerance: the next step
-  /// is this one if nothing else touches the bodies.
+  /// Whether nothing flows and what the last solution still moves changes no force by more than
+  /// rest_tolerance: the next step is this one if nothing else touches the bodies.
   bool at_rest();
   static constexpr double rest_tolerance = 1e-7;
   /// Root mean square of the velocity that the structure's impulses made in the last solve, m/s.
@@ -144,8 +145,8 @@ class Solver {
   void locate();
   /// Of the last solve, N, N, N m.
   Rows force(const SolverJoint& joint) const;
-  /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies part
-  /// along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
+  /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies
+  /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
   double elastic(const SolverJoint& joint, unsigned row) const;
   double step() const { return h_; }
   std::size_t bytes() const;

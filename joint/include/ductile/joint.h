@@ -168,7 +168,7 @@ struct StructureDef {
 /// What the last b2World::Step cost, over all islands.
 struct StepReport {
   int solves = 0;   ///< solutions of the structure's problem
-  int resting = 0;          ///< components for which the step was the last one again
+  int resting = 0;  ///< components for which the step was the last one again
   int skipped = 0;  ///< Box2D iterations before which nothing had touched the structure
   int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
   int factorisations = 0;
