@@ -263,6 +263,11 @@ class Planner {
     plan_.sleep = scene_.sleep;
     plan_.interaction = scene_.interaction;
     plan_.bodies = scene_.bodies;
+    std::size_t pieces = 0;
+    for (const BodyDef& body : plan_.bodies)
+      pieces += std::max<std::size_t>(body.pieces, body.cuts.size() + 1);
+    plan_.pieces.reserve(pieces);
+    plan_.joints.reserve(pieces);
     strips_.reserve(plan_.bodies.size());
     for (std::size_t i = 0; i < plan_.bodies.size(); ++i) add_body(static_cast<int>(i));
     refuse_problems();  // what follows needs all pieces
@@ -293,7 +298,7 @@ class Planner {
     }
     std::vector<Cut> cuts = cuts_of(body);
     try {
-      add_pieces(index, split(body.outline, cuts, body_place(body)), cuts);
+      add_pieces(index, splitter_.split(body.outline, cuts, body_place(body)), cuts);
     } catch (const InvalidInput& e) {
       problems_.insert(problems_.end(), e.problems().begin(), e.problems().end());
     }
@@ -352,7 +357,7 @@ class Planner {
         piece.mass = strip.mass_per_area() * m.area;
         piece.inertia = strip.mass_per_area() * m.polar() + strip.excess_inertia(m.area);
       }
-      piece.fixtures = convex_parts(outline, most_fixture_vertices);
+      piece.fixtures = convex_parts_.of(outline);
       for (Convex& fixture : piece.fixtures)
         for (Point& p : fixture) p = place.turned(p - m.centroid);
       place.place(outline.outer);
@@ -413,7 +418,8 @@ class Planner {
     PlannedJoint& joint = plan_.joints.emplace_back();
     joint.a = a;
     joint.b = b;
-    joint.name = plan_.pieces[a].name + '-' + plan_.pieces[b].name;
+    joint.name.reserve(plan_.pieces[a].name.size() + plan_.pieces[b].name.size() + 1);
+    joint.name.append(plan_.pieces[a].name).append(1, '-').append(plan_.pieces[b].name);
     if (repeat > 0) joint.name += '#' + std::to_string(repeat);
     joint.anchor = middle(from, to);
     joint.axis = right(unit(to - from));
@@ -433,7 +439,7 @@ class Planner {
       sides[0].reach += sides[1].reach;
       sides[1].strip = nullptr;
     }
-    set_values(joint, height, sides, overriding, problems_);
+    caps_.fill_in(joint, height, sides, overriding);
   }
 
   Side side(int index, const PlannedJoint& joint, Point outward, bool inside) {
@@ -495,7 +501,7 @@ class Planner {
     joint.Q = def.fix_y ? unlimited : 0;
     joint.M = joint.M_reverse = def.fix_angle ? unlimited : 0;
     joint.stiffness = {unlimited, unlimited, unlimited};
-    joint.governed_by = "support";
+    joint.governed_by = caps_.reason("support");
   }
 
   void load(int index) {
@@ -553,7 +559,10 @@ class Planner {
   Plan plan_;
   std::vector<Strip> strips_;     // of plan_.bodies
   std::vector<int> first_piece_;  // of plan_.bodies
+  Splitter splitter_;
+  ConvexParts convex_parts_{most_fixture_vertices};
   std::vector<Problem> problems_;
+  Caps caps_{plan_.reasons, problems_};
 };
 
 }  // namespace

@@ -52,8 +52,8 @@ double effective(double a, double b) { return a > 0 && b > 0 ? a * b / (a + b) :
 
 }  // namespace
 
-void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
-                std::span<const Overriding> overriding, std::vector<Problem>& problems) {
+void Caps::fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
+                   std::span<const Overriding> overriding) {
   // Overrides that apply to several quantities, the innermost level last so that it wins.
   std::optional<double> hinge_length, damping;
   const JointOverrides* elastic = nullptr;
@@ -106,7 +106,7 @@ void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& s
 
   joint.stiffness = {in_series(along), in_series(across), in_series(bending)};
   joint.damping_ratio = damping.value_or(zeta == unlimited ? 0 : zeta);
-  std::string stiffness = bending > 0 ? "E" : "rigid, E is not known";
+  const char* stiffness = bending > 0 ? "E" : "rigid, E is not known";
   if (elastic) {
     stiffness = overriding[static_cast<std::size_t>(elastic_level)].name;
     const double omega = 2 * std::numbers::pi * elastic->frequency;
@@ -128,8 +128,8 @@ void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& s
         } else if (v.value[M] > 0 && v.value[M] < unlimited) {
           joint.stiffness.M = v.value[M] / elastic->elastic_rotation;
         } else {
-          problems.push_back({joint.name, "an elastic rotation without a moment to reach it at",
-                              "give `moment` or `frequency`, or the body a material"});
+          problems_.push_back({joint.name, "an elastic rotation without a moment to reach it at",
+                               "give `moment` or `frequency`, or the body a material"});
         }
         break;
     }
@@ -144,12 +144,27 @@ void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& s
   joint.max_compression = v.value[max_compression];
   joint.max_slip = v.value[max_slip];
 
-  // "N, Nc: section of beam; Q: joint; …": runs of quantities with one source.
-  std::string& text = joint.governed_by;
+  const Governed governed{v.source, stiffness, {sides[0].body, sides[1].body}, overriding.front().name};
+  if (!(governed == last_)) {
+    last_ = governed;
+    last_reason_ = reason(text(governed, overriding));
+  }
+  joint.governed_by = last_reason_;
+}
+
+int Caps::reason(const std::string& text) {
+  const auto [found, is_new] = numbers_.emplace(text, static_cast<int>(reasons_.size()));
+  if (is_new) reasons_.push_back(text);
+  return found->second;
+}
+
+// "N, Nc: section of beam; Q: joint; …": runs of quantities with one source.
+std::string Caps::text(const Governed& governed, std::span<const Overriding> overriding) {
+  std::string text;
   for (int q = 0; q < quantities; ++q) {
-    const auto source = v.source[q];
+    const int source = governed.sources[q];
     text += names[q];
-    if (q + 1 < quantities && v.source[q + 1] == source && q != M_reverse) {
+    if (q + 1 < quantities && governed.sources[q + 1] == source && q != M_reverse) {
       text += ", ";
       continue;
     }
@@ -159,10 +174,10 @@ void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& s
     else if (source >= user)
       text += overriding[static_cast<std::size_t>(source - user)].name;
     else
-      text.append(q <= M_reverse ? "section of " : "fracture strain of ").append(*sides[source].body);
+      text.append(q <= M_reverse ? "section of " : "fracture strain of ").append(*governed.bodies[source]);
     text += "; ";
   }
-  text.append("stiffness: ").append(stiffness);
+  return text + "stiffness: " + governed.stiffness;
 }
 
 }  // namespace ductile

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <unordered_map>
 
 #include "ductile/calibrate.h"
 #include "strip.h"
@@ -23,9 +24,36 @@ struct Overriding {
   const JointOverrides* values;
 };
 
-/// Fills in caps, stiffness, damping, limits and `governed_by`. `height` is the length of the interval; the
-/// first of `overriding` that sets a value wins. Appends to `problems` what cannot be.
-void set_values(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
-                std::span<const Overriding> overriding, std::vector<Problem>& problems);
+/// Works out joints: caps, stiffness, damping, limits and `governed_by`.
+class Caps {
+ public:
+  /// Reasons go to `reasons`, each once; what cannot be, to `problems`.
+  Caps(std::vector<std::string>& reasons, std::vector<Problem>& problems)
+      : reasons_(reasons), problems_(problems) {}
+
+  /// The number of a reason, new or not.
+  int reason(const std::string& text);
+
+  /// `height` is the length of the interval; the first of `overriding` that sets a value wins.
+  void fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
+               std::span<const Overriding> overriding);
+
+ private:
+  // What a reason says. Most joints have that of the one before.
+  struct Governed {
+    std::array<int, 9> sources{};
+    const char* stiffness = nullptr;
+    std::array<const std::string*, 2> bodies{};
+    const char* innermost = nullptr;
+    friend bool operator==(const Governed&, const Governed&) = default;
+  };
+  static std::string text(const Governed& governed, std::span<const Overriding> overriding);
+
+  std::vector<std::string>& reasons_;
+  std::vector<Problem>& problems_;
+  Governed last_;
+  int last_reason_ = -1;
+  std::unordered_map<std::string, int> numbers_;  // of the reasons
+};
 
 }  // namespace ductile

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "moments.h"
 #include "plane.h"
@@ -11,29 +12,43 @@
 namespace ductile {
 namespace {
 
-using Triangle = std::array<int, 3>;
+// Polygons between half-edges.
+struct HalfEdge {
+  int from, next, previous, twin;
+};
+
+void make_twins(std::vector<HalfEdge>& edges, int a, int b) {
+  edges[a].twin = b;
+  edges[b].twin = a;
+}
 
 // Triangles of an outline: holes are joined to the outer ring by bridges, then ears are cut off.
 class EarClipping {
  public:
-  explicit EarClipping(const Outline& outline) {
-    int outer = add_ring(outline.outer, false);
-    std::vector<int> holes;
+  void run(const Outline& outline) {
+    points_.clear();
+    nodes_.clear();
+    bridges_.clear();
+    triangles_.clear();
+    const int outer = add_ring(outline.outer, false);
+    holes_.clear();
     for (const Ring& hole : outline.holes)
-      if (const int node = add_ring(hole, true); node >= 0) holes.push_back(rightmost(node));
+      if (const int node = add_ring(hole, true); node >= 0) holes_.push_back(rightmost(node));
     if (outer < 0) return;
     // From right to left, so that what a hole is joined to is joined already.
-    std::sort(holes.begin(), holes.end(), [&](int a, int b) { return at(a).x > at(b).x; });
-    for (const int hole : holes) bridge(outer, hole);
+    std::sort(holes_.begin(), holes_.end(), [&](int a, int b) { return at(a).x > at(b).x; });
+    for (const int hole : holes_) bridge(outer, hole);
     clip(outer);
   }
 
   const std::vector<Point>& points() const { return points_; }
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  std::vector<HalfEdge>& triangles() { return triangles_; }  // three half-edges each
 
  private:
   struct Node {
     int point, previous, next;
+    int beyond =
+        -1;  // what is on the other side of the edge to the next node: nothing, a half-edge, or bridge −2 − i
   };
 
   Point at(int node) const { return points_[nodes_[node].point]; }
@@ -114,8 +129,11 @@ class EarClipping {
     } while (node != outer);
 
     const int seen2 = static_cast<int>(nodes_.size()), hole2 = seen2 + 1;
-    nodes_.push_back({nodes_[seen].point, hole2, next(seen)});
-    nodes_.push_back({nodes_[hole].point, previous(hole), seen2});
+    const int bridge = -2 - static_cast<int>(bridges_.size());
+    bridges_.push_back(-1);
+    nodes_.push_back({nodes_[seen].point, hole2, next(seen), nodes_[seen].beyond});
+    nodes_.push_back({nodes_[hole].point, previous(hole), seen2, bridge});
+    nodes_[seen].beyond = bridge;
     nodes_[next(seen)].previous = seen2;
     nodes_[previous(hole)].next = hole2;
     nodes_[seen].next = hole;
@@ -137,7 +155,7 @@ class EarClipping {
     for (int left = count(start); left > 3;) {
       const int side = orientation(at(previous(node)), at(node), at(next(node)));
       if (side == 0 || (side > 0 && is_ear(node)) || tried > left) {
-        if (side > 0) triangles_.push_back(triangle(node));
+        nodes_[previous(node)].beyond = side > 0 ? add_triangle(node) : -1;
         nodes_[previous(node)].next = next(node);
         nodes_[next(node)].previous = previous(node);
         --left;
@@ -150,7 +168,7 @@ class EarClipping {
       start = node;
     }
     if (orientation(at(previous(start)), at(start), at(next(start))) > 0)
-      triangles_.push_back(triangle(start));
+      attach(add_triangle(start), nodes_[next(start)].beyond);
   }
 
   int count(int start) const {
@@ -159,8 +177,27 @@ class EarClipping {
     return n;
   }
 
-  Triangle triangle(int node) const {
-    return {nodes_[previous(node)].point, nodes_[node].point, nodes_[next(node)].point};
+  // The triangle of a node and its neighbours; returns its half-edge back from the next to the previous.
+  int add_triangle(int node) {
+    const int before = previous(node), e = static_cast<int>(triangles_.size());
+    triangles_.push_back({nodes_[before].point, e + 1, e + 2, -1});
+    triangles_.push_back({nodes_[node].point, e + 2, e, -1});
+    triangles_.push_back({nodes_[next(node)].point, e, e + 1, -1});
+    attach(e, nodes_[before].beyond);
+    attach(e + 1, nodes_[node].beyond);
+    return e + 2;
+  }
+
+  void attach(int edge, int beyond) {
+    if (beyond >= 0) {
+      make_twins(triangles_, edge, beyond);
+    } else if (beyond < -1) {  // a bridge: its first side waits for the second
+      int& other = bridges_[-2 - beyond];
+      if (other >= 0)
+        make_twins(triangles_, edge, other);
+      else
+        other = edge;
+    }
   }
 
   // No other corner of what is left lies in the triangle, and its third side runs inside.
@@ -178,44 +215,39 @@ class EarClipping {
 
   std::vector<Point> points_;
   std::vector<Node> nodes_;
-  std::vector<Triangle> triangles_;
+  std::vector<int> holes_;
+  std::vector<int> bridges_;
+  std::vector<HalfEdge> triangles_;
 };
 
 // The triangulation as polygons between half-edges, first made Delaunay (the fattest triangles that these
 // vertices allow), then merged.
 class Parts {
  public:
-  Parts(const std::vector<Point>& points, const std::vector<Triangle>& triangles) : points_(points) {
-    for (const Triangle& t : triangles) {
-      const int e = static_cast<int>(edges_.size());
-      for (int k = 0; k < 3; ++k) edges_.push_back({t[k], e + (k + 1) % 3, e + (k + 2) % 3});
-    }
-    std::vector<std::array<int, 3>> sorted;  // both ends, half-edge
-    for (int e = 0; e < size(); ++e)
-      sorted.push_back({std::min(from(e), to(e)), std::max(from(e), to(e)), e});
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-      const auto &a = sorted[i - 1], &b = sorted[i];
-      if (a[0] != b[0] || a[1] != b[1] || from(a[2]) == from(b[2])) continue;
-      edges_[a[2]].twin = b[2];
-      edges_[b[2]].twin = a[2];
-    }
+  std::vector<Ring> run(const std::vector<Point>& points, std::vector<HalfEdge>& triangles,
+                        int most_vertices) {
+    points_ = points.data();
+    edges_.swap(triangles);
     Point low = points.front(), high = low;
     for (const Point& p : points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     straight_ = 1e-12 * length(high - low);
+    make_delaunay();
+    merge(most_vertices);
+    return rings();
   }
 
+ private:
   // Lawson's flips; their number is bounded in case rounding makes them go in circles.
   void make_delaunay() {
-    std::vector<int> suspects;
+    suspects_.clear();
     for (int e = 0; e < size(); ++e)
-      if (e < edges_[e].twin) suspects.push_back(e);
-    for (int budget = 20 * size(); !suspects.empty() && budget > 0; --budget) {
-      const int e = suspects.back(), f = edges_[e].twin;
-      suspects.pop_back();
+      if (e < edges_[e].twin) suspects_.push_back(e);
+    for (int budget = 20 * size(); !suspects_.empty() && budget > 0; --budget) {
+      const int e = suspects_.back(), f = edges_[e].twin;
+      suspects_.pop_back();
       if (f < 0) continue;
       const int a = from(e), b = from(f), c = from(edges_[e].previous), d = from(edges_[f].previous);
       if (!in_circle(a, b, c, d) || turn(d, b, c) <= 0 || turn(c, a, d) <= 0) continue;
@@ -226,18 +258,18 @@ class Parts {
       link(e, ca, ad);
       link(f, db, bc);
       for (const int outer : {bc, ca, ad, db})
-        if (edges_[outer].twin >= 0) suspects.push_back(outer);
+        if (edges_[outer].twin >= 0) suspects_.push_back(outer);
     }
   }
 
   // Hertel and Mehlhorn: leave out every edge whose absence leaves its ends convex, the longest first, which
   // does away with slivers.
   void merge(int most_vertices) {
-    std::vector<std::pair<double, int>> inner;
+    inner_.clear();
     for (int e = 0; e < size(); ++e)
-      if (e < edges_[e].twin) inner.emplace_back(-length(points_[to(e)] - points_[from(e)]), e);
-    std::sort(inner.begin(), inner.end());
-    for (const auto& [_, e] : inner) {
+      if (e < edges_[e].twin) inner_.emplace_back(-length(points_[to(e)] - points_[from(e)]), e);
+    std::sort(inner_.begin(), inner_.end());
+    for (const auto& [_, e] : inner_) {
       const int f = edges_[e].twin;
       const HalfEdge one = edges_[e], two = edges_[f];
       if (count(e) + count(f) - 2 > most_vertices || !convex(from(one.previous), from(e), to(two.next)) ||
@@ -251,26 +283,21 @@ class Parts {
     }
   }
 
-  std::vector<Ring> rings() const {
+  std::vector<Ring> rings() {
     std::vector<Ring> result;
-    std::vector<bool> seen(edges_.size());
     for (int start = 0; start < size(); ++start) {
-      if (seen[start] || edges_[start].next < 0) continue;
+      if (edges_[start].next < 0) continue;
       Ring ring;
-      for (int e = start; !seen[e]; e = edges_[e].next) {
-        seen[e] = true;
+      ring.reserve(static_cast<std::size_t>(count(start)));
+      for (int e = start; edges_[e].next >= 0;) {
         ring.push_back(points_[from(e)]);
+        e = std::exchange(edges_[e].next, -1);
       }
       make_strictly_convex(ring);
       if (ring.size() > 2) result.push_back(std::move(ring));
     }
     return result;
   }
-
- private:
-  struct HalfEdge {
-    int from, next, previous, twin = -1;
-  };
 
   int size() const { return static_cast<int>(edges_.size()); }
   int from(int e) const { return edges_[e].from; }
@@ -305,21 +332,23 @@ class Parts {
 
   static void make_strictly_convex(Ring& ring) {
     for (std::size_t i = 0, kept = 0; kept < ring.size() && ring.size() > 2;) {
-      const std::size_t n = ring.size();
-      if (orientation(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]) > 0) {
+      const std::size_t before = i == 0 ? ring.size() - 1 : i - 1, after = i + 1 == ring.size() ? 0 : i + 1;
+      if (orientation(ring[before], ring[i], ring[after]) > 0) {
         ++kept;
-        i = (i + 1) % n;
+        i = after;
       } else {
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
         kept = 0;
-        i = (i + n - 2) % (n - 1);
+        i = i == 0 ? ring.size() - 1 : i - 1;
       }
     }
   }
 
-  const std::vector<Point>& points_;
-  std::vector<HalfEdge> edges_;
+  const Point* points_ = nullptr;
   double straight_ = 0;
+  std::vector<HalfEdge> edges_;
+  std::vector<int> suspects_;
+  std::vector<std::pair<double, int>> inner_;  // −length, half-edge
 };
 
 // The outline itself, where it is convex and small enough already.
@@ -327,21 +356,32 @@ bool is_convex_part(const Outline& outline, int most_vertices) {
   const Ring& ring = outline.outer;
   const std::size_t n = ring.size();
   if (!outline.holes.empty() || n > static_cast<std::size_t>(most_vertices)) return false;
-  for (std::size_t i = 0; i < n; ++i)
-    if (orientation(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) <= 0) return false;
-  return n > 2;
+  if (n < 3) return false;
+  Point a = ring[n - 2], b = ring[n - 1];
+  for (const Point& c : ring) {
+    if (orientation(a, b, c) <= 0) return false;
+    a = std::exchange(b, c);
+  }
+  return true;
 }
 
 }  // namespace
 
-std::vector<Ring> convex_parts(const Outline& outline, int most_vertices) {
-  if (is_convex_part(outline, most_vertices)) return {outline.outer};
-  const EarClipping ears(outline);
+struct ConvexParts::Workspace {
+  EarClipping ears;
+  Parts parts;
+};
+
+ConvexParts::ConvexParts(int most_vertices)
+    : most_vertices_(most_vertices), workspace_(std::make_unique<Workspace>()) {}
+ConvexParts::~ConvexParts() = default;
+
+std::vector<Ring> ConvexParts::of(const Outline& outline) {
+  if (is_convex_part(outline, most_vertices_)) return std::vector<Ring>(1, outline.outer);
+  EarClipping& ears = workspace_->ears;
+  ears.run(outline);
   if (ears.triangles().empty()) return {};
-  Parts parts(ears.points(), ears.triangles());
-  parts.make_delaunay();
-  parts.merge(most_vertices);
-  return parts.rings();
+  return workspace_->parts.run(ears.points(), ears.triangles(), most_vertices_);
 }
 
 }  // namespace ductile

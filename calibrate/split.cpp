@@ -17,20 +17,14 @@ namespace {
 // the two halves of a chord cancel, the areas of the pieces always add up to that of the outline.
 class PlanarMap {
  public:
-  PlanarMap(const Outline& outline, std::span<const Cut> cuts, const std::string& place)
-      : cuts_(cuts), place_(place) {
-    add_ring(outline.outer, false);
-    for (const Ring& hole : outline.holes) add_ring(hole, true);
-    Point low = points_.front(), high = low;
-    for (const Point& p : points_) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  Split run(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
+    start(outline, cuts, place);
+    for (std::size_t first = 0, last; first < cuts_.size(); first = last) {
+      for (last = first + 1; last < cuts_.size() && follows(first, last); ++last) {
+      }
+      meet(first, last);
     }
-    size_ = length(high - low);
-  }
-
-  Split run() {
-    for (std::size_t i = 0; i < cuts_.size(); ++i) find_chords(static_cast<int>(i));
+    find_chords();
     same_.resize(points_.size());
     std::iota(same_.begin(), same_.end(), 0);
     for (const auto& [a, b] : touching_) unite(a, b);
@@ -57,6 +51,7 @@ class PlanarMap {
   };
   // A point of a cut at which the depth inside the material changes, just left and just right of the cut.
   struct Event {
+    int cut;
     double t;
     int point, left, right;
   };
@@ -67,6 +62,28 @@ class PlanarMap {
     int cut = -1;
     int cycle = -1;
   };
+
+  void start(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
+    cuts_ = cuts;
+    place_ = &place;
+    problems_.clear();
+    points_.clear();
+    edges_.clear();
+    chords_.clear();
+    edge_crossings_.clear();
+    chord_crossings_.clear();
+    touching_.clear();
+    half_edges_.clear();
+    events_.clear();
+    add_ring(outline.outer, false);
+    for (const Ring& hole : outline.holes) add_ring(hole, true);
+    Point low = points_.front(), high = low;
+    for (const Point& p : points_) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    size_ = length(high - low);
+  }
 
   void add_ring(const Ring& ring, bool clockwise) {
     const std::size_t n = ring.size() - (ring.size() > 1 && ring.front() == ring.back() ? 1 : 0);
@@ -80,49 +97,72 @@ class PlanarMap {
     vertices_ = points_.size();
   }
 
-  // The chords of one cut. A vertex on the cut counts once as right of it and once as left, as if the cut
-  // were displaced a little to its left and to its right. Where both displaced cuts run in material, so does
-  // the cut itself; where only one does, it runs along an edge of the outline.
-  void find_chords(int index) {
-    const Cut& cut = cuts_[index];
-    const double extent = length(cut.to - cut.from);
-    const Point w = unit(cut.to - cut.from);
-    offsets_.resize(vertices_);
-    for (std::size_t i = 0; i < vertices_; ++i) {
-      const double offset = cross(w, points_[i] - cut.from);
-      offsets_[i] = std::abs(offset) <= tolerance() ? 0 : offset;
-    }
-    events_.clear();
+  // Is a cut parallel to an earlier one, and to the right of the one before it?
+  bool follows(std::size_t first, std::size_t cut) const {
+    const Cut &before = cuts_[cut - 1], &c = cuts_[cut];
+    const Point w = c.to - c.from;
+    return parallel(cuts_[first], c) && dot(w, cuts_[first].to - cuts_[first].from) > 0 &&
+           cross(w, before.from - c.from) > 0;
+  }
+
+  // Where parallel cuts, each to the right of the one before, meet the edges. A vertex on a cut counts once
+  // as right of it and once as left, as if the cut were displaced a little to its left and to its right.
+  void meet(std::size_t first, std::size_t last) {
+    const Point origin = cuts_[first].from, w = unit(cuts_[first].to - origin), across = right(w);
+    places_.clear();
+    for (std::size_t i = first; i < last; ++i) places_.push_back(dot(across, cuts_[i].from - origin));
+    offsets_.clear();
+    for (std::size_t i = 0; i < vertices_; ++i) offsets_.push_back(dot(across, points_[i] - origin));
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const auto [from, to, _] = edges_[i];
       const double a = offsets_[from], b = offsets_[to];
-      const int left = (a > 0) == (b > 0) ? 0 : b > 0 ? -1 : 1;  // an edge going left has material before it
-      const int right = (a >= 0) == (b >= 0) ? 0 : b >= 0 ? -1 : 1;
-      if (left == 0 && right == 0) continue;
-      const int point = left != 0 && right != 0 ? cross_line(static_cast<int>(i), a / (a - b), edges_[i])
-                        : a == 0                ? from
-                                                : to;
-      events_.push_back({dot(w, points_[point] - cut.from), point, left, right});
-    }
-    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.t < b.t; });
-    const double slack = 1e-6 * size_;
-    const std::size_t before = chords_.size();
-    int left = 0, right = 0;
-    for (std::size_t i = 0; i + 1 < events_.size(); ++i) {
-      const Event &here = events_[i], &next = events_[i + 1];
-      left += here.left;
-      right += here.right;
-      if (here.point != next.point && points_[here.point] == points_[next.point])
-        touching_.emplace_back(here.point, next.point);
-      else if (left > 0 && right > 0 && here.point != next.point && next.t > slack &&
-               here.t < extent - slack) {
-        chords_.push_back({here.point, next.point, index});
-        if (here.t < -slack || next.t > extent + slack)
-          problem(index, "ends inside the outline, at " + to_string(here.t < -slack ? cut.from : cut.to),
-                  "move that end out of the outline");
+      auto place = std::lower_bound(places_.begin(), places_.end(), std::min(a, b) - tolerance());
+      for (; place != places_.end() && *place <= std::max(a, b) + tolerance(); ++place) {
+        const int a_side = side(*place - a), b_side = side(*place - b);  // 1: left of the cut
+        if (a_side == b_side) continue;
+        const std::size_t index = first + static_cast<std::size_t>(place - places_.begin());
+        const int left = (a_side > 0) == (b_side > 0) ? 0
+                         : b_side > 0                 ? -1
+                                                      : 1;  // going left, it leaves material
+        const int right = (a_side >= 0) == (b_side >= 0) ? 0 : b_side >= 0 ? -1 : 1;
+        const int point = a_side == 0   ? from
+                          : b_side == 0 ? to
+                                        : cross_line(static_cast<int>(i), (*place - a) / (b - a), edges_[i]);
+        events_.push_back(
+            {static_cast<int>(index), dot(w, points_[point] - cuts_[index].from), point, left, right});
       }
     }
-    if (chords_.size() == before) problem(index, "misses the outline", "let it run from side to side");
+  }
+
+  int side(double offset) const { return (offset > tolerance()) - (offset < -tolerance()); }
+
+  // Where both displaced cuts run in material, so does the cut itself; where only one does, it runs along an
+  // edge of the outline.
+  void find_chords() {
+    std::sort(events_.begin(), events_.end(),
+              [](const Event& a, const Event& b) { return a.cut != b.cut ? a.cut < b.cut : a.t < b.t; });
+    auto event = events_.begin();
+    for (int index = 0; index < std::ssize(cuts_); ++index) {
+      const Cut& cut = cuts_[index];
+      const double extent = length(cut.to - cut.from), slack = 1e-6 * size_;
+      const std::size_t before = chords_.size();
+      int left = 0, right = 0;
+      for (; event != events_.end() && event->cut == index; ++event) {
+        left += event->left;
+        right += event->right;
+        const auto next = event + 1;
+        if (next == events_.end() || next->cut != index || next->point == event->point) continue;
+        if (points_[event->point] == points_[next->point])
+          touching_.emplace_back(event->point, next->point);
+        else if (left > 0 && right > 0 && next->t > slack && event->t < extent - slack) {
+          chords_.push_back({event->point, next->point, index});
+          if (event->t < -slack || next->t > extent + slack)
+            problem(index, "ends inside the outline, at " + to_string(event->t < -slack ? cut.from : cut.to),
+                    "move that end out of the outline");
+        }
+      }
+      if (chords_.size() == before) problem(index, "misses the outline", "let it run from side to side");
+    }
   }
 
   // The point of an edge at which a cut crosses it.
@@ -158,7 +198,11 @@ class PlanarMap {
       }
   }
 
-  static bool parallel(const Cut& a, const Cut& b) { return cross(a.to - a.from, b.to - b.from) == 0; }
+  // But for rounding. Cuts so nearly parallel that cross inside are one cut within the tolerance.
+  static bool parallel(const Cut& a, const Cut& b) {
+    const Point u = a.to - a.from, w = b.to - b.from;
+    return std::abs(cross(u, w)) <= 1e-12 * std::sqrt(dot(u, u) * dot(w, w));
+  }
 
   // Along each line; crossings of one line nearer than the tolerance become one point. A point of an edge so
   // moves along that edge only, and a point inside moves with both pieces: no area changes.
@@ -197,17 +241,17 @@ class PlanarMap {
 
   void link_edges() {
     arrivals_.assign(points_.size(), -1);
-    std::vector<int> departures(points_.size(), -1);
+    departures_.assign(points_.size(), -1);
     std::vector<int> crowded;
     walk(edges_, edge_crossings_, [&](const Line&, int from, int to) {
       const int edge = static_cast<int>(half_edges_.size());
       half_edges_.push_back({from, to, -1, arrivals_[to]});
       if (arrivals_[to] >= 0) crowded.push_back(to);
       arrivals_[to] = edge;
-      departures[from] = edge;
+      departures_[from] = edge;
     });
     for (std::size_t p = 0; p < arrivals_.size(); ++p)
-      if (arrivals_[p] >= 0) half_edges_[arrivals_[p]].next = departures[p];
+      if (arrivals_[p] >= 0) half_edges_[arrivals_[p]].next = departures_[p];
     for (int point : crowded) link_crowded(point);
   }
 
@@ -265,30 +309,35 @@ class PlanarMap {
   // Counter-clockwise cycles are the outer boundaries of pieces, the others bound holes in them.
   Split trace() {
     struct Cycle {
-      Ring ring;
+      Ring hole;  // empty for an outer boundary
       int piece = -1;
     };
     std::vector<Cycle> cycles;
     Split result;
+    result.pieces.reserve(chords_.size() + 1);
+    result.intervals.reserve(chords_.size());
     for (std::size_t start = 0; start < half_edges_.size(); ++start) {
       if (half_edges_[start].cycle >= 0) continue;
-      Cycle cycle;
-      for (int e = static_cast<int>(start); half_edges_[e].cycle < 0; e = half_edges_[e].next) {
+      std::size_t n = 0;
+      for (int e = static_cast<int>(start); half_edges_[e].cycle < 0; e = half_edges_[e].next, ++n)
         half_edges_[e].cycle = static_cast<int>(cycles.size());
-        cycle.ring.push_back(points_[half_edges_[e].from]);
+      Ring ring;
+      ring.reserve(n);
+      for (int e = static_cast<int>(start); ring.size() < n; e = half_edges_[e].next)
+        ring.push_back(points_[half_edges_[e].from]);
+      if (doubled_area(ring) > 0) {
+        cycles.push_back({{}, static_cast<int>(result.pieces.size())});
+        result.pieces.emplace_back().outer = std::move(ring);
+      } else {
+        cycles.push_back({std::move(ring)});
       }
-      if (doubled_area(cycle.ring) > 0) {
-        cycle.piece = static_cast<int>(result.pieces.size());
-        result.pieces.push_back({cycle.ring, {}});
-      }
-      cycles.push_back(std::move(cycle));
     }
     for (Cycle& cycle : cycles) {
       if (cycle.piece >= 0) continue;
       for (std::size_t i = 0; i < result.pieces.size() && cycle.piece < 0; ++i)
-        if (result.pieces.size() == 1 || surrounds(result.pieces[i].outer, cycle.ring))
+        if (result.pieces.size() == 1 || surrounds(result.pieces[i].outer, cycle.hole))
           cycle.piece = static_cast<int>(i);
-      if (cycle.piece >= 0) result.pieces[cycle.piece].holes.push_back(std::move(cycle.ring));
+      if (cycle.piece >= 0) result.pieces[cycle.piece].holes.push_back(std::move(cycle.hole));
     }
 
     for (std::size_t e = 0; e < half_edges_.size(); ++e) {
@@ -322,14 +371,14 @@ class PlanarMap {
 
   double tolerance() const { return 1e-9 * size_; }
   void problem(int cut, std::string what, std::string remedy) {
-    problems_.push_back({place_ + ", cut " + std::to_string(cut), std::move(what), std::move(remedy)});
+    problems_.push_back({*place_ + ", cut " + std::to_string(cut), std::move(what), std::move(remedy)});
   }
   void refuse_problems() {
     if (!problems_.empty()) throw InvalidInput(std::move(problems_));
   }
 
   std::span<const Cut> cuts_;
-  const std::string& place_;
+  const std::string* place_ = nullptr;
   std::vector<Problem> problems_;
   double size_ = 0;
   std::vector<Point>
@@ -340,15 +389,23 @@ class PlanarMap {
   std::vector<std::pair<int, int>> touching_;
   std::vector<int> same_;  // union-find over points that are one
   std::vector<HalfEdge> half_edges_;
-  std::vector<int> arrivals_;  // per point, one half-edge that arrives there; siblings follow
-  std::vector<double> offsets_;
+  std::vector<int> departures_;           // per point, a half-edge that leaves it along the outline
+  std::vector<int> arrivals_;             // per point, one half-edge that arrives there; siblings follow
+  std::vector<double> offsets_, places_;  // of vertices and of parallel cuts, across the cuts
   std::vector<Event> events_;
 };
 
 }  // namespace
 
-Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
-  return PlanarMap(outline, cuts, place).run();
+struct Splitter::Workspace {
+  PlanarMap map;
+};
+
+Splitter::Splitter() : workspace_(std::make_unique<Workspace>()) {}
+Splitter::~Splitter() = default;
+
+Split Splitter::split(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
+  return workspace_->map.run(outline, cuts, place);
 }
 
 int locate(const Ring& ring, Point point) {

@@ -1,6 +1,7 @@
 // Cutting an outline with holes into pieces along straight lines.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,11 +27,23 @@ struct Split {
   std::vector<Interval> intervals;  ///< by cut, then along it; each as long as its two pieces stay the same
 };
 
-/// Cuts `outline` (one that validate() accepts) along all `cuts` at once; cuts may cross each other. Vertices
-/// within 1e-9 of the outline's size of a cut lie on it. Two neighbours share the very coordinates of their
-/// interval, so that the areas of the pieces add up to the outline's but for the rounding of the new points.
-/// Throws InvalidInput where a cut misses the outline, ends inside it, or does not separate anything.
-Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place);
+/// Cuts outlines into pieces; keeps its memory from one to the next.
+class Splitter {
+ public:
+  Splitter();
+  ~Splitter();
+
+  /// Cuts `outline` (one that validate() accepts) along all `cuts` at once; cuts may cross each other.
+  /// Vertices within 1e-9 of the outline's size of a cut lie on it. Two neighbours share the very coordinates
+  /// of their interval, so that the areas of the pieces add up to the outline's but for the rounding of the
+  /// new points. Throws InvalidInput, whose problems begin with `place`, where a cut misses the outline, ends
+  /// inside it, or does not separate anything.
+  Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place);
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
 
 /// −1 outside, 0 on the boundary, 1 inside; exact.
 int locate(const Ring& ring, Point point);

@@ -66,7 +66,7 @@ Json json(const PlannedJoint& joint, const Plan& plan) {
           {"max_compression", number(joint.max_compression)},
           {"max_slip", number(joint.max_slip)},
           {"hinge_length", joint.hinge_length},
-          {"governed_by", joint.governed_by}};
+          {"governed_by", plan.reasons[static_cast<std::size_t>(joint.governed_by)]}};
 }
 
 Json json(const Plan& plan) {
@@ -93,16 +93,14 @@ std::string table(const Plan& plan, const std::string& scene) {
                                  plan.bodies.size(), plan.pieces.size(), mass, plan.joints.size());
   text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  governed by\n", "joint", widest,
                       "N [N]", "Nc [N]", "Q [N]", "M [N m]", "M_reverse", "max_rot. [rad]");
-  std::vector<std::string> reasons;  // mostly the same for all: told once below
   for (const PlannedJoint& joint : plan.joints) {
-    const auto reason = std::find(reasons.begin(), reasons.end(), joint.governed_by) - reasons.begin();
-    if (reason == std::ssize(reasons)) reasons.push_back(joint.governed_by);
     text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n", joint.name, widest,
                         shown(joint.N), shown(joint.Nc), shown(joint.Q), shown(joint.M),
-                        shown(joint.M_reverse), shown(joint.max_rotation), reason + 1);
+                        shown(joint.M_reverse), shown(joint.max_rotation), joint.governed_by + 1);
   }
   text += '\n';
-  for (std::size_t i = 0; i < reasons.size(); ++i) text += fmt::format("[{}] {}\n", i + 1, reasons[i]);
+  for (std::size_t i = 0; i < plan.reasons.size(); ++i)
+    text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
   for (const LeftOut& item : plan.left_out) {
     text += fmt::format("left out: {}, error {:.2g}, time saved {:.0f} %\n", item.what, item.error,
                         100 * item.time_saved);

@@ -145,7 +145,7 @@ struct PlannedJoint {
   double max_compression = unlimited, max_slip = unlimited;
   double hinge_length = 0;  ///< m
   double height = 0;        ///< m, length of the interval along which the pieces touch; 0 for supports
-  std::string governed_by;  ///< which input set each value: "N, Nc, Q: section of beam; M: joint; …"
+  int governed_by = -1;     ///< index into Plan::reasons
 };
 
 /// What was left out of a plan, with the error it brings and the time it saves.
@@ -163,6 +163,7 @@ struct Plan {
   std::vector<BodyDef> bodies;       ///< as given
   std::vector<Piece> pieces;         ///< in the order of the bodies, then along the split
   std::vector<PlannedJoint> joints;  ///< inside bodies, between bodies, supports
+  std::vector<std::string> reasons;  ///< which input set each value: "N, Nc, Q: section of beam; M: joint; …"
   struct Load {
     int piece = 0;
     Point at;  ///< m, world axes at t = 0
