@@ -12,7 +12,7 @@
 #include "ratio.h"
 #include "structures.h"
 
-namespace ductile {
+namespace ductile::bench {
 namespace {
 
 constexpr double g = 10, nearly_none = 1e-3;
@@ -219,4 +219,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
-}  // namespace ductile
+}  // namespace ductile::bench

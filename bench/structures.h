@@ -9,7 +9,7 @@
 
 #include "ductile/joint.h"
 
-namespace ductile {
+namespace ductile::bench {
 
 struct Steel {
   static constexpr double density = 7800, E = 210e9, fy = 350e6, fracture_strain = 0.2;
@@ -233,4 +233,4 @@ struct Built {
   StepReport sum;  // over all steps
 };
 
-}  // namespace ductile
+}  // namespace ductile::bench
