@@ -259,6 +259,15 @@ void Component::first_velocity(const b2SolverData& data) {
     const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.v.x, v.v.y, v.w);
     (mirrors[i].type == b2_dynamicBody ? b.v_free : b.v) = own;
   }
+  if (solver.keeps_ledger) {
+    // b2Body still has the velocities from before gravity.
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      const b2Vec2 v = mirrors[i].body->GetLinearVelocity();
+      solver.before[i] =
+          into_own_frame(solver.bodies[i].turn, v.x, v.y, mirrors[i].body->GetAngularVelocity());
+    }
+    open = true;
+  }
   solver.begin(data.step.dt);
   if (kind == SolverKind::iterative) {
     solver.warm_start();
@@ -354,6 +363,29 @@ void Component::advance() {
   }
   at_rest_ = kind == SolverKind::direct && !kinematic && solver.at_rest();
   slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
+}
+
+double Component::close_ledger() {
+  if (!std::exchange(open, false)) return 0;
+  const float h = static_cast<float>(solver.step());
+  double clamped = 0;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& m = mirrors[i];
+    const b2Vec2 v = m.body->GetLinearVelocity();
+    const float w = m.body->GetAngularVelocity();
+    solver.before[i] = {};
+    if (i >= solver.free_bodies()) continue;
+    solver.before[i] =
+        into_own_frame(solver.bodies[i].turn, v.x - m.given.v.x, v.y - m.given.v.y, w - m.given.w);
+    // 2 m and π/2 a step.
+    if (h * m.given.v.Length() > b2_maxTranslation) {
+      clamped += double{m.mass} * (m.given.v.LengthSquared() - v.LengthSquared()) / 2;
+    }
+    if (h * std::abs(m.given.w) > b2_maxRotation)
+      clamped += double{m.inertia} * (m.given.w * m.given.w - w * w) / 2;
+  }
+  solver.close_ledger(solver.before);
+  return clamped;
 }
 
 }  // namespace ductile

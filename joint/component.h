@@ -64,6 +64,8 @@ struct Component {
   void next_velocity(const b2SolverData& data);
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
+  /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
+  double close_ledger();
   /// After the last velocity call: poses move, what has flowed is booked.
   void advance();
   void position(const b2SolverData& data);
@@ -80,6 +82,7 @@ struct Component {
   std::uint64_t batch = 0;   // island at hand
   std::size_t enlisted = 0;  // joints of it that this island has
   bool resting = false;      // this step is the last one again
+  bool open = false;         // the ledger of the last step is to be closed
 
  private:
   bool as_before(const b2SolverData& data);

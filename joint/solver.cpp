@@ -49,6 +49,7 @@ void Solver::form(std::size_t free_bodies) {
   poses_.assign(bodies.size(), {});
   barrier_.assign(joints.size(), {});
   gaps_.assign(joints.size(), {});
+  before.assign(bodies.size(), {});
   factored_ = false;
   mass_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
@@ -141,6 +142,7 @@ void Solver::begin(double h) {
     factored_ = false;
     laws_set_ = true;
     for (SolverJoint& j : joints) set_law(j);
+    // A rigid row's spring goes with the step.
   }
   for (SolverJoint& j : joints) {
     for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = j.relaxation[i] * (j.gap[i] - j.neutral[i]);
@@ -446,14 +448,18 @@ void Solver::coast() {
 }
 
 void Solver::advance() {
+  if (keeps_ledger && !coasting_) open_ledger();
   for (SolverBody& b : bodies) displace(b, h_ * b.v);
-  for (SolverJoint& j : joints) {
-    const Rows before = j.gap;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    SolverJoint& j = joints[k];
+    const Rows before_gap = j.gap;
     locate(j);
     for (unsigned i = 0; i < 3; ++i) {
-      if (coasting_ || j.law.G[i] == 0) j.neutral[i] += j.gap[i] - before[i];
+      if (coasting_ || j.law.G[i] == 0) j.neutral[i] += j.gap[i] - before_gap[i];
     }
+    const Rows booked = j.dissipated;
     if (!coasting_ && j.piece != 0) flow(j);
+    if (keeps_ledger) account(j, gaps_[k], booked);
   }
   coasting_ = false;
 }
@@ -477,6 +483,50 @@ void Solver::flow(SolverJoint& j) const {
       j.cap_reverse[i] += growth;
       set_law(j);
     }
+  }
+}
+
+// The part of a row's numerical loss that needs the step's own J: with R = s/h the row takes s·J v̄ from the
+// bodies, v̄ the mean of the velocities before and after; implicit Euler counts with those after. Strains
+// before go to gaps_.
+void Solver::open_ledger() {
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const SolverJoint& j = joints[k];
+    const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
+    for (unsigned i = 0; i < 3; ++i) {
+      gaps_[k][i] = j.gap[i] - j.neutral[i];
+      ledger.numerical -= j.impulse[i] * (j.x[i] - j.law.bias[i] - v0[i]) / 2;
+    }
+  }
+}
+
+// Of R h J v, the rest: spring and damper side by side take k e' Δe + c Δe²/h, with e' = e + Δe the strain
+// that the force stands for and that ½ k e'² is stored of; the slider takes R (h J v − Δe). Between the steps
+// the strain went from the last e' to e: the chord that a turning piece moves along, rounding, pushes, a
+// spring that goes with the step.
+void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const double held = j.stored[i];
+    j.stored[i] = 0;
+    if (!(j.law.G[i] > 0)) {
+      ledger.numerical += held;
+      continue;
+    }
+    const double k = j.spring[i], R = j.impulse[i] / h_;
+    const double v = j.x[i] - j.law.bias[i];
+    const double after = coasting_ ? strain[i] : flows(j.piece, i) ? elastic(j, i) : strain[i] + h_ * v;
+    const double change = after - strain[i];
+    j.stored[i] = k * after * after / 2;
+    ledger.damping += j.damping[i] * change * change / h_;
+    ledger.numerical += k * change * change / 2 + held - k * strain[i] * strain[i] / 2;
+    if (flows(j.piece, i)) ledger.numerical += R * (h_ * v - change) - (j.dissipated[i] - booked[i]);
+  }
+}
+
+void Solver::close_ledger(std::span<const Vec3> change) {
+  for (const SolverJoint& j : joints) {
+    const Rows v = relative_velocity(j, change[z(j.a)], change[z(j.b)]);
+    for (unsigned i = 0; i < 3; ++i) ledger.numerical += j.impulse[i] * v[i] / 2;
   }
 }
 

@@ -72,6 +72,7 @@ struct SolverJoint {
   Rows plastic{};                        // net plastic offset
   Rows flowed_forward{}, flowed_back{};  // accumulated plastic offset by sign, ≥ 0
   Rows dissipated{};                     // J
+  Rows stored{};                         // J: ½ k e² of the last step, when a ledger is kept
 
   // Configuration, and what the step makes of it.
   Rows stiffness{};  // N/m, N/m, N m/rad; infinite: rigid; 0: free
@@ -89,6 +90,13 @@ struct SolveReport {
   int factorisations = 0;
   double residual = 0;  // |∇f| over |M (v − v*)|, both in the norm of M⁻¹
   bool bound_hit = false;
+};
+
+/// Where the energy of a structure went besides its joints' plastic work, J since the start. Each term is a
+/// sum of closed forms over rows and steps, none a difference of totals.
+struct Ledger {
+  double damping = 0;    // c ė² h of the rows
+  double numerical = 0;  // what implicit Euler, the motion of J within a step, and pushes by contacts take
 };
 
 class Solver {
@@ -138,6 +146,12 @@ class Solver {
   void sweep();
   void sweep_positions(std::span<const Pose> at);
 
+  /// Asks for a ledger: then `before` are the velocities at the step's very start, in own frames.
+  bool keeps_ledger = false;
+  Ledger ledger;
+  std::vector<Vec3> before;
+  /// After the step: by what contacts and limits changed velocities after the last solve, in own frames.
+  void close_ledger(std::span<const Vec3> change);
   /// Caps or stiffness were edited.
   void laws_changed() { laws_set_ = false; }
   /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
@@ -167,6 +181,8 @@ class Solver {
   double objective() const;
   void coast();
   void flow(SolverJoint& joint) const;
+  void open_ledger();
+  void account(SolverJoint& joint, const Rows& strain_before, const Rows& booked);
   static void displace(SolverBody& body, const Vec3& by);
 
   std::size_t free_ = 0;

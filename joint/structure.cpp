@@ -78,12 +78,16 @@ void Structure::Impl::forget(Member& member) {
     dissolve(component, known_);
     std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
   }
+  for (const double joules : member.own.dissipated) gone_.dissipated += joules;
+  for (const double joules : member.own.stored) gone_.numerical += joules;  // lost with the joint
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
 }
 
 void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
+  gone_.damping += component.solver.ledger.damping;
+  gone_.numerical += component.solver.ledger.numerical;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
     m->component = nullptr;
@@ -178,6 +182,7 @@ void Structure::Impl::form() {
     components.push_back(std::make_unique<Component>(std::move(group), known_, def.solver));
     Component* c = components.back().get();
     c->report = &report;
+    c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
     c->batch = batch_;
     c->enlisted = c->members.size();
     active_.push_back(c);
@@ -213,8 +218,14 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
   const auto let_go = [&](Member& m) {
     m.broken = true;
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
-    m.data().cap = m.data().cap_reverse = {};
-    m.data().surface = nullptr;
+    SolverJoint& j = m.data();
+    for (unsigned i = 0; i < 3; ++i) {
+      j.dissipated[i] += j.stored[i];  // what it still held is set free
+      j.stored[i] = 0;
+      j.neutral[i] = j.gap[i];
+    }
+    j.cap = j.cap_reverse = {};
+    j.surface = nullptr;
     if (m.component != nullptr) m.component->disturb();
   };
   let_go(member);
@@ -224,8 +235,24 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
   }
 }
 
+JointEnergy Structure::Impl::energy() const {
+  JointEnergy sum = gone_;
+  for (const auto& m : members) {
+    for (const double joules : m->data().stored) sum.elastic += joules;
+    sum.dissipated += m->joint->dissipated();
+  }
+  for (const auto& c : components) {
+    sum.damping += c->solver.ledger.damping;
+    sum.numerical += c->solver.ledger.numerical;
+  }
+  return sum;
+}
+
 void Structure::Impl::update() {
   stepped_ = false;
+  if (def.keep_ledger) {
+    for (const auto& c : components) gone_.clamped += c->close_ledger();
+  }
   // The handler may destroy anything: joints are looked up by id each time.
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     const Pending p = pending_[i];
@@ -305,6 +332,7 @@ void Structure::may_break(std::function<bool(const ElasticPlasticJoint&)> veto) 
 }
 std::span<ElasticPlasticJoint* const> Structure::joints() const { return impl_->joints; }
 const StepReport& Structure::report() const { return impl_->report; }
+JointEnergy Structure::energy() const { return impl_->energy(); }
 std::size_t Structure::bytes() const { return impl_->bytes(); }
 
 }  // namespace ductile

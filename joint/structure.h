@@ -25,6 +25,7 @@ struct Structure::Impl {
   void update();
   void shift_origin(const b2Vec2& new_origin, const Member& caller);
   std::size_t bytes() const;
+  JointEnergy energy() const;
 
   b2World* world;  // nullptr once it is gone
   StructureDef def;
@@ -54,6 +55,7 @@ struct Structure::Impl {
   bool incomplete_ = false;  // some enlisted joint is in no component
   bool stepped_ = true;      // since the last update()
 
+  JointEnergy gone_;  // of components and joints that are no more
   KnownPoses known_;  // of bodies whose component was dissolved
 
   struct Pending {

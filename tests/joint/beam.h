@@ -23,7 +23,9 @@ struct BeamDef {
 
 struct Beam {
   explicit Beam(const BeamDef& d)
-      : def(d), world({0, -static_cast<float>(d.gravity)}), structure(world, {d.solver}) {
+      : def(d),
+        world({0, -static_cast<float>(d.gravity)}),
+        structure(world, {.solver = d.solver, .keep_ledger = true}) {
     world.SetAllowSleeping(false);
     const b2Vec2 axis{static_cast<float>(std::cos(d.angle)), static_cast<float>(std::sin(d.angle))};
     b2BodyDef ground;

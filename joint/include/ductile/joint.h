@@ -163,6 +163,18 @@ struct JointEvent {
 
 struct StructureDef {
   SolverKind solver = SolverKind::direct;
+  bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
+};
+
+/// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
+/// the bodies since the start is elastic + dissipated + damping + numerical.
+struct JointEnergy {
+  double elastic = 0;  ///< stored now: ½ Σ k e²
+  double dissipated =
+      0;  ///< plastic work since the start, of joints that are gone too; what broke sets free counts in
+  double damping = 0;    ///< of the rows' dampers, since the start
+  double numerical = 0;  ///< what implicit integration took since the start (negative: gave)
+  double clamped = 0;    ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 
 /// What the last b2World::Step cost, over all islands.
@@ -204,8 +216,10 @@ class Structure {
   /// All joints, in the order of creation.
   std::span<ElasticPlasticJoint* const> joints() const;
 
-  const StepReport& report() const;  ///< of the last step
-  std::size_t bytes() const;         ///< memory held
+  const StepReport& report() const;  ///< of the steps since the last update()
+  /// As of the last update(), which is to follow every step. Needs StructureDef::keep_ledger.
+  JointEnergy energy() const;
+  std::size_t bytes() const;  ///< memory held
 
   struct Impl;
 
