@@ -234,7 +234,7 @@ Object::Object(const Value& value) : value_(value) {
   if (!is_object()) value.wrong("is " + value.shown(), "write an object, {...}");
 }
 
-Object::~Object() {
+Object::~Object() {  // NOLINT(bugprone-exception-escape): see the header
   if (!is_object()) return;
   for (const auto& [key, ignored] : value_.json().items()) {
     if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
@@ -253,7 +253,7 @@ std::optional<Value> Object::find(const char* key) {
 }
 
 std::optional<Value> Object::require(const char* key) {
-  const auto value = find(key);
+  auto value = find(key);
   if (!value && is_object()) value_.wrong(std::string("has no \"") + key + "\"", "it is required");
   return value;
 }

@@ -81,7 +81,7 @@ class Object {
  public:
   explicit Object(const Value& value);
   /// Complains of the keys that were not asked for.
-  ~Object();
+  ~Object();  // NOLINT(bugprone-exception-escape): may run out of memory, which ends the program
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
 

@@ -195,10 +195,9 @@ WheelDef read_wheel(const Value& value) {
 }
 
 void SceneReader::materials(const Value& value) {
-  Object list(value);
-  if (!list.is_object()) return;
-  for (const auto& [name, ignored] : value.json().items()) {
-    const Value entry = *list.find(name.c_str());
+  if (!value.json().is_object()) return value.wrong("is " + value.shown(), "write {\"name\": material...}");
+  for (const auto& [name, json] : value.json().items()) {
+    const Value entry(json, value.place() + "." + name, problems_);
     Material& material = materials_[name];
     if (entry.json().is_string()) {
       material = built_in_material(entry).value_or(Material{});

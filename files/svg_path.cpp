@@ -418,7 +418,7 @@ std::vector<Ring> flatten(const std::vector<Subpath>& path, double tolerance) {
                                    " a curve or " + std::to_string(most_points) + " a shape",
                                "give a larger tolerance");
             }
-            for (double i = 1; i < n; ++i) add(at(c, start, i / n));
+            for (int i = 1; i < n; ++i) add(at(c, start, i / n));
             add(c.end);
             start = c.end;
           },

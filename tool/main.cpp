@@ -26,9 +26,8 @@ void print(const std::vector<Problem>& problems) {
               << " more problems; mend these first\n";
   }
 }
-}  // namespace
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Joints that bend, tear and absorb energy the way steel does, for Box2D bodies.", "ductile");
   app.set_version_flag("--version", DUCTILE_VERSION);
   app.require_subcommand(1);
@@ -57,5 +56,14 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::cerr << "ductile: " << one_line(error.what()) << '\n';
     return failed;
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (...) {
+    return failed;  // not even the message found room
   }
 }

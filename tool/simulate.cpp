@@ -139,7 +139,7 @@ std::string run(const Options& options) {
     history->head(simulation->plan());
     history->row(*simulation);
   }
-  for (double i = 0; i < steps; ++i) {
+  while (static_cast<double>(simulation->steps()) < steps) {
     simulation->step();
     if (history) history->row(*simulation);
   }
