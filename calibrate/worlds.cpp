@@ -217,7 +217,8 @@ Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {
   return built;
 }
 
-void apply_loads(b2World& world, const Plan& plan, const Built& built, double time) {
+std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time) {
+  std::vector<AppliedLoad> applied;
   const auto ramp = [](double t, double over) {
     return t < 0 ? 0 : over > 0 ? std::min(1.0, t / over) : 1.0;
   };
@@ -228,9 +229,13 @@ void apply_loads(b2World& world, const Plan& plan, const Built& built, double ti
     if (factor == 0) continue;
     b2Body* body = built.bodies[load.piece];
     const b2Vec2 at = body->GetWorldPoint(vector(load.at - plan.pieces[load.piece].center));
-    body->ApplyForce(vector(factor * load.def.force), at, true);
-    body->ApplyTorque(static_cast<float>(factor * load.def.moment), true);
+    const AppliedLoad now{body, at, vector(factor * load.def.force),
+                          static_cast<float>(factor * load.def.moment)};
+    body->ApplyForce(now.force, at, true);
+    body->ApplyTorque(now.moment, true);
+    applied.push_back(now);
   }
+  return applied;
 }
 
 }  // namespace ductile

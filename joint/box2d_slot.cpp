@@ -375,14 +375,13 @@ double Component::close_ledger() {
     const float w = m.body->GetAngularVelocity();
     solver.before[i] = {};
     if (i >= solver.free_bodies()) continue;
-    solver.before[i] =
-        into_own_frame(solver.bodies[i].turn, v.x - m.given.v.x, v.y - m.given.v.y, w - m.given.w);
-    // 2 m and π/2 a step.
+    solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
+    // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
     if (h * m.given.v.Length() > b2_maxTranslation) {
-      clamped += double{m.mass} * (m.given.v.LengthSquared() - v.LengthSquared()) / 2;
+      clamped += double{m.mass} * b2Dot(m.given.v - v, 0.5f * (m.began.v + v));
     }
     if (h * std::abs(m.given.w) > b2_maxRotation)
-      clamped += double{m.inertia} * (m.given.w * m.given.w - w * w) / 2;
+      clamped += double{m.inertia} * (m.given.w - w) * (m.began.w + w) / 2;
   }
   solver.close_ledger(solver.before);
   return clamped;

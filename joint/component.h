@@ -48,6 +48,7 @@ struct Component {
     b2Body* body = nullptr;
     b2Position left{};   // pose as we left it
     b2Velocity given{};  // velocity as we left it
+    b2Velocity began{};  // velocity before gravity, when a ledger is kept
     b2Velocity taken{};  // velocity as Box2D brought it at the step's start
     float mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};

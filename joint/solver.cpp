@@ -50,6 +50,7 @@ void Solver::form(std::size_t free_bodies) {
   barrier_.assign(joints.size(), {});
   gaps_.assign(joints.size(), {});
   before.assign(bodies.size(), {});
+  turns_.assign(bodies.size(), {});
   factored_ = false;
   mass_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
@@ -490,6 +491,8 @@ void Solver::flow(SolverJoint& j) const {
 // bodies, v̄ the mean of the velocities before and after; implicit Euler counts with those after. Strains
 // before go to gaps_.
 void Solver::open_ledger() {
+  opened_ = joints;
+  for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = bodies[i].turn;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
@@ -524,8 +527,12 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
 }
 
 void Solver::close_ledger(std::span<const Vec3> change) {
-  for (const SolverJoint& j : joints) {
-    const Rows v = relative_velocity(j, change[z(j.a)], change[z(j.b)]);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Turn& t = turns_[i];
+    d_[i] = {t.c * change[i].x + t.s * change[i].y, t.c * change[i].y - t.s * change[i].x, change[i].w};
+  }
+  for (const SolverJoint& j : opened_) {
+    const Rows v = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) ledger.numerical += j.impulse[i] * v[i] / 2;
   }
 }

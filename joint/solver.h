@@ -150,7 +150,7 @@ class Solver {
   bool keeps_ledger = false;
   Ledger ledger;
   std::vector<Vec3> before;
-  /// After the step: by what contacts and limits changed velocities after the last solve, in own frames.
+  /// After the step: by what contacts and limits changed velocities after the last solve, world axes.
   void close_ledger(std::span<const Vec3> change);
   /// Caps or stiffness were edited.
   void laws_changed() { laws_set_ = false; }
@@ -212,6 +212,8 @@ class Solver {
   std::vector<std::array<Barrier, 3>> barrier_;
   std::vector<Pose> poses_;
   std::vector<Rows> gaps_;
+  std::vector<SolverJoint> opened_;  // J of the step whose ledger is open, and the frames it is in
+  std::vector<Turn> turns_;
 };
 
 }  // namespace ductile

@@ -18,7 +18,7 @@ double usage(double value, double cap) {
 
 }  // namespace
 
-Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with)
+Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with, bool ledger)
     : stepping(with),
       plan_(std::move(plan)),
       solver_(solver),
@@ -30,7 +30,8 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with)
     built_ = build_stock(world_, plan_);
   } else {
     const auto kind = solver == JointSolver::direct ? SolverKind::direct : SolverKind::iterative;
-    structure_ = build(world_, plan_, {.solver = kind}, &built_);
+    structure_ = build(world_, plan_, {.solver = kind, .keep_ledger = ledger}, &built_);
+    if (ledger && kind == SolverKind::direct) ledger_.emplace(world_);
     structure_->on_event([this](const JointEvent& event) { record(event); });
   }
   for (std::size_t i = 0; i < built_.joints.size(); ++i) {
@@ -40,13 +41,15 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with)
 
 void Simulation::step() {
   const double dt = stepping.dt;
-  apply_loads(world_, plan_, built_, time_ + dt / 2);
+  const std::vector<AppliedLoad> loads = apply_loads(world_, plan_, built_, time_ + dt / 2);
+  if (ledger_) ledger_->before_step(static_cast<float>(dt), loads);
   const auto start = std::chrono::steady_clock::now();
   world_.Step(static_cast<float>(dt), stepping.velocity_iterations, stepping.position_iterations);
   const std::chrono::duration<float, std::micro> took = std::chrono::steady_clock::now() - start;
   time_ += dt;
   if (++steps_ >= first_timed_step) step_us_.push_back(took.count());
   if (structure_) structure_->update();
+  if (ledger_) ledger_->after_step(*structure_);
 }
 
 void Simulation::record(const JointEvent& event) {

@@ -56,6 +56,17 @@ Json pieces_json(const Simulation& simulation) {
   return list;
 }
 
+/// Null with solvers that keep no ledger.
+Json energy_json(const Simulation& simulation) {
+  if (simulation.ledger() == nullptr) return nullptr;
+  const Energy e = simulation.ledger()->energy();
+  return {{"kinetic", number(e.kinetic)},       {"potential", number(e.potential)},
+          {"elastic", number(e.elastic)},       {"external", number(e.external)},
+          {"dissipated", number(e.dissipated)}, {"damping", number(e.damping)},
+          {"contacts", number(e.contacts)},     {"numerical", number(e.numerical)},
+          {"clamped", number(e.clamped)},       {"total_error", number(e.total_error)}};
+}
+
 /// One row a step: time, then every piece's pose and every joint's forces and plastic offsets.
 class History {
  public:
@@ -132,7 +143,7 @@ std::string run(const Options& options) {
                                                              : JointSolver::stock;
   Plan plan = plan_of(options.scene);
   std::optional<Simulation> simulation;
-  in_file(options.scene, [&] { simulation.emplace(std::move(plan), solver, options.stepping); });
+  in_file(options.scene, [&] { simulation.emplace(std::move(plan), solver, options.stepping, true); });
   std::optional<History> history;
   if (!options.history.empty()) {
     history.emplace(options.history);
@@ -147,7 +158,8 @@ std::string run(const Options& options) {
   if (!options.json) return table(*simulation, options.scene);
   const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
                     {"joints", joints_json(*simulation)},
-                    {"pieces", pieces_json(*simulation)}};
+                    {"pieces", pieces_json(*simulation)},
+                    {"energy", energy_json(*simulation)}};
   return result.dump() + "\n";
 }
 

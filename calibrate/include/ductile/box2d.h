@@ -64,8 +64,15 @@ Structure build(b2World& world, const Plan& plan, const StructureDef& def = {}, 
 /// free.
 Built build_stock(b2World& world, const Plan& plan, bool all_rigid = false);
 
-/// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start. Call
-/// before each Step.
-void apply_loads(b2World& world, const Plan& plan, const Built& built, double time);
+/// A load as it is at a moment.
+struct AppliedLoad {
+  b2Body* body;
+  b2Vec2 at, force;  ///< m, N: world axes
+  float moment;      ///< N m
+};
+
+/// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start; returns
+/// those that are not zero. Call before each Step.
+std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time);
 
 }  // namespace ductile

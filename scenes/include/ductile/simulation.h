@@ -15,6 +15,7 @@
 #include "ductile/box2d.h"
 #include "ductile/calibrate.h"
 #include "ductile/joint.h"
+#include "ductile/ledger.h"
 
 namespace ductile {
 
@@ -67,8 +68,10 @@ struct SceneEvent {
 /// destroyed; the pieces of the plan stay.
 class Simulation {
  public:
-  /// Throws InvalidInput on what Box2D cannot hold (pieces that are too small, numbers beyond floats).
-  explicit Simulation(Plan plan, JointSolver solver = JointSolver::direct, const Stepping& stepping = {});
+  /// Throws InvalidInput on what Box2D cannot hold (pieces that are too small, numbers beyond floats). With
+  /// `ledger` (direct solver) energy() is kept, at a small cost per step.
+  explicit Simulation(Plan plan, JointSolver solver = JointSolver::direct, const Stepping& stepping = {},
+                      bool ledger = false);
 
   Stepping stepping;
 
@@ -87,6 +90,9 @@ class Simulation {
 
   /// µs: median of b2World::Step alone over the steps from the tenth on; NaN before.
   double time_per_step_us() const;
+
+  /// Null when no ledger is kept.
+  const EnergyLedger* ledger() const { return ledger_ ? &*ledger_ : nullptr; }
 
   b2World& world() { return world_; }
   const Built& built() const { return built_; }                           ///< a joint that is gone is null
@@ -113,6 +119,7 @@ class Simulation {
   Goodbye goodbye_;
   Built built_;
   std::optional<Structure> structure_;
+  std::optional<EnergyLedger> ledger_;
   std::unordered_map<const b2Joint*, std::size_t> index_;        // of the joints that are there
   std::unordered_map<std::size_t, JointReading> last_readings_;  // of those that are broken
   std::vector<SceneEvent> events_;
