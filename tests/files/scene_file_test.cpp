@@ -10,37 +10,8 @@ namespace {
 using namespace ductile;
 namespace fs = std::filesystem;
 
-// The example of the format's reference, with every key of the tables added somewhere.
-const char* const everything = R"({
-  "gravity": [1, -9], "gravity_ramp": 2, "sleep": true, "interaction": true,
-  "joint": {"max_rotation": null},
-  "materials": {
-    "steel": {"density": 7800, "E": 210e9, "fy": 350e6, "fyc": 340e6, "tau": 200e6, "fu": 490e6,
-              "fracture_strain": 0.25, "criterion": "von_mises", "damping_ratio": 0.1, "friction": 0.6,
-              "restitution": 0.3},
-    "mine": "S355"},
-  "bodies": [
-    {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,2],[-1,2]]},
-    {"name": "beam", "outline": [[0,0],[20,0],[20,1],[0,1]], "holes": [[[1,0.2],[2,0.2],[2,0.4]]], "depth": 0.5,
-     "material": "steel", "split": {"pieces": 10, "along": [[0,0.5],[20,0.5]]},
-     "joint": {"moment": 1e7, "moment_reverse": 2e7, "axial": null, "axial_compression": 3, "shear": 0,
-               "elastic": {"frequency": 2, "damping_ratio": 0.7}, "max_rotation": 3, "max_elongation": 0.1,
-               "max_compression": null, "max_slip": 0.2, "hinge_length": 0.5}},
-    {"name": "wheel", "type": "kinematic", "outline": {"circle": 0.4}, "at": [30, 2], "angle": 0.5,
-     "velocity": [1, 2], "angular_velocity": 3, "material": "mine", "group": -2},
-    {"name": "girder", "outline": [[0,5],[20,5],[20,6],[0,6]], "material": "S235",
-     "profile": {"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": {"fy": 235e6}}]},
-     "split": {"cuts": [[[5,4],[5,7]], [[10,4],[10,7]]]}},
-    {"name": "arm", "outline": [[0,9],[20,9],[20,10],[0,10]], "material": "S355", "split": "auto"}],
-  "joints": [{"between": ["wall","beam"], "gap": 0.01, "moment": 1e7, "elastic": "rigid", "max_rotation": 3.0},
-             {"between": ["wall","arm"], "elastic": true},
-             {"between": ["arm","girder"], "elastic": {"elastic_rotation": 0.02, "frequency": 3}}],
-  "supports": [{"body": "beam", "at": [20,0.5], "fix": ["y", "angle"]}],
-  "loads": [{"body": "beam", "at": [20,0.5], "force": [0,-1e6], "moment": 5, "from": 1, "ramp": 2, "to": 9},
-            {"body": "beam", "at": [10,0.5], "to": null}],
-  "wheels": [{"between": ["beam","wheel"], "at": [30,2], "axis": [1,1], "frequency": 5, "damping_ratio": 0.6,
-              "motor_speed": -40, "motor_torque": 1000}]
-})";
+// Every key of the format somewhere.
+const std::string everything = read_text(DUCTILE_SOURCE_DIR "/tests/files/schema/everything.scene.json");
 
 void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(scene.gravity, (Point{1, -9}));

@@ -1,0 +1,104 @@
+"""The schemas in docs/ and the readers agree: on every example, and on every example with one thing changed.
+
+What a schema cannot say (names that nobody has, outlines that cross themselves) is left to other tests.
+"""
+
+import copy
+import glob
+import json
+import subprocess
+import sys
+import warnings
+
+warnings.simplefilter("ignore", DeprecationWarning)
+from jsonschema import Draft202012Validator, RefResolver  # noqa: E402
+
+source, verdicts = sys.argv[1:]
+
+schemas = {name: json.load(open(f"{source}/docs/{name}.schema.json")) for name in ("section", "scene")}
+store = {f"{name}.schema.json": schema for name, schema in schemas.items()}
+
+
+def validator(kind):
+    Draft202012Validator.check_schema(schemas[kind])
+    return Draft202012Validator(schemas[kind], resolver=RefResolver.from_schema(schemas[kind], store=store))
+
+
+def places(value, place=()):
+    yield place
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in items:
+        yield from places(inner, place + (key,))
+
+
+def at(value, place):
+    for key in place:
+        value = value[key]
+    return value
+
+
+OTHERS = [None, True, "x", -1, 0, 0.5, [], {}, [1, 2], [[0, 0], [1, 1]]]
+
+
+def mutations(example):
+    """The example with one value replaced, one key taken away, one added, one element doubled."""
+    for place in places(example):
+        if not place:
+            continue
+        for other in OTHERS:
+            changed = copy.deepcopy(example)
+            at(changed, place[:-1])[place[-1]] = other
+            yield place, other, changed
+        changed = copy.deepcopy(example)
+        del at(changed, place[:-1])[place[-1]]
+        yield place, "(gone)", changed
+    for place in places(example):
+        if isinstance(at(example, place), dict):
+            changed = copy.deepcopy(example)
+            at(changed, place)["colour"] = 1
+            yield place, "(colour)", changed
+
+
+def differs_by_right(kind, place, other, changed):
+    """What only one of the two can know."""
+    last = place[-1] if place else None
+    inside = [key for key in place if isinstance(key, str)]
+    if isinstance(other, str) and other == "x" or other == "(gone)" or other == "(colour)":
+        # A name that must be a material's or a drawing's.
+        if last in ("material", "outline", "profile") or "materials" in place[-2:]:
+            return True
+    if "materials" in inside and (len(inside) == 1 or inside[-2] == "materials" or other in ("(gone)", "(colour)")):
+        return True  # bodies name them
+    if isinstance(other, str) and last == "name":
+        return True
+    if last == "axis" or (inside and inside[-1] in ("axis", "along")):
+        return True  # two equal points
+    if last in ("outer", "outline", "holes") or (inside and inside[-1] in ("outer", "outline", "holes")):
+        return True  # a ring of two points has a form, and no area
+    return False
+
+
+checked = disagreements = 0
+for kind in ("section", "scene"):
+    valid = validator(kind)
+    examples = glob.glob(f"{source}/tests/files/schema/*.{kind}.json") + glob.glob(f"{source}/scenes/*.{kind}.json")
+    assert examples or kind == "section", f"no {kind} examples"
+    for file in examples:
+        example = json.load(open(file))
+        errors = [f"{error.json_path}: {error.message[:200]}" for error in valid.iter_errors(example)]
+        assert not errors, f"{file}: {errors}"
+    example = json.load(open(f"{source}/tests/files/schema/everything.{kind}.json"))
+    cases = [((), "(as it is)", example), *mutations(example)]
+    text = "".join(json.dumps(changed) + "\n" for _, _, changed in cases)
+    said = subprocess.run([verdicts, kind], input=text, capture_output=True, text=True, check=True).stdout.splitlines()
+    assert len(said) == len(cases) and said[0] == "accepted", said[0]
+    for (place, other, changed), verdict in zip(cases, said):
+        if differs_by_right(kind, place, other, changed):
+            continue
+        checked += 1
+        if valid.is_valid(changed) != (verdict == "accepted"):
+            disagreements += 1
+            print(f"{kind} {place} = {other!r}: schema says {valid.is_valid(changed)}, reader: {verdict}")
+
+print(f"{checked} cases, {disagreements} disagreements")
+sys.exit(1 if disagreements or checked < 1000 else 0)
