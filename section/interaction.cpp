@@ -72,12 +72,12 @@ double Section::moment_at(Point direction, double N, double reference, bool reve
   const double left = left_by_shear(Q, data_->Q);
   if (left == 0) return 0;
   const double full_N = std::clamp(N / left, -data_->Nc, data_->N);
-  const DoubleDouble C = data_->asymmetry.A;
+  const DoubleDouble C = data_->asymmetry.sum.A;
   const NeutralAxis axis = data_->neutral_axis(direction, reverse ? C - full_N : full_N - C);
   const auto d = unit<DoubleDouble>(direction);
   const Point o = data_->boundary.origin;
   const DoubleDouble arm = axis.s + (d.x * o.x + d.y * o.y - reference);
-  const DoubleDouble rest = first_moment(data_->asymmetry, d, axis.s) + arm * full_N;
+  const DoubleDouble rest = first_moment(data_->asymmetry.sum, d, axis.s) + arm * full_N;
   return left * to_double(reverse ? axis.F - rest : axis.F + rest);
 }
 
@@ -88,7 +88,7 @@ std::vector<Interaction> Section::interaction(Point direction, double reference,
   const auto dd = unit<DoubleDouble>(direction);
   const Point o = data_->boundary.origin;
   const DoubleDouble s_ref = DoubleDouble(reference) - (dd.x * o.x + dd.y * o.y);
-  const bool cancels = data_->neutral_axis(direction, -data_->asymmetry.A).cancels;
+  const bool cancels = data_->neutral_axis(direction, -data_->asymmetry.sum.A).cancels;
 
   const auto at = [&](double s, double sense) -> CurvePoint {
     const DoubleDouble s0 = s_ref + s;
@@ -100,13 +100,13 @@ std::vector<Interaction> Section::interaction(Point direction, double reference,
       const auto quick = cut<double>(data_->boundary, d, to_double(s0));
       G = quick.difference, F = quick.moment;
     }
-    const DoubleDouble N = data_->asymmetry.A + G * sense;
-    return {s, to_double(N), to_double(F * sense + first_moment(data_->asymmetry, dd, s0) + N * s)};
+    const DoubleDouble N = data_->asymmetry.sum.A + G * sense;
+    return {s, to_double(N), to_double(F * sense + first_moment(data_->asymmetry.sum, dd, s0) + N * s)};
   };
 
   // The ends, where all fibres are in tension or in compression, belong to both senses.
-  const DoubleDouble h = first_moment(data_->strength, dd, s_ref),
-                     g = first_moment(data_->asymmetry, dd, s_ref);
+  const DoubleDouble h = first_moment(data_->strength.sum, dd, s_ref),
+                     g = first_moment(data_->asymmetry.sum, dd, s_ref);
   const auto [lowest, highest] = extent(direction);
   const double first = lowest - reference, last = highest - reference;
   const CurvePoint tension{first, data_->N, to_double(g + h)},

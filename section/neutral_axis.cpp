@@ -32,7 +32,10 @@ Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start
     return !cut.inside && std::isfinite(cut.below) && std::isfinite(cut.above) &&
            std::abs(to_double(cut.difference - target)) <= rounding;
   };
-  const auto middle = [&](const Cut<Real>& cut, Real s) { return s + Real((cut.above - cut.below) / 2); };
+  const auto middle = [&](Real s) {
+    const auto [below, above] = clearance(boundary, d, s);
+    return s + Real((above - below) / 2);
+  };
 
   Real low = -boundary.radius, high = boundary.radius, s0 = start;
   double step = 2 * boundary.radius, step_before = step;
@@ -53,8 +56,7 @@ Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start
     if (rest == 0 || exhausted || (here.inside && (std::abs(t) <= ulp || (in_range && fine)))) {
       if (!here.inside) {
         const bool gap = is_gap(here);
-        return {s0, here.moment, gap ? std::numeric_limits<double>::infinity() : 0,
-                gap ? middle(here, s0) : s0};
+        return {s0, here.moment, gap ? std::numeric_limits<double>::infinity() : 0, gap ? middle(s0) : s0};
       }
       const Real s = s0 + Real(t);
       const Real F = here.moment - (here.difference - Real((c + here.chord_slope * t / 3) * t)) * Real(t);
@@ -63,7 +65,7 @@ Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start
       if (here.above - t <= near || here.below + t <= near) {
         for (const double side : {4 * near, -4 * near}) {
           const Cut<Real> probe = cut<Real>(boundary, d, s + Real(side));
-          if (is_gap(probe)) return {s, F, c, middle(probe, s + Real(side))};
+          if (is_gap(probe)) return {s, F, c, middle(s + Real(side))};
         }
       }
       return {s, F, c, s};
@@ -80,23 +82,15 @@ Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start
 }  // namespace
 
 NeutralAxis Section::Data::neutral_axis(Point direction, DoubleDouble target) const {
-  const double H = to_double(strength.A);
   const auto d = unit<double>(direction);
-  // A rectangle of the same centroid and radius of gyration has its axis here.
-  const double centroid = (to_double(strength.Sx) * d.x + to_double(strength.Sy) * d.y) / H;
-  const double second = to_double(strength.Jxx) * d.x * d.x + 2 * to_double(strength.Jxy) * d.x * d.y +
-                        to_double(strength.Jyy) * d.y * d.y;
-  const double gyration = std::sqrt(std::max(second / H - centroid * centroid, 0.0));
-  const double start = centroid - to_double(target) / H * std::sqrt(3.0) * gyration;
-  const Root<double> quick = search<double>(boundary, d, to_double(target), start);
+  const double H = to_double(strength.sum.A);
+  const double centroid = (to_double(strength.sum.Sx) * d.x + to_double(strength.sum.Sy) * d.y) / H;
+  const Root<double> quick = search<double>(boundary, d, to_double(target), centroid);
 
-  // First-order bounds of rounding. A thin or ragged section that cancels too much is finished at twice the
-  // precision.
-  const double error_G = epsilon * boundary.reach * boundary.radius;
+  const double error_G = boundary.rounding(strength.scatter, H);
   const double error_s = quick.chord > 0 ? error_G / (2 * quick.chord) : boundary.radius;
-  const double tolerance = 5e-14 * std::abs(quick.F);
   const Point o = boundary.origin;
-  if (error_s * H <= tolerance && error_G * boundary.radius <= tolerance)
+  if (std::max(error_s * H, error_G * boundary.radius) <= trusted * std::abs(quick.F))
     return {quick.s, quick.F, o.x * d.x + o.y * d.y + quick.reported, false};
   const auto dd = unit<DoubleDouble>(direction);
   const Root<DoubleDouble> fine = search<DoubleDouble>(boundary, dd, target, quick.s);

@@ -1,8 +1,10 @@
 // What a Section knows of itself that does not depend on a direction.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "boundary.h"
 #include "ductile/section.h"
 #include "integrals.h"
 
@@ -24,16 +26,31 @@ struct NeutralAxis {
 //   side toward d in compression:  N = C − G,   M_ref = −F + ∫ g (s − s0) dA + (s0 − s_ref) N
 // with C = Σ ∫ g dA.
 struct Section::Data {
+  struct Weighted {
+    Moments<DoubleDouble> sum;
+    double scatter = 0;  // √Σ (weight · length of an edge)²
+  };
+  explicit Data(std::span<const Region> all) : regions(all.begin(), all.end()), boundary(all) {}
+
   std::vector<Region> regions;
   Boundary boundary;
-  std::vector<Moments> of_region;  // geometric
-  Moments geometric, strength, asymmetry,
-      modulus;                  // sums over the regions, weighted by 1, h, g, E (1 if not known)
-  double N = 0, Nc = 0, Q = 0;  // N
+  Weighted geometric, strength, asymmetry, modulus;  // by 1, h, g, and E (1 where it is not known)
+  double N = 0, Nc = 0, Q = 0;                       // N
   bool E_known = false;
-  bool one_E = true, one_f = true;  // the same in all regions
-  bool f_differ = false;            // f_t ≠ f_c in some region
+  bool one_material = true;  // the same f and E in all regions
+  bool f_differ = false;     // f_t ≠ f_c in some region
 
+  /// Fills in what is above from the loops.
+  template <class Real>
+  void sum();
+  struct Bent {
+    double EI = 0;         // N m²; m⁴ where no E is known
+    double curvature = 0;  // 1/m, at which the first fibre yields
+    double farthest = 0;   // fibre, m
+  };
+  /// Bent about the line at `axis` until a fibre yields; the side toward d in tension.
+  template <class Real>
+  Bent bend(Vec<Real> d, Real axis) const;
   /// The root of G(s) = target.
   NeutralAxis neutral_axis(Point direction, DoubleDouble target) const;
 };
@@ -42,7 +59,7 @@ struct Section::Data {
 void require_direction(Point d);
 
 /// Σ ∫ (s' − s) dA along d, weighted as m is; s from the local origin.
-inline DoubleDouble first_moment(const Moments& m, const Vec<DoubleDouble>& d, DoubleDouble s) {
+inline DoubleDouble first_moment(const Moments<DoubleDouble>& m, const Vec<DoubleDouble>& d, DoubleDouble s) {
   return m.Sx * d.x + m.Sy * d.y - m.A * s;
 }
 

@@ -71,11 +71,28 @@ std::span<const Point> open(const Ring& ring) {
   return points.size() > 1 && points.front() == points.back() ? points.first(points.size() - 1) : points;
 }
 
+/// A ring that the sweep looks at, and where it stands in the drawing; its name is put together when it is
+/// needed.
+struct Loop {
+  std::span<const Point> ring;
+  std::string_view prefix;
+  std::size_t region = 0;
+  bool of_section = false;  // the prefix is one of several regions
+  bool hole = false;
+  std::size_t index = 0;  // among the holes
+
+  std::string place() const {
+    return std::string(prefix) + (of_section ? "[" + std::to_string(region) + "]" : "") +
+           (hole ? ".holes[" + std::to_string(index) + "]" : ".outer");
+  }
+};
+
 /// What is wrong with a ring's points before one asks how its edges lie. Finite coordinates come first: a
 /// predicate that is fed a NaN answers something.
-std::vector<Problem> point_problems(std::span<const Point> ring, const std::string& place) {
+std::vector<Problem> point_problems(const Loop& loop) {
+  const std::span<const Point> ring = loop.ring;
   std::vector<Problem> problems;
-  const auto vertex = [&](std::size_t i) { return place + "[" + std::to_string(i) + "]"; };
+  const auto vertex = [&](std::size_t i) { return loop.place() + "[" + std::to_string(i) + "]"; };
   for (std::size_t i = 0; i < ring.size() && problems.size() < enough; ++i) {
     const auto [x, y] = ring[i];
     if (!std::isfinite(x) || !std::isfinite(y))
@@ -87,7 +104,7 @@ std::vector<Problem> point_problems(std::span<const Point> ring, const std::stri
   }
   if (!problems.empty()) return problems;
   if (ring.size() < 3)
-    return {{place, "has " + std::to_string(ring.size()) + (ring.size() == 1 ? " point" : " points"),
+    return {{loop.place(), "has " + std::to_string(ring.size()) + (ring.size() == 1 ? " point" : " points"),
              "a ring needs at least three"}};
 
   Point low = ring[0], high = ring[0];
@@ -100,9 +117,10 @@ std::vector<Problem> point_problems(std::span<const Point> ring, const std::stri
   const bool flat = corner == ring.size() || std::all_of(ring.begin(), ring.end(), [&](Point p) {
                       return orientation(ring[0], ring[corner], p) == 0;
                     });
-  if (flat) return {{place, "has no area: all its points lie on one line", "a ring must enclose an area"}};
+  if (flat)
+    return {{loop.place(), "has no area: all its points lie on one line", "a ring must enclose an area"}};
   if (std::min(high.x - low.x, high.y - low.y) < smallest)
-    return {{place, "is " + number(high.x - low.x) + " m by " + number(high.y - low.y) + " m",
+    return {{loop.place(), "is " + number(high.x - low.x) + " m by " + number(high.y - low.y) + " m",
              "a ring must be larger than 1e-50 m each way"}};
 
   for (std::size_t i = 0; i < ring.size() && problems.size() < enough; ++i) {
@@ -115,15 +133,6 @@ std::vector<Problem> point_problems(std::span<const Point> ring, const std::stri
   }
   return problems;
 }
-
-/// A ring that the sweep looks at: where it stands in the drawing, and on which side it is solid.
-struct Loop {
-  std::span<const Point> ring;
-  std::string place;
-  std::size_t
-      owner;  // loops of one owner are checked against each other elsewhere, but for crossing themselves
-  bool hole;
-};
 
 /// +1 where the ring runs counter-clockwise; for one that does not touch itself.
 int turn(std::span<const Point> ring) {
@@ -326,7 +335,7 @@ class Sweep {
   /// Vertices of a ring that fall on one another or on another edge of it.
   void report_touching(std::span<const Event> events, Status::iterator first, Status::iterator last) {
     const Point p = events.front().p;
-    const std::string at = "(" + number(p.x) + ", " + number(p.y) + ")";
+    const auto at = [p] { return "(" + number(p.x) + ", " + number(p.y) + ")"; };
     // vertices at p; two events each
     touching_.clear();
     for (const Event& event : events) {
@@ -339,8 +348,8 @@ class Sweep {
       const auto [loop, vertex] = touching_[i];
       const auto [other_loop, other] = touching_[i - 1];
       if (loop == other_loop && vertex != other)
-        problems_.push_back({loops_[loop].place + "[" + std::to_string(vertex) + "]",
-                             "is the same point " + at + " as vertex " + std::to_string(other),
+        problems_.push_back({loops_[loop].place() + "[" + std::to_string(vertex) + "]",
+                             "is the same point " + at() + " as vertex " + std::to_string(other),
                              "a ring must not touch itself"});
     }
     for (auto it = first; it != last; ++it) {
@@ -349,8 +358,8 @@ class Sweep {
       const auto own =
           std::lower_bound(touching_.begin(), touching_.end(), std::pair{edge.loop, std::size_t{0}});
       if (own != touching_.end() && own->first == edge.loop)
-        problems_.push_back({loops_[edge.loop].place + "[" + std::to_string(own->second) + "]",
-                             at + " lies on edge " + std::to_string(edge.index),
+        problems_.push_back({loops_[edge.loop].place() + "[" + std::to_string(own->second) + "]",
+                             at() + " lies on edge " + std::to_string(edge.index),
                              "a ring must not touch itself"});
     }
   }
@@ -362,17 +371,18 @@ class Sweep {
     const Edge &e = edges_[a], &f = edges_[b];
     const std::string i = std::to_string(e.index), j = std::to_string(f.index);
     if (e.loop == f.loop) {
-      problems_.push_back({loops_[e.loop].place, "edges " + i + " and " + j + " cross " + near(p),
+      problems_.push_back({loops_[e.loop].place(), "edges " + i + " and " + j + " cross " + near(p),
                            "a ring must not cross itself"});
     } else if (told_.insert({e.loop, f.loop}).second) {
-      problems_.push_back({loops_[f.loop].place,
-                           "edge " + j + " crosses edge " + i + " of " + loops_[e.loop].place + " " + near(p),
-                           remedy(e.loop, f.loop)});
+      problems_.push_back(
+          {loops_[f.loop].place(),
+           "edge " + j + " crosses edge " + i + " of " + loops_[e.loop].place() + " " + near(p),
+           remedy(e.loop, f.loop)});
     }
   }
 
   std::string remedy(std::size_t a, std::size_t b) const {
-    return loops_[a].owner == loops_[b].owner
+    return loops_[a].region == loops_[b].region
                ? "a hole must lie inside its outline and apart from other holes"
                : "regions may touch but not overlap";
   }
@@ -417,23 +427,23 @@ class Sweep {
       cover[edges_[other].loop] += edges_[other].solid_above;
       if (other == e) break;
     }
-    std::map<std::size_t, std::pair<std::size_t, int>> by_owner;  // first loop and cover of each owner
+    std::map<std::size_t, std::pair<std::size_t, int>> by_region;  // first loop and cover of each owner
     std::vector<std::size_t> holes;
     for (const auto& [loop, count] : cover) {
-      by_owner.try_emplace(loops_[loop].owner, loop, 0).first->second.second += count;
+      by_region.try_emplace(loops_[loop].region, loop, 0).first->second.second += count;
       if (count < 0) holes.push_back(loop);
     }
     std::vector<std::size_t> covering;
-    for (const auto& [owner, entry] : by_owner)
+    for (const auto& [region, entry] : by_region)
       if (entry.second > 0) covering.push_back(entry.first);
     if (covering.size() < 2) covering = holes;
     const std::size_t b = covering.back(), a = covering.size() > 1 ? covering[covering.size() - 2] : none;
     if (!told_.insert({a, b}).second) return;
     if (a == none)
-      cover_problems_.push_back({loops_[b].place, "lies outside its outline " + near(p), remedy(b, b)});
+      cover_problems_.push_back({loops_[b].place(), "lies outside its outline " + near(p), remedy(b, b)});
     else
       cover_problems_.push_back(
-          {loops_[b].place, "overlaps " + loops_[a].place + " in area " + near(p), remedy(a, b)});
+          {loops_[b].place(), "overlaps " + loops_[a].place() + " in area " + near(p), remedy(a, b)});
   }
 
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -459,11 +469,15 @@ double rounding(std::span<const Loop> loops) {
   return 8 * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
-std::vector<Loop> loops_of(const Outline& outline, const std::string& place, std::size_t owner) {
-  std::vector<Loop> loops{{open(outline.outer), place + ".outer", owner, false}};
-  for (std::size_t h = 0; h < outline.holes.size(); ++h)
-    loops.push_back({open(outline.holes[h]), place + ".holes[" + std::to_string(h) + "]", owner, true});
-  return loops;
+void add_loops(std::vector<Loop>& loops, const Outline& outline, const Loop& like) {
+  loops.push_back(like);
+  loops.back().ring = open(outline.outer);
+  for (std::size_t h = 0; h < outline.holes.size(); ++h) {
+    loops.push_back(like);
+    loops.back().ring = open(outline.holes[h]);
+    loops.back().hole = true;
+    loops.back().index = h;
+  }
 }
 
 /// Do holes leave nothing of the outline but slivers that rounding makes?
@@ -490,40 +504,54 @@ void append(std::vector<Problem>& problems, std::vector<Problem> more) {
 
 }  // namespace
 
-std::vector<Problem> validate(const Outline& outline, const std::string& place) {
+namespace {
+std::vector<Problem> validate(const Outline& outline, const Loop& like) {
+  std::vector<Loop> loops;
+  loops.reserve(1 + outline.holes.size());
+  add_loops(loops, outline, like);
   std::vector<Problem> problems;
   std::vector<Loop> sound;
-  for (Loop& loop : loops_of(outline, place, 0)) {
-    auto found = point_problems(loop.ring, loop.place);
-    if (found.empty()) sound.push_back(std::move(loop));
+  for (const Loop& loop : loops) {
+    auto found = point_problems(loop);
+    if (found.empty()) sound.push_back(loop);
     append(problems, std::move(found));
   }
-  if (problems.empty() && sound.size() == 1 && plainly_simple(sound.front().ring)) return {};
-  if (problems.empty()) {
-    const double tolerance = rounding(sound);
-    problems = Sweep(sound, tolerance).problems();
-    if (problems.empty() && sound.size() > 1 && all_holes(sound, tolerance))
-      problems.push_back({place + ".outer", "has no area left: its holes fill it", "leave some material"});
-  } else {
+  if (!problems.empty()) {
     for (const Loop& loop : sound) append(problems, Sweep(std::span(&loop, 1), 0).problems());
+    return problems;
   }
+  if (loops.size() == 1 && plainly_simple(loops.front().ring)) return {};
+  const double tolerance = rounding(loops);
+  problems = Sweep(loops, tolerance).problems();
+  if (problems.empty() && loops.size() > 1 && all_holes(loops, tolerance))
+    problems.push_back({loops.front().place(), "has no area left: its holes fill it", "leave some material"});
   return problems;
 }
+}  // namespace
 
-std::vector<Problem> validate(const Material& material, const std::string& place) {
-  std::vector<Problem> problems;
+std::vector<Problem> validate(const Outline& outline, const std::string& place) {
+  return validate(outline, Loop{.prefix = place});
+}
+
+namespace {
+template <class Place>
+void check_stresses(std::vector<Problem>& problems, const Material& material, const Place& place) {
   const auto check = [&](const char* name, double value, bool may_be_zero) {
-    if (std::isfinite(value) && value <= largest && (may_be_zero ? value >= 0 : value >= smallest) &&
-        (value == 0 || value >= smallest))
-      return;
+    if ((may_be_zero && value == 0) || (value >= smallest && value <= largest)) return;
     problems.push_back(
-        {place, std::string(name) + " is " + number(value) + " Pa",
+        {place(), std::string(name) + " is " + number(value) + " Pa",
          may_be_zero ? "it must be finite and not negative" : "it must be finite and above zero"});
   };
   check("yield stress", material.yield_stress, false);
   check("yield stress in compression", material.yield_stress_compression, true);
   check("shear yield stress", material.shear_yield_stress, true);
   check("Young's modulus", material.youngs_modulus, true);
+}
+}  // namespace
+
+std::vector<Problem> validate(const Material& material, const std::string& place) {
+  std::vector<Problem> problems;
+  check_stresses(problems, material, [&] { return place; });
   return problems;
 }
 
@@ -533,21 +561,22 @@ std::vector<Problem> validate(std::span<const Region> regions) {
   bool outlines_sound = true;
   const bool E_known = std::any_of(regions.begin(), regions.end(),
                                    [](const Region& region) { return region.material.youngs_modulus > 0; });
+  const auto loop_like = [](std::size_t r) {
+    return Loop{.prefix = "regions", .region = r, .of_section = true};
+  };
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const std::string place = "regions[" + std::to_string(r) + "]";
-    auto found = validate(regions[r].outline, place);
+    auto found = validate(regions[r].outline, loop_like(r));
     outlines_sound &= found.empty();
     append(problems, std::move(found));
-    append(problems, validate(regions[r].material, place + ".material"));
+    const auto place = [r] { return "regions[" + std::to_string(r) + "].material"; };
+    check_stresses(problems, regions[r].material, place);
     if (E_known && regions[r].material.youngs_modulus == 0)
-      problems.push_back({place + ".material", "has no Young's modulus although another region has one",
+      problems.push_back({place(), "has no Young's modulus although another region has one",
                           "give it for all regions or for none"});
   }
   if (outlines_sound && regions.size() > 1) {
     std::vector<Loop> loops;
-    for (std::size_t r = 0; r < regions.size(); ++r)
-      for (Loop& loop : loops_of(regions[r].outline, "regions[" + std::to_string(r) + "]", r))
-        loops.push_back(std::move(loop));
+    for (std::size_t r = 0; r < regions.size(); ++r) add_loops(loops, regions[r].outline, loop_like(r));
     append(problems, Sweep(loops, rounding(loops)).problems());
   }
   return problems;

@@ -114,8 +114,8 @@ inline Drawing layered(Random& random) {
 
 /// A core in a sheath in a sheath: every hole filled by the next region.
 inline Drawing filled(Random& random) {
-  const Ring outer = star(random, among(random, 5, 40), 0.8, 1),
-             middle = star(random, among(random, 5, 40), 0.45, 0.5),
+  const Ring outer = star(random, among(random, 8, 40), 0.8, 1),
+             middle = star(random, among(random, 8, 40), 0.45, 0.5),
              core = star(random, among(random, 3, 20), 0.1, 0.2);
   return {{outer, {middle}}, {middle, {core}}, {core}};
 }

@@ -1,6 +1,6 @@
 // What capacities should be, by another road and in 113 bits: regions are clipped by the trial line, the
 // areas and first moments of the parts come from the shoelace formula, and the plastic neutral axis from
-// bisection. Shares nothing with section/ but the coordinates as given.
+// false position. Shares nothing with section/ but the coordinates as given.
 #pragma once
 
 #include <cmath>
@@ -99,14 +99,27 @@ class Section {
     return {N, M};
   }
 
-  /// Where the axial force is N.
+  /// Where the axial force is N: false position with the Illinois rule, then bisection should that be slow.
   Real neutral_axis(Real N, int sense) const {
-    Real a = low_, b = high_;
-    for (int i = 0; i < 96; ++i) {
-      const Real middle = (a + b) / 2;
-      ((forces(middle, middle, sense).first > N) == (sense > 0) ? a : b) = middle;
+    const auto rest = [&](Real s) { return sense * (forces(s, s, sense).first - N); };  // falls with s
+    Real a = low_, b = high_, fa = rest(a), fb = rest(b), last = a;
+    if (!(fa > 0)) return a;
+    if (!(fb < 0)) return b;
+    for (int i = 0, kept = 0; i < 300; ++i) {
+      const Real s = i < 60 ? a + (b - a) * (fa / (fa - fb)) : (a + b) / 2, f = rest(s);
+      if (f == 0 || magnitude(s - last) <= Real(1e-28) * (high_ - low_)) return s;
+      last = s;
+      if (f > 0) {
+        a = s, fa = f;
+        if (kept > 0) fb /= 2;
+        kept = 1;
+      } else {
+        b = s, fb = f;
+        if (kept < 0) fa /= 2;
+        kept = -1;
+      }
     }
-    return (a + b) / 2;
+    return last;
   }
 
   /// Σ weight · (A, S, I) about s0, weight 1 or E.

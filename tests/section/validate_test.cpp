@@ -1,7 +1,7 @@
 // What is taken and what is refused.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -182,6 +182,55 @@ INSTANTIATE_TEST_SUITE_P(
         if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
       return name;
     });
+
+// ---- many vertices: names what is wrong among 10⁵ of them ----
+
+Ring gear(int n) {
+  Ring ring;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * 3.14159265358979323846 * i / n, r = i % 2 == 0 ? 1 : 0.9;
+    ring.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return ring;
+}
+
+TEST(Large, AValidOutlineIsAccepted) { EXPECT_EQ(all(validate({gear(100000)})), ""); }
+
+TEST(Large, EachFaultIsNamed) {
+  Ring ring = regular(100000, 1);
+  std::swap(ring[500], ring[501]);
+  ring[40000] = ring[70000];
+  EXPECT_EQ(validate({ring}).size(), 2u);
+  const std::string text = all(validate({ring}));
+  EXPECT_NE(text.find("outline.outer: edges 499 and 501 cross"), std::string::npos) << text;
+  EXPECT_NE(text.find("outline.outer[70000]: is the same point"), std::string::npos) << text;
+}
+
+TEST(Large, EverythingCrossingEndsSoon) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Ring ring;
+  for (int i = 0; i < 20000; ++i) ring.push_back({uniform(random), uniform(random)});
+  const auto problems = validate({ring});
+  EXPECT_GE(problems.size(), 50u);
+  EXPECT_LE(problems.size(), 200u);
+}
+
+TEST(Large, ManyHolesAndManyRegions) {
+  Outline sieve{rectangle(100, 100), {}};
+  std::vector<Region> tiles;
+  for (int i = 0; i < 100; ++i)
+    for (int j = 0; j < 100; ++j) {
+      sieve.holes.push_back(rectangle(0.5, 0.5, {i + 0.25, j + 0.25}));
+      tiles.push_back({{rectangle(1, 1, {1.0 * i, 1.0 * j})}, materials::S235});
+    }
+  EXPECT_EQ(all(validate(sieve)), "");
+  EXPECT_EQ(all(validate(tiles)), "");
+  sieve.holes[1234] = rectangle(2, 0.5, {sieve.holes[1234][0].x, sieve.holes[1234][0].y});
+  EXPECT_FALSE(validate(sieve).empty());
+  tiles[777].outline.outer[2].x += 0.5;
+  EXPECT_NE(all(validate(tiles)).find("regions[777]"), std::string::npos);
+}
 
 // ---- several regions ----
 
