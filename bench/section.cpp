@@ -86,7 +86,7 @@ void capacities(benchmark::State& state) {
 BENCHMARK(capacities)
     ->Name("section/capacities")
     ->UseManualTime()
-    ->MinTime(0.1)
+    ->Iterations(101)
     ->Arg(4)
     ->Arg(64)
     ->Arg(1024)
@@ -102,7 +102,7 @@ void capacities_cast_iron(benchmark::State& state) {
 BENCHMARK(capacities_cast_iron)
     ->Name("section/capacities_two_senses")
     ->UseManualTime()
-    ->MinTime(0.1)
+    ->Iterations(101)
     ->Arg(64)
     ->Arg(1024);
 
@@ -118,7 +118,7 @@ void moment_at(benchmark::State& state) {
     benchmark::DoNotOptimize(section.moment_at(all[i % all.size()], n * N, 0));
   });
 }
-BENCHMARK(moment_at)->Name("section/moment_at_N")->UseManualTime()->MinTime(0.1)->Arg(64)->Arg(1024);
+BENCHMARK(moment_at)->Name("section/moment_at_N")->UseManualTime()->Iterations(101)->Arg(64)->Arg(1024);
 
 void elastic(benchmark::State& state) {
   const Ring ring = asymmetric(static_cast<int>(state.range(0)));
@@ -127,7 +127,7 @@ void elastic(benchmark::State& state) {
   std::size_t i = 0;
   beside_shoelace(state, ring, [&] { benchmark::DoNotOptimize(section.elastic(all[i++ % all.size()])); });
 }
-BENCHMARK(elastic)->Name("section/elastic")->UseManualTime()->MinTime(0.1)->Arg(64);
+BENCHMARK(elastic)->Name("section/elastic")->UseManualTime()->Iterations(101)->Arg(64);
 
 void interaction(benchmark::State& state) {
   const Ring ring = asymmetric(64);
@@ -141,7 +141,7 @@ void interaction(benchmark::State& state) {
 BENCHMARK(interaction)
     ->Name("section/interaction_tolerance_1e-")
     ->UseManualTime()
-    ->MinTime(0.1)
+    ->Iterations(101)
     ->Arg(2)
     ->Arg(3)
     ->Arg(5);
@@ -152,6 +152,8 @@ void validation(benchmark::State& state) {
 }
 BENCHMARK(validation)
     ->Name("section/validate")
+    ->UseManualTime()
+    ->Iterations(21)
     ->Arg(4)
     ->Arg(64)
     ->Arg(1024)
@@ -162,7 +164,7 @@ void construction(benchmark::State& state) {
   const Outline outline{asymmetric(static_cast<int>(state.range(0))), {}};
   beside_shoelace(state, outline.outer, [&] { benchmark::DoNotOptimize(Section(outline, steel)); });
 }
-BENCHMARK(construction)->Name("section/construct")->UseManualTime()->MinTime(0.1)->Arg(4)->Arg(64);
+BENCHMARK(construction)->Name("section/construct")->UseManualTime()->Iterations(101)->Arg(4)->Arg(64);
 
 /// A comb with 25000 teeth at a slant: where sorting by one coordinate leaves all pairs to check.
 void validation_comb(benchmark::State& state) {
