@@ -6,7 +6,6 @@
 #include <set>
 
 #include "caps.h"
-#include "convex.h"
 #include "moments.h"
 #include "plane.h"
 #include "split.h"
@@ -17,7 +16,6 @@ namespace ductile {
 namespace {
 
 constexpr int most_pieces = 100'000;
-constexpr int most_fixture_vertices = 8;  // b2_maxPolygonVertices
 
 std::string body_place(const BodyDef& body) { return "body '" + body.name + "'"; }
 
@@ -357,9 +355,6 @@ class Planner {
         piece.mass = strip.mass_per_area() * m.area;
         piece.inertia = strip.mass_per_area() * m.polar() + strip.excess_inertia(m.area);
       }
-      piece.fixtures = convex_parts_.of(outline);
-      for (Convex& fixture : piece.fixtures)
-        for (Point& p : fixture) p = place.turned(p - m.centroid);
       place.place(outline.outer);
       for (Ring& hole : outline.holes) place.place(hole);
       piece.outline = std::move(outline);
@@ -560,7 +555,6 @@ class Planner {
   std::vector<Strip> strips_;     // of plan_.bodies
   std::vector<int> first_piece_;  // of plan_.bodies
   Splitter splitter_;
-  ConvexParts convex_parts_{most_fixture_vertices};
   std::vector<Problem> problems_;
   Caps caps_{plan_.reasons, problems_};
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "ductile/calibrate.h"
 #include "moments.h"
 #include "plane.h"
 
@@ -25,19 +26,15 @@ void make_twins(std::vector<HalfEdge>& edges, int a, int b) {
 // Triangles of an outline: holes are joined to the outer ring by bridges, then ears are cut off.
 class EarClipping {
  public:
-  void run(const Outline& outline) {
-    points_.clear();
-    nodes_.clear();
-    bridges_.clear();
-    triangles_.clear();
+  explicit EarClipping(const Outline& outline) {
     const int outer = add_ring(outline.outer, false);
-    holes_.clear();
+    std::vector<int> holes;
     for (const Ring& hole : outline.holes)
-      if (const int node = add_ring(hole, true); node >= 0) holes_.push_back(rightmost(node));
+      if (const int node = add_ring(hole, true); node >= 0) holes.push_back(rightmost(node));
     if (outer < 0) return;
     // From right to left, so that what a hole is joined to is joined already.
-    std::sort(holes_.begin(), holes_.end(), [&](int a, int b) { return at(a).x > at(b).x; });
-    for (const int hole : holes_) bridge(outer, hole);
+    std::sort(holes.begin(), holes.end(), [&](int a, int b) { return at(a).x > at(b).x; });
+    for (const int hole : holes) bridge(outer, hole);
     clip(outer);
   }
 
@@ -215,7 +212,6 @@ class EarClipping {
 
   std::vector<Point> points_;
   std::vector<Node> nodes_;
-  std::vector<int> holes_;
   std::vector<int> bridges_;
   std::vector<HalfEdge> triangles_;
 };
@@ -224,30 +220,24 @@ class EarClipping {
 // vertices allow), then merged.
 class Parts {
  public:
-  std::vector<Ring> run(const std::vector<Point>& points, std::vector<HalfEdge>& triangles,
-                        int most_vertices) {
-    points_ = points.data();
-    edges_.swap(triangles);
+  Parts(const std::vector<Point>& points, std::vector<HalfEdge> triangles)
+      : points_(points), edges_(std::move(triangles)) {
     Point low = points.front(), high = low;
     for (const Point& p : points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     straight_ = 1e-12 * length(high - low);
-    make_delaunay();
-    merge(most_vertices);
-    return rings();
   }
 
- private:
   // Lawson's flips; their number is bounded in case rounding makes them go in circles.
   void make_delaunay() {
-    suspects_.clear();
+    std::vector<int> suspects;
     for (int e = 0; e < size(); ++e)
-      if (e < edges_[e].twin) suspects_.push_back(e);
-    for (int budget = 20 * size(); !suspects_.empty() && budget > 0; --budget) {
-      const int e = suspects_.back(), f = edges_[e].twin;
-      suspects_.pop_back();
+      if (e < edges_[e].twin) suspects.push_back(e);
+    for (int budget = 20 * size(); !suspects.empty() && budget > 0; --budget) {
+      const int e = suspects.back(), f = edges_[e].twin;
+      suspects.pop_back();
       if (f < 0) continue;
       const int a = from(e), b = from(f), c = from(edges_[e].previous), d = from(edges_[f].previous);
       if (!in_circle(a, b, c, d) || turn(d, b, c) <= 0 || turn(c, a, d) <= 0) continue;
@@ -258,18 +248,18 @@ class Parts {
       link(e, ca, ad);
       link(f, db, bc);
       for (const int outer : {bc, ca, ad, db})
-        if (edges_[outer].twin >= 0) suspects_.push_back(outer);
+        if (edges_[outer].twin >= 0) suspects.push_back(outer);
     }
   }
 
   // Hertel and Mehlhorn: leave out every edge whose absence leaves its ends convex, the longest first, which
   // does away with slivers.
   void merge(int most_vertices) {
-    inner_.clear();
+    std::vector<std::pair<double, int>> inner;  // −length, half-edge
     for (int e = 0; e < size(); ++e)
-      if (e < edges_[e].twin) inner_.emplace_back(-length(points_[to(e)] - points_[from(e)]), e);
-    std::sort(inner_.begin(), inner_.end());
-    for (const auto& [_, e] : inner_) {
+      if (e < edges_[e].twin) inner.emplace_back(-length(points_[to(e)] - points_[from(e)]), e);
+    std::sort(inner.begin(), inner.end());
+    for (const auto& [_, e] : inner) {
       const int f = edges_[e].twin;
       const HalfEdge one = edges_[e], two = edges_[f];
       if (count(e) + count(f) - 2 > most_vertices || !convex(from(one.previous), from(e), to(two.next)) ||
@@ -299,6 +289,7 @@ class Parts {
     return result;
   }
 
+ private:
   int size() const { return static_cast<int>(edges_.size()); }
   int from(int e) const { return edges_[e].from; }
   int to(int e) const { return edges_[edges_[e].next].from; }
@@ -344,11 +335,9 @@ class Parts {
     }
   }
 
-  const Point* points_ = nullptr;
-  double straight_ = 0;
+  const std::vector<Point>& points_;
   std::vector<HalfEdge> edges_;
-  std::vector<int> suspects_;
-  std::vector<std::pair<double, int>> inner_;  // −length, half-edge
+  double straight_ = 0;
 };
 
 // The outline itself, where it is convex and small enough already.
@@ -367,21 +356,22 @@ bool is_convex_part(const Outline& outline, int most_vertices) {
 
 }  // namespace
 
-struct ConvexParts::Workspace {
-  EarClipping ears;
-  Parts parts;
-};
+std::vector<Convex> convex_parts(const Piece& piece) {
+  if (piece.circle > 0) return {};
+  std::vector<Convex> parts = convex_parts(piece.outline, 8);  // b2_maxPolygonVertices
+  for (Convex& part : parts)
+    for (Point& p : part) p = p - piece.center;
+  return parts;
+}
 
-ConvexParts::ConvexParts(int most_vertices)
-    : most_vertices_(most_vertices), workspace_(std::make_unique<Workspace>()) {}
-ConvexParts::~ConvexParts() = default;
-
-std::vector<Ring> ConvexParts::of(const Outline& outline) {
-  if (is_convex_part(outline, most_vertices_)) return std::vector<Ring>(1, outline.outer);
-  EarClipping& ears = workspace_->ears;
-  ears.run(outline);
+std::vector<Ring> convex_parts(const Outline& outline, int most_vertices) {
+  if (is_convex_part(outline, most_vertices)) return std::vector<Ring>(1, outline.outer);
+  EarClipping ears(outline);
   if (ears.triangles().empty()) return {};
-  return workspace_->parts.run(ears.points(), ears.triangles(), most_vertices_);
+  Parts parts(ears.points(), std::move(ears.triangles()));
+  parts.make_delaunay();
+  parts.merge(most_vertices);
+  return parts.rings();
 }
 
 }  // namespace ductile

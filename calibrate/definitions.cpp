@@ -219,8 +219,8 @@ std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j,
 std::vector<b2PolygonShape> shapes(const Piece& piece) {
   const double w = piece.outline.outer.empty() ? 0 : width(hull(piece.outline.outer));
   std::vector<b2PolygonShape> result;
-  for (const Convex& fixture : piece.fixtures) {
-    const Ring ring = without_detail(fixture);
+  for (const Convex& part : convex_parts(piece)) {
+    const Ring ring = without_detail(part);
     if (ring.size() < 3 || width(ring) < b2_linearSlop) continue;
     b2Vec2 vertices[b2_maxPolygonVertices];
     std::transform(ring.begin(), ring.end(), vertices, vector);

@@ -42,7 +42,7 @@ Json json(const Piece& piece) {
               {"vertices", json(piece.outline.outer)}};
   for (const Ring& hole : piece.outline.holes) object["holes"].push_back(json(hole));
   if (piece.circle > 0) object["circle"] = piece.circle;
-  for (const Convex& fixture : piece.fixtures) object["fixtures"].push_back(json(fixture));
+  for (const Convex& part : convex_parts(piece)) object["fixtures"].push_back(json(part));
   return object;
 }
 

@@ -149,17 +149,17 @@ TEST(Split, RefusesCutsThatDoNotCut) {
 }
 
 TEST(ConvexParts, FewForPlainShapes) {
-  EXPECT_EQ(ConvexParts(8).of({rectangle(0, 0, 4, 1), {}}).size(), 1u);
+  EXPECT_EQ(convex_parts({rectangle(0, 0, 4, 1), {}}, 8).size(), 1u);
   const Ring l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-  EXPECT_EQ(ConvexParts(8).of({l, {}}).size(), 2u);
-  EXPECT_EQ(ConvexParts(8).of({rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}}).size(), 4u);
+  EXPECT_EQ(convex_parts({l, {}}, 8).size(), 2u);
+  EXPECT_EQ(convex_parts({rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}}, 8).size(), 4u);
   // Collinear vertices are not corners.
   const Ring dotted{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 1}, {3, 1}, {2, 1}, {1, 1}, {0, 1}, {0, 0.5}};
-  EXPECT_LE(ConvexParts(8).of({dotted, {}}).size(), 2u);
+  EXPECT_LE(convex_parts({dotted, {}}, 8).size(), 2u);
   Ring disc;
   for (int i = 0; i < 64; ++i)
     disc.push_back({std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32)});
-  EXPECT_LE(ConvexParts(8).of({disc, {}}).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
+  EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
 }
 
 // --- random outlines ---
@@ -256,7 +256,7 @@ TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
       const double own = moments(piece).area;
       EXPECT_GT(own, 0);
       sum += own;
-      const std::vector<Ring> parts = ConvexParts(8).of(piece);
+      const std::vector<Ring> parts = convex_parts(piece, 8);
       for (const Ring& part : parts) expect_convex(part);
       EXPECT_NEAR(area(parts), own, 1e-9 * whole.area);
     }

@@ -113,19 +113,15 @@ struct SceneDef {
   std::vector<WheelDef> wheels;
 };
 
-/// A convex fixture polygon of at most 8 vertices, counter-clockwise, relative to its piece's centre.
-using Convex = std::vector<Point>;
-
 /// One rigid part of a split body (or the whole of an unsplit one).
 struct Piece {
-  std::string name;              ///< "beam/0"; "wall" when not split
-  int body = 0;                  ///< index into Plan::bodies
-  double mass = 0;               ///< kg, from the outline, not from the fixtures; 0 unless dynamic
-  double inertia = 0;            ///< kg m², about `center`
-  Point center;                  ///< m, centre of mass, world axes at t = 0
-  Outline outline;               ///< m, world axes at t = 0; empty for a disc
-  double circle = 0;             ///< m, radius of a disc
-  std::vector<Convex> fixtures;  ///< cover the outline exactly; empty for a disc
+  std::string name;    ///< "beam/0"; "wall" when not split
+  int body = 0;        ///< index into Plan::bodies
+  double mass = 0;     ///< kg, from the outline, not from the fixtures; 0 unless dynamic
+  double inertia = 0;  ///< kg m², about `center`
+  Point center;        ///< m, centre of mass, world axes at t = 0
+  Outline outline;     ///< m, world axes at t = 0; empty for a disc
+  double circle = 0;   ///< m, radius of a disc
 };
 
 /// A joint to be: everything a Box2D definition, a limit analysis or a drawing needs of it. Positive N is
@@ -177,6 +173,13 @@ struct Plan {
   std::vector<Wheel> wheels;
   std::vector<LeftOut> left_out;
 };
+
+/// A convex polygon of at most 8 vertices, counter-clockwise, relative to its piece's centre.
+using Convex = std::vector<Point>;
+
+/// Convex polygons, as physics engines want them, that cover the outline of a piece exactly and use no
+/// vertices but its own. None for a disc.
+std::vector<Convex> convex_parts(const Piece& piece);
 
 /// The section of a joint on the side of `piece` (PlannedJoint::a or b), for N–M curves and drawings: x out
 /// of the scene's plane, y to the left of the joint's axis, the anchor at the origin, so that the joint's M
