@@ -357,6 +357,7 @@ bool Solver::solve(SolveReport& report) {
   // velocity's last bits are multiplied by κ.
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
+  coasting_ = false;
   double norm = evaluate();
   if (norm > target() && flows_) {
     // Start from the lower of the last solution and v*.

@@ -107,7 +107,7 @@ class Solver {
   static constexpr double rigid_ratio = 1e9;
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   static constexpr double tolerance = 1e-8;
-  static constexpr int round_bound = 100;
+  int round_bound = 100;
   static constexpr int newton_rounds = 5;
 
   /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
