@@ -312,6 +312,7 @@ ElasticPlasticJoint* Structure::create_joint(const ElasticPlasticJointDef& def) 
 }
 
 ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def) {
+  if (weld == nullptr) throw std::invalid_argument("structure: no weld to adopt");
   ElasticPlasticJointDef own = def;
   own.bodyA = weld->GetBodyA();
   own.bodyB = weld->GetBodyB();

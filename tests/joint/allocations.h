@@ -1,0 +1,6 @@
+// Every operator new of the test program is counted.
+#pragma once
+
+namespace ductile {
+long allocations();
+}
