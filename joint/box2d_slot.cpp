@@ -64,6 +64,7 @@ ElasticPlasticJoint::~ElasticPlasticJoint() {
 // A joint whose structure is gone goes on as the weld that it was.
 void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
+  if (data.step.velocityIterations <= 0) return member_->structure->sit_out();
   member_->structure->enlist(*member_);
 }
 
@@ -111,7 +112,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   for (const Member* m : members) {
     for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
       if (!number.try_emplace(body, 0).second) continue;
-      (body->GetType() == b2_dynamicBody ? bodies : others).push_back(body);
+      (is_free(body) ? bodies : others).push_back(body);
     }
   }
   const std::size_t free_bodies = bodies.size();
@@ -119,8 +120,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   std::vector<std::pair<int, int>> edges;
   for (const Member* m : members) {
     b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
-    if (a->GetType() == b2_dynamicBody && b->GetType() == b2_dynamicBody)
-      edges.emplace_back(number[a], number[b]);
+    if (is_free(a) && is_free(b)) edges.emplace_back(number[a], number[b]);
   }
   const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
   std::vector<b2Body*> ordered;
@@ -144,9 +144,13 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     read_mass(i);
     Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
     if (const auto found = known.find(body); found != known.end()) {
-      const b2Position left{{static_cast<float>(found->second.x), static_cast<float>(found->second.y)},
-                            static_cast<float>(found->second.angle)};
-      if (same(left, mirror.left)) pose = found->second;
+      Pose at = found->second.pose;
+      const b2Vec2 moved = mirror.local_center - found->second.local_center;  // fixtures came or went
+      at.x += std::cos(at.angle) * moved.x - std::sin(at.angle) * moved.y;
+      at.y += std::sin(at.angle) * moved.x + std::cos(at.angle) * moved.y;
+      const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)},
+                            static_cast<float>(at.angle)};
+      if (same(left, mirror.left)) pose = at;
     }
     Solver::place(solver.bodies[i], {pose.x - origin_x, pose.y - origin_y, pose.angle});
   }
@@ -166,8 +170,14 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   solver.form(free_bodies);
   solver.locate();
   for (std::size_t i = 0; i < members.size(); ++i) {
-    if (!std::exchange(members[i]->fresh, false)) continue;
-    solver.joints[i].neutral = solver.joints[i].gap;
+    SolverJoint& j = solver.joints[i];
+    if (std::exchange(members[i]->fresh, false)) {
+      j.neutral = j.gap;
+      continue;
+    }
+    // The gap is still what the joint last saw: bodies that were moved meanwhile are brought back to it.
+    for (unsigned row = 0; row < 3; ++row) parted_ |= std::abs(j.gap[row] - members[i]->own.gap[row]) > 1e-9;
+    j.gap = members[i]->own.gap;
   }
 }
 
@@ -188,7 +198,8 @@ bool Component::still_fits() {
     const Mirror& m = mirrors[i];
     if (m.body->GetType() != m.type) return false;
     if (m.type != b2_dynamicBody) continue;
-    masses &= m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia;
+    masses &= m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
+              m.body->GetLocalCenter() == m.local_center;
   }
   return masses;
 }
@@ -225,7 +236,7 @@ void Component::first_velocity(const b2SolverData& data) {
     ++report->resting;
     return;
   }
-  bool moved = false;
+  bool moved = std::exchange(parted_, false);
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     SolverBody& b = solver.bodies[i];
@@ -249,7 +260,7 @@ void Component::first_velocity(const b2SolverData& data) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
     // it.
     solver.begin(data.step.dt);
-    solver.project(goal, true);
+    report->bounds_hit += solver.project(goal, true) ? 0 : 1;
     write_poses(data);
     ++report->projections;
   }
@@ -257,7 +268,7 @@ void Component::first_velocity(const b2SolverData& data) {
     const b2Velocity& v = mirrors[i].given;
     SolverBody& b = solver.bodies[i];
     const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.v.x, v.v.y, v.w);
-    (mirrors[i].type == b2_dynamicBody ? b.v_free : b.v) = own;
+    (i < solver.free_bodies() ? b.v_free : b.v) = own;
   }
   if (solver.keeps_ledger) {
     // b2Body still has the velocities from before gravity.
@@ -331,7 +342,7 @@ void Component::position(const b2SolverData& data) {
     solver.sweep_positions(goal);
   } else {
     for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
-    solver.project(goal, false);
+    report->bounds_hit += solver.project(goal, false) ? 0 : 1;
     ++report->projections;
   }
   at_rest_ = false;
@@ -355,14 +366,37 @@ void Component::write_poses(const b2SolverData& data) {
 // After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
 // Box2D.
 void Component::advance() {
+  slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
+  // Stock joints that come before ours in the list see velocities without our impulses, and take back what
+  // they do about it in the iterations that follow: they need those iterations.
+  bool alone = true;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const SolverBody& b = solver.bodies[i];
+    const Mirror& m = mirrors[i];
+    const Vec3 by_others = b.v_free - into_own_frame(b.turn, m.taken.v.x, m.taken.v.y, m.taken.w);
+    alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
+             slack_;
+  }
+  // Box2D moves a body by no more than 2 m and π/2 a step, each for itself. What it makes of pieces that are
+  // faster is not what their joints have seen: they are moved there as by any other push.
+  bool limited = false;
+  const double h = solver.step();
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Vec3& v = solver.bodies[i].v;
+    limited |= h * std::hypot(v.x, v.y) > b2_maxTranslation || h * std::abs(v.w) > b2_maxRotation;
+  }
+  if (limited) {
+    solver.stay();
+    at_rest_ = false;
+    return;
+  }
   solver.advance();
   bool kinematic = false;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody) mirrors[i].left = box2d_pose(i);
-    kinematic |= mirrors[i].type == b2_kinematicBody;
+    kinematic |= mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
-  at_rest_ = kind == SolverKind::direct && !kinematic && solver.at_rest();
-  slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
+  at_rest_ = kind == SolverKind::direct && alone && !kinematic && solver.at_rest();
 }
 
 double Component::close_ledger() {

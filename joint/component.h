@@ -23,7 +23,6 @@ struct Member {
   ElasticPlasticJoint* joint = nullptr;
   Structure::Impl* structure = nullptr;
   std::uint32_t id = 0;
-  std::uint64_t batch = 0;         // the island that it was last initialised in
   Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
   std::size_t index = 0;           // in component->solver.joints
   SolverJoint own;                 // configuration and state while it is in no component
@@ -40,7 +39,15 @@ struct Member {
 };
 
 /// Poses in double survive the re-forming of components here.
-using KnownPoses = std::unordered_map<const b2Body*, Pose>;
+struct KnownPose {
+  Pose pose;  // of the centre of mass, in the world
+  b2Vec2 local_center;
+};
+using KnownPoses = std::unordered_map<const b2Body*, KnownPose>;
+
+/// Whether its velocity is the solver's to find; all others hold or move as they are told, a dynamic body
+/// without mass among them.
+inline bool is_free(const b2Body* body) { return body->GetType() == b2_dynamicBody && body->GetMass() > 0; }
 
 struct Component {
   /// What Box2D knows of a body of the solver.
@@ -92,6 +99,7 @@ struct Component {
   void write_poses(const b2SolverData& data);
 
   std::vector<Pose> goal;
+  bool parted_ = false;   // bodies were moved apart while their joint was in no island
   bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
   float slack_ = 0;       // m/s that velocities may differ by in it
 };

@@ -60,7 +60,7 @@ void Solver::form(std::size_t free_bodies) {
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
   }
   for (SolverJoint& j : joints) {
-    if (is_free(j.a) && is_free(j.b)) j.block = ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b));
+    j.block = is_free(j.a) && is_free(j.b) ? ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b)) : -1;
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
     const auto inverse_mass = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_mass : 0; };
     const auto inverse_inertia = [&](int body) {
@@ -155,6 +155,7 @@ void Solver::predict() {
     SolverBody& b = bodies[i];
     const Vec3 v = b.v;
     if (!flows_) b.v += b.v - b.v_last;
+    if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
     b.v_last = v;
   }
 }
@@ -246,9 +247,31 @@ void Solver::factor_tangents() {
     j.factored = static_cast<std::uint8_t>(flowing(j.piece));
   }
   factor();
+  holding_ = false;
   newton_ = !short_step_;
   changed_ = 0;
   rate_ = 1e-3;
+}
+
+// H for project(): whatever holds is as stiff as κ allows, so that a push moves the bodies as one that does
+// not give. With their own stiffness in it, rows took up a share of every push, and a block on a beam was
+// catapulted.
+void Solver::factor_holding() {
+  bool at_hand = factored_ && (holding_ || changed_ == 0);
+  for (SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const bool holds = j.law.G[i] > 0 && !flows(j.piece, i);
+      const double stiff = !holds ? 0 : is_rigid(j, i) ? j.law.G[i] : rigid_ratio * j.m_eff[i];
+      at_hand &= j.slope[i] == stiff;
+      j.slope[i] = stiff;
+    }
+    j.slope_nq = j.slope_nm = j.slope_qm = 0;
+    at_hand &= j.piece != on_surface;
+  }
+  if (!at_hand) {
+    factor();
+    holding_ = true;
+  }
 }
 
 // H = M + Jᵀ diag(slope) J
@@ -394,7 +417,8 @@ bool Solver::solve(SolveReport& report) {
       smoothed = true;
       searched = conjugate = false;
     }
-    if (!factored_ || searched || curved_ || (stale && (expected - 1) * round_work > factor_work)) {
+    if (!factored_ || holding_ || searched || curved_ ||
+        (stale && (expected - 1) * round_work > factor_work)) {
       factor_tangents();
       ++report.factorisations;
       conjugate = false;
@@ -464,6 +488,15 @@ void Solver::advance() {
     if (keeps_ledger) account(j, gaps_[k], booked);
   }
   coasting_ = false;
+}
+
+void Solver::stay() {
+  stayed_ = true;
+  if (!keeps_ledger) return;
+  for (const SolverJoint& j : joints) {
+    const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
+    for (unsigned i = 0; i < 3; ++i) ledger.numerical += j.impulse[i] * (j.x[i] - j.law.bias[i] + v0[i]) / 2;
+  }
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
@@ -554,7 +587,7 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
     Rows s;
     for (unsigned i = 0; i < 3; ++i) {
       const double strain = j.gap[i] - gaps_[k][i];
-      s[i] = tangent(j.law, j.piece, i) * strain;
+      s[i] = j.slope[i] * strain;
       sum += s[i] * strain / 2;
     }
     scatter(j, s);
@@ -562,9 +595,23 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
   return sum;
 }
 
+// d = −H⁻¹g of evaluate_poses(); |d|²_M.
+double Solver::correction(std::span<Vec3> d) {
+  for (std::size_t i = 0; i < free_; ++i) {
+    if (bodies[i].inverse_inertia == 0) g_[i].w = 0;
+    d[i] = -1.0 * g_[i];
+  }
+  ldlt_.solve(d.first(free_));
+  double size = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    const SolverBody& b = bodies[i];
+    size += b.mass * (d[i].x * d[i].x + d[i].y * d[i].y) + b.inertia * d[i].w * d[i].w;
+  }
+  return size;
+}
+
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
-  short_step_ = false;
-  if (changed_ > 0 || !factored_) factor_tangents();
+  factor_holding();
   for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
   double reach = 1;  // farthest coordinate
@@ -573,56 +620,65 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
   }
   const double given = evaluate_poses(goal);
-  double sum = given;
   if (try_goal) {
     // Where all of it was moved alike, the goal itself is the better start.
     for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
-    sum = evaluate_poses(goal);
-    if (!(sum <= given)) {
+    if (!(evaluate_poses(goal) <= given)) {
       for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
-      sum = evaluate_poses(goal);
+      evaluate_poses(goal);
     }
   }
-  // Gauss–Newton with step halving. What rounding of the poses leaves of a rigid row's gap is multiplied by
-  // κ.
-  const double rounding = rigid_ratio * std::numeric_limits<double>::epsilon() * reach;
-  const double target = 1e-12 * given + rounding * rounding * mass_;
-  double norm = norm_of_gradient();
-  for (int round = 0; round < 12 && norm > target; ++round) {
-    std::copy_n(g_.begin(), free_, d_.begin());
-    ldlt_.solve({d_.data(), free_});
+  // Gauss–Newton. A step along the tangent misses the gaps by its square, which κ multiplies: the sum need
+  // not fall. What must fall is the step that comes next. A factor of other poses is good as long as it
+  // shortens that; where it does not, what its J and the present one differ by comes out multiplied by κ.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * reach;
+  double size = correction(d_);
+  const double enough = 1e-8 * size + rounding * rounding * mass_;
+  bool kept = true;
+  for (int round = 0; kept && size > enough; ++round) {
+    kept = round < 20;
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-    const auto step = [&](double t) {
+    for (double t = 1;; t /= 2) {
       for (std::size_t i = 0; i < free_; ++i) {
         place(bodies[i], poses_[i]);
-        displace(bodies[i], -t * d_[i]);
+        displace(bodies[i], t * d_[i]);
       }
-      return evaluate_poses(goal);
-    };
-    const double before = sum;
-    double t = 1;
-    sum = step(t);
-    while (!(sum < before) && t > 0.01) sum = step(t /= 4);
-    if (!(sum < before)) {
-      sum = step(0);
-      norm = norm_of_gradient();
-      break;
+      evaluate_poses(goal);
+      double next = correction(z_);
+      if (next > 0.01 * size) {
+        factor();
+        next = correction(z_);
+      }
+      if (next <= (1 - t / 2) * size || t < 0.02) {
+        kept &= t >= 0.02;
+        size = next;
+        break;
+      }
     }
-    if (t < 1) factor_tangents();
-    norm = norm_of_gradient();
+    std::swap(d_, z_);
   }
+  // The pull toward the goal has left strains of 1/κ of it: let go.
+  for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
+  evaluate_poses(poses_);
+  correction(d_);
+  for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], d_[i]);
+  locate();
   // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no
   // energy.
-  const bool kept = norm <= 1e4 * target;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
-      if (kept && !free && !flows(j.piece, i)) continue;
+      if (!free && (flows(j.piece, i) ? stayed_ : kept)) continue;
       j.neutral[i] += j.gap[i] - gaps_[k][i];
       if (!free) j.plastic[i] += j.gap[i] - gaps_[k][i];
     }
+    if (!stayed_ || j.piece == 0) continue;
+    const Rows booked = j.dissipated;
+    flow(j);
+    for (unsigned i = 0; i < 3; ++i) ledger.numerical -= j.dissipated[i] - booked[i];
   }
+  stayed_ = false;
   return kept;
 }
 

@@ -127,6 +127,8 @@ class Solver {
   bool solve(SolveReport& report);
   /// Moves poses by h v, books plastic flow.
   void advance();
+  /// Instead of it, where the bodies will not go by h v: all stays until project() tells where they went.
+  void stay();
   /// Moves the bodies toward poses that something else pushed them to, in such a way that no joint is
   /// strained by it: least ½|x − goal|²_M with the gaps of all rows that hold kept. With `try_goal` the goal
   /// itself is tried first: right where all of it may have been moved alike. False where gaps could not be
@@ -169,11 +171,13 @@ class Solver {
   void locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint) const;
   void factor_tangents();
+  void factor_holding();
   void factor();
   int interior_point();
   static Rows relative(const SolverJoint& joint, const Vec3& a, const Vec3& b);
   double evaluate();
   double evaluate_poses(std::span<const Pose> goal);
+  double correction(std::span<Vec3> d);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
   bool is_rigid(const SolverJoint& joint, unsigned row) const;
@@ -190,11 +194,13 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   bool factored_ = false;
+  bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1;          // contraction of the residual by the last round
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
+  bool stayed_ = false;  // what flowed in this step is not booked yet
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M

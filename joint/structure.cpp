@@ -94,12 +94,13 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   }
   for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
     const Pose& p = component.solver.bodies[i].pose;
-    poses[component.mirrors[i].body] = {p.x + component.origin_x, p.y + component.origin_y, p.angle};
+    poses[component.mirrors[i].body] = {{p.x + component.origin_x, p.y + component.origin_y, p.angle},
+                                        component.mirrors[i].local_center};
   }
 }
 
 void Structure::Impl::enlist(Member& member) {
-  if (!enlisting_ || member.batch == batch_) {
+  if (!enlisting_) {
     enlisting_ = true;
     incomplete_ = false;
     ++batch_;
@@ -108,7 +109,6 @@ void Structure::Impl::enlist(Member& member) {
     velocity_calls_ = 0;
     if (std::exchange(stepped_, true) == false) report = {};
   }
-  member.batch = batch_;
   enlisted_.push_back(&member);
   Component* component = member.component;
   if (component == nullptr) {
@@ -121,6 +121,13 @@ void Structure::Impl::enlist(Member& member) {
     active_.push_back(component);
   }
   ++component->enlisted;
+}
+
+// An island that is given no velocity iterations moves without us; what that parts is brought together when
+// next seen.
+void Structure::Impl::sit_out() {
+  enlisted_.clear();
+  active_.clear();
 }
 
 void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
@@ -170,7 +177,7 @@ void Structure::Impl::form() {
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const b2Body* body : {all[i]->joint->GetBodyA(), all[i]->joint->GetBodyB()}) {
-      if (body->GetType() != b2_dynamicBody) continue;
+      if (!is_free(body)) continue;
       const std::size_t other = find(first_joint.try_emplace(body, i).first->second), mine = find(i);
       root[std::max(other, mine)] = std::min(other, mine);
     }

@@ -19,6 +19,7 @@ struct Structure::Impl {
 
   // The phases of an island in b2World::Step, called by its joints.
   void enlist(Member& member);
+  void sit_out();
   void velocity(const Member& caller, const b2SolverData& data);
   void position(const Member& caller, const b2SolverData& data);
 

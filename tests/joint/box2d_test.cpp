@@ -267,11 +267,12 @@ TEST(Islands, OrderOfCreationDoesNotMatter) {
     b2Body* lower = add_box(world, {.x = 5.5, .y = 1, .mass = 500, .group = 0});
     add_box(world, {.x = 5.5, .y = 2, .height = 0.99, .mass = 500, .group = 0});  // just fits in between
     for (int i = 0; i < 300; ++i) world.Step(dt, 8, 3);
+    // The polygons' skins make it a tight fit: what the upper beam is pushed up with, the lower one carries.
     double moment = 0;
     for (ElasticPlasticJoint* j : structure.joints()) {
-      if (j->GetBodyA() == wall && j->GetAnchorA().y < 1) moment = j->force(rotation);
+      if (j->GetBodyA() == wall) moment += j->force(rotation);
     }
-    const double exact = -6 * 10000 * 3.0 - 1000 * 10 * lower->GetPosition().x;
+    const double exact = -2 * 6 * 10000 * 3.0 - 1000 * 10 * lower->GetPosition().x;
     EXPECT_NEAR(moment, exact, 1e-3 * -exact) << backwards;
   }
 }
@@ -371,8 +372,12 @@ TEST(Bodies, MayChangeTypeAndMass) {
   expect_root("CreateFixture");
   beam.pieces[5]->DestroyFixture(fixture);
   expect_root("DestroyFixture");
+  // Something else holds its rotation now: the root carries the weight only.
+  const float angle = beam.pieces[4]->GetAngle();
   beam.pieces[4]->SetFixedRotation(true);
-  expect_root("SetFixedRotation");
+  beam.run(1);
+  EXPECT_NEAR(beam.joints[0]->force(shear), -468000, 1);
+  EXPECT_EQ(beam.pieces[4]->GetAngle(), angle);
   beam.pieces[4]->SetFixedRotation(false);
   expect_root("SetFixedRotation off");
   b2MassData heavy{50000, {0.3f, 0.1f}, 50000};
@@ -400,10 +405,11 @@ TEST(Bodies, MayChangeTypeAndMass) {
 // A rigid-plastic root at 0.99 of its moment: none of these changes may be a blow that makes it flow.
 TEST(Bodies, ChangingThemIsNoBlow) {
   const double moment = 7800 * 10 * 6.0 * 6.0 / 2;
-  Beam beam({.pieces = 6, .length = 6, .moment_cap = moment / 0.98, .x = 100});
+  Beam beam({.pieces = 6, .length = 6, .moment_cap = moment / 0.9995, .x = 100});
   beam.run(1);
   b2CircleShape dot;
   dot.m_radius = 0.1f;
+  dot.m_p = {0.3f, 0.4f};
   for (int i = 0; i < 20; ++i) {
     b2Body* piece = beam.pieces[static_cast<std::size_t>(i % 6)];
     b2Fixture* fixture = piece->CreateFixture(&dot, 1);
@@ -464,8 +470,9 @@ TEST(Kinematic, CarriesWhatHangsOnIt) {
   // Started at rest: to bring it to speed within one step takes m v/h, which rigid rows give.
   lift->SetLinearVelocity({0.5f, 3});
   world.Step(dt, 8, 3);
-  EXPECT_NEAR(roots[1]->force(shear), 1000 * (3 * 60 + 10), 1);
-  EXPECT_NEAR(roots[1]->force(axial), 1000 * 0.5 * 60, 1);
+  EXPECT_NEAR(roots[1]->force(shear), -1000 * (3 * 60 + 10),
+              1);  // pushes the tip up, to the left of the axis
+  EXPECT_NEAR(roots[1]->force(axial), -1000 * 0.5 * 60, 1);
   for (int i = 1; i < 60; ++i) world.Step(dt, 8, 3);
   EXPECT_NEAR(roots[0]->force(rotation), 5000, 0.1);
   EXPECT_NEAR(roots[1]->force(rotation), -5000, 0.1);
@@ -559,13 +566,15 @@ TEST(Steps, OfNoTimeChangeNothing) {
   }
   EXPECT_EQ(beam.joints[0]->force(rotation), force);
   EXPECT_EQ(beam.pieces.back()->GetPosition(), tip);
-  beam.run(1);
+  beam.run(12);
   expect_statics(beam);
 }
 
 TEST(Steps, OfChangingLength) {
-  Beam beam({.pieces = 10, .youngs_modulus = 210e9, .moment_cap = 7800 * 10 * 200 * 1.3});
-  beam.run(2);
+  Beam beam({.pieces = 10, .youngs_modulus = 210e9});
+  beam.run(12);
+  for (ElasticPlasticJoint* j : beam.joints)
+    j->set_caps(rotation, 1.001 * 7800 * 10 * 200, 1.001 * 7800 * 10 * 200);
   const float lengths[] = {1.0f / 15, 1.0f / 60, 1.0f / 1000, 1.0f / 30, 1.0f / 240};
   for (int i = 0; i < 600; ++i) {
     const float h = lengths[i % 5];
@@ -580,8 +589,8 @@ TEST(Steps, OfChangingLength) {
 
 // ---- Continuous collision
 
-// A bullet of 100 kg strikes the tip of a rigid-plastic cantilever at 60 m/s. With and without continuous
-// collision, and in sub-steps, the root turns as far as it does at 4800 Hz.
+// A bullet of 1000 kg strikes the tip of a rigid-plastic cantilever at 60 m/s. With and without continuous
+// collision, and in sub-steps, the root turns about as far as in fine steps. Returns that rotation.
 double struck_rotation(double h, bool continuous, bool sub_stepping) {
   Beam beam({.pieces = 5, .length = 5, .moment_cap = 4e5, .gravity = 0});
   beam.world.SetContinuousPhysics(continuous);
@@ -598,20 +607,340 @@ double struck_rotation(double h, bool continuous, bool sub_stepping) {
   }
   EXPECT_LE(highest, energy * (1 + 1e-5));
   EXPECT_EQ(beam.bounds_hit, 0);
-  double sum = 0;
-  for (const ElasticPlasticJoint* j : beam.joints) sum += j->dissipated();
-  EXPECT_LE(sum, energy);
+  double dissipated = 0;
+  for (const ElasticPlasticJoint* j : beam.joints) dissipated += j->dissipated();
+  EXPECT_LE(dissipated, energy);
   return beam.joints[0]->plastic(rotation);
 }
 
 TEST(ContinuousCollision, BendsAsMuchAsFineStepsDo) {
   const double fine = struck_rotation(1.0 / 4800, true, false);
-  std::printf("fine %.4f\n", fine);
-  for (const bool continuous : {true, false}) {
-    for (const bool sub : {true, false}) {
-      for (double f : {60., 240., 1000.})
-        std::printf("%d %d %g: %.4f\n", continuous, sub, f, struck_rotation(1.0 / f, continuous, sub));
+  EXPECT_LT(fine, -0.1);
+  for (const double frequency : {60.0, 240.0, 1000.0}) {
+    for (const bool continuous : {true, false}) {
+      for (const bool sub_stepping : {true, false}) {
+        const double coarse = struck_rotation(1 / frequency, continuous, sub_stepping);
+        EXPECT_NEAR(coarse / fine, 1, 0.08) << frequency << continuous << sub_stepping;
+      }
     }
+  }
+}
+
+// ---- Moved by hand
+
+TEST(SetTransform, OfThePiecesTogetherMovesTheStructureUnstrained) {
+  for (const double turn : {0.0, 1.0, 3.0}) {
+    b2World world({0, 0});
+    Structure structure(world);
+    std::vector<b2Body*> pieces;
+    for (int i = 0; i < 10; ++i) {
+      pieces.push_back(add_box(world, {.x = 1.0 * i}));
+      if (i == 0) continue;
+      ElasticPlasticJointDef def;
+      def.Initialize(pieces[pieces.size() - 2], pieces.back(), vec(i - 0.5, 0), {1, 0});
+      def.rows[rotation] = {.cap = 1, .cap_reverse = 1};  // the least blow would tell
+      def.rows[axial] = def.rows[shear] = {.cap = 10, .cap_reverse = 10};
+      structure.create_joint(def);
+    }
+    for (int i = 0; i < 10; ++i) world.Step(dt, 8, 3);
+    const b2Transform to(vec(300, -200), b2Rot(static_cast<float>(turn)));
+    for (b2Body* b : pieces) {
+      b->SetTransform(b2Mul(to, b->GetPosition()), b->GetAngle() + static_cast<float>(turn));
+    }
+    for (int i = 0; i < 10; ++i) world.Step(dt, 8, 3);
+    EXPECT_LT(kinetic_energy(pieces), 1e-6);
+    for (const ElasticPlasticJoint* j : structure.joints()) {
+      EXPECT_EQ(j->accumulated_rotation() + j->elongation() + j->compression() + j->slip(), 0) << turn;
+    }
+    for (int i = 0; i < 10; ++i) {
+      const b2Vec2 off = pieces[static_cast<std::size_t>(i)]->GetPosition() - b2Mul(to, vec(i, 0));
+      EXPECT_LT(off.Length(), 1e-3) << turn;
+    }
+    EXPECT_EQ(structure.report().bounds_hit, 0);
+  }
+}
+
+TEST(SetTransform, OfOnePieceIsSharedByAll) {
+  for (const bool held : {true, false}) {
+    Beam beam({.youngs_modulus = 210e9, .gravity = 0});
+    if (!held) beam.world.DestroyJoint(beam.joints[0]);
+    beam.run(0.2);
+    b2Body* tip = beam.pieces.back();
+    tip->SetTransform(tip->GetPosition() + b2Vec2{0.5f, 1}, tip->GetAngle() + 0.5f);
+    double energy = 0;
+    for (int i = 0; i < 60; ++i) {
+      beam.run(1.0 / 60);
+      double now = kinetic_energy(beam.pieces);
+      for (ElasticPlasticJoint* j : beam.structure.joints()) now += j->elastic_energy();
+      energy = std::max(energy, now);
+    }
+    EXPECT_LT(energy, 1e-3) << held;
+    EXPECT_EQ(beam.bounds_hit, 0);
+    const b2Vec2 neighbour = tip->GetLocalPoint(beam.pieces[8]->GetPosition());
+    EXPECT_NEAR(neighbour.x, -2, 1e-4);
+    EXPECT_NEAR(neighbour.y, 0, 1e-4);
+    EXPECT_EQ(tip->GetPosition().y > 0.01, !held);  // the wall does not move
+  }
+}
+
+TEST(SetTransform, OfTheWallTakesTheStructureAlong) {
+  Beam beam({.pieces = 5});
+  beam.run(0.5);
+  beam.wall->SetTransform({3, 4}, 0.3f);
+  beam.run(0.5);
+  for (const b2Body* b : beam.pieces) EXPECT_NEAR(b->GetAngle(), 0.3, 1e-4);
+  const b2Vec2 tip = beam.wall->GetLocalPoint(beam.pieces.back()->GetPosition());
+  EXPECT_NEAR(tip.x, 18, 1e-3);
+  EXPECT_NEAR(tip.y, 0, 1e-3);
+  EXPECT_NEAR(beam.joints[0]->force(rotation), -156000 * 10 * 10 * std::cos(0.3), 1e-3 * 1.56e7);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+
+TEST(ShiftOrigin, ChangesNoForce) {
+  Beam beam({.pieces = 10, .youngs_modulus = 210e9, .x = 1e5, .y = 2e4});
+  beam.run(20);
+  const double force = beam.joints[0]->force(rotation);
+  const b2Vec2 tip = beam.pieces.back()->GetPosition();
+  beam.world.ShiftOrigin({1e5f, 2e4f});
+  beam.def.x = beam.def.y = 0;
+  EXPECT_EQ(beam.pieces.back()->GetPosition(), tip - b2Vec2(1e5f, 2e4f));
+  for (int i = 0; i < 30; ++i) {
+    beam.run(1.0 / 60);
+    EXPECT_NEAR(beam.joints[0]->force(rotation), force, 1e-6 * -force);
+  }
+  for (const b2Body* b : beam.pieces) EXPECT_LT(std::abs(b->GetPosition().y), 0.2);
+  // Between a joint's end and the forming anew that it brings.
+  beam.world.DestroyJoint(beam.joints.back());
+  beam.world.ShiftOrigin({-50, 10});
+  beam.run(0.5);
+  double moment = 0;
+  for (std::size_t i = 0; i < 9; ++i) moment -= 15600 * 10 * (double{beam.pieces[i]->GetPosition().x} - 50);
+  EXPECT_NEAR(beam.joints[0]->force(rotation), moment, 0.1 * -moment);  // it sways up
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+
+// ---- The user's own joints on the pieces
+
+// Stock joints and the structure take turns: what a stock pin at the root must carry comes in by (1 − 1/n)
+// per iteration. A pin as rows is exact.
+TEST(StockJoints, ConvergeWithTheIterations) {
+  for (const int n : {1, 2, 5}) {
+    Beam beam({.pieces = n});
+    b2RevoluteJointDef pin;
+    pin.Initialize(beam.wall, beam.pieces[0], beam.point(0));
+    beam.world.DestroyJoint(beam.joints[0]);
+    auto* hinge = beam.world.CreateJoint(&pin);
+    b2DistanceJointDef rope;  // at the tip, straight up
+    rope.Initialize(beam.wall, beam.pieces.back(), vec(20, 30), vec(20, 0));
+    auto* tie = beam.world.CreateJoint(&rope);
+    for (int i = 0; i < 300; ++i) beam.world.Step(dt, 40 * n, 10);
+    const double half = beam.mass() * 10 / 2;
+    EXPECT_NEAR(hinge->GetReactionForce(60).y, half, 0.02 * half) << n;
+    EXPECT_NEAR(tie->GetReactionForce(60).y, half, 0.02 * half) << n;
+    EXPECT_NEAR(beam.pieces.back()->GetAngle(), 0, 0.01);
+  }
+}
+
+TEST(StockJoints, AMouseDragsAStructure) {
+  Beam beam({.pieces = 5, .moment_cap = 1e8});
+  b2MouseJointDef mouse;
+  mouse.bodyA = beam.wall;
+  mouse.bodyB = beam.pieces.back();
+  mouse.target = beam.pieces.back()->GetPosition();
+  mouse.maxForce = 3e7f;
+  b2LinearStiffness(mouse.stiffness, mouse.damping, 5, 0.7f, mouse.bodyA, mouse.bodyB);
+  auto* drag = static_cast<b2MouseJoint*>(beam.world.CreateJoint(&mouse));
+  for (int i = 0; i < 300; ++i) {
+    drag->SetTarget(vec(18, 0.05 * i));
+    beam.run(1.0 / 60);
+    ASSERT_TRUE(finite(beam.pieces));
+  }
+  EXPECT_GT(beam.joints[0]->accumulated_rotation(), 0.1);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+
+// ---- Callbacks that destroy
+
+TEST(Events, HandlersMayDestroyAnything) {
+  for (const int mischief : {0, 1, 2, 3, 4, 5}) {
+    Beam beam({.pieces = 10, .moment_cap = 1e5});
+    for (ElasticPlasticJoint* j : beam.joints) j->set_limits(0.05, unlimited, unlimited, unlimited);
+    int events = 0;
+    beam.structure.on_event([&](const JointEvent& e) {
+      ++events;
+      EXPECT_NE(e.joint, nullptr);
+      EXPECT_GE(e.energy, 0);
+      switch (mischief) {
+        case 0:
+          beam.world.DestroyJoint(e.joint);
+          break;
+        case 1:
+          beam.world.DestroyBody(e.joint->GetBodyB());
+          break;
+        case 2:
+          while (!beam.structure.joints().empty()) beam.world.DestroyJoint(beam.structure.joints().back());
+          break;
+        case 3:
+          while (beam.world.GetBodyCount() > 0) beam.world.DestroyBody(beam.world.GetBodyList());
+          break;
+        case 4: {
+          ElasticPlasticJointDef def;
+          def.Initialize(e.joint->GetBodyA(), e.joint->GetBodyB(), e.joint->GetAnchorA());
+          if (beam.structure.joints().size() < 100) beam.structure.create_joint(def);
+          break;
+        }
+        default:
+          e.joint->set_caps(rotation, unlimited, unlimited);
+          break;
+      }
+    });
+    beam.run(2);
+    EXPECT_GT(events, 0) << mischief;
+  }
+}
+
+TEST(Events, AreToldOnceAndInOrder) {
+  Beam beam({.pieces = 5, .moment_cap = 7800 * 10 * 200 / 1.5});
+  beam.joints[0]->set_limits(0.3, unlimited, unlimited, unlimited);
+  std::vector<JointEvent> events;
+  beam.structure.on_event([&](const JointEvent& e) {
+    events.push_back(e);
+    EXPECT_EQ(e.joint, beam.joints[0]);
+  });
+  beam.run(3);
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events.front().kind, JointEvent::yield);
+  EXPECT_EQ(events.back().kind, JointEvent::broke);
+  EXPECT_NEAR(events.back().energy, 7800 * 10 * 200 / 1.5 * 0.3, 0.05 * 7800 * 10 * 200 / 1.5);
+}
+
+// ---- Sleep
+
+TEST(Sleep, ComesAndGoesWithoutATrace) {
+  Beam beam({.pieces = 5, .moment_cap = 7800 * 10 * 200 * 1.5});
+  beam.world.SetAllowSleeping(true);
+  beam.run(3);
+  ASSERT_FALSE(beam.pieces[2]->IsAwake());
+  expect_statics(beam, 1e-6);  // forces stay readable
+  beam.joints[3]->set_caps(rotation, 1e12, 1e12);
+  EXPECT_TRUE(beam.pieces[2]->IsAwake() && beam.pieces[3]->IsAwake());
+  beam.run(3);
+  ASSERT_FALSE(beam.pieces[2]->IsAwake());
+  // Capacity lost while asleep is noticed.
+  beam.joints[0]->set_caps(rotation, 7800 * 10 * 200 * 0.9, 7800 * 10 * 200 * 0.9);
+  beam.run(1);
+  EXPECT_GT(beam.joints[0]->accumulated_rotation(), 0.01);
+  beam.run(10);
+  beam.joints[0]->set_stiffness(axial, 1e9, 0);
+  EXPECT_TRUE(beam.pieces[0]->IsAwake());
+  b2Body* extra = add_box(beam.world, {.x = 30});
+  beam.run(3);
+  ElasticPlasticJointDef def;
+  def.Initialize(beam.pieces.back(), extra, beam.pieces.back()->GetPosition());
+  beam.structure.create_joint(def);
+  EXPECT_TRUE(extra->IsAwake() && beam.pieces.back()->IsAwake());
+}
+
+// ---- Read-outs of the base class
+
+// One piece, which a stock weld holds exactly: by all its calls ours is the same joint.
+TEST(Reaction, IsTheWelds) {
+  b2Vec2 force[2];
+  float torque[2];
+  for (const bool ours : {false, true}) {
+    b2World world({0, -10});
+    std::optional<Structure> structure;
+    b2Body* wall = add_box(world, {.type = b2_staticBody});
+    b2Body* tip = add_box(world, {.x = 1.5, .y = 1.5, .mass = 700});
+    b2WeldJointDef weld;
+    weld.Initialize(wall, tip, {0.5f, 0.5f});
+    auto* joint = static_cast<b2WeldJoint*>(world.CreateJoint(&weld));
+    if (ours) {
+      structure.emplace(world);
+      ElasticPlasticJointDef def;
+      def.axisAngle = 0.7f;
+      structure->adopt(joint, def);
+    }
+    world.SetAllowSleeping(false);
+    for (int i = 0; i < 120; ++i) {
+      tip->ApplyForceToCenter({3000, 2000}, true);
+      world.Step(dt, 50, 20);
+    }
+    force[ours] = joint->GetReactionForce(60);
+    torque[ours] = joint->GetReactionTorque(60);
+    joint->Dump();
+  }
+  EXPECT_NEAR(force[1].x, -3000, 0.1);
+  EXPECT_NEAR(force[1].y, 5000, 0.1);
+  EXPECT_NEAR(force[0].x, force[1].x, 1);
+  EXPECT_NEAR(force[0].y, force[1].y, 1);
+  EXPECT_NEAR(torque[0], torque[1], 2);
+  EXPECT_NEAR(torque[1], 5000 * 1 + 3000 * 1, 0.5);
+}
+
+// ---- Box2D's limits of speed: 2 m and π/2 a step
+
+TEST(SpeedLimit, TakesEnergyNeverGivesIt) {
+  for (const bool spinning : {false, true}) {
+    Beam beam({.pieces = 10, .youngs_modulus = 210e9, .gravity = 0});
+    beam.world.DestroyJoint(beam.joints[0]);
+    for (b2Body* b : beam.pieces) {
+      const b2Vec2 from_middle = b->GetPosition() - b2Vec2{10, 0};
+      b->SetLinearVelocity(spinning ? b2Cross(200.0f, from_middle) : b2Vec2{1000, 300});
+      b->SetAngularVelocity(spinning ? 200 : 0);
+    }
+    const double start = kinetic_energy(beam.pieces);
+    double energy = start;
+    for (int i = 0; i < 300; ++i) {
+      beam.run(1.0 / 60);
+      ASSERT_TRUE(finite(beam.pieces));
+      double now = kinetic_energy(beam.pieces);
+      for (ElasticPlasticJoint* j : beam.structure.joints()) now += j->elastic_energy();
+      EXPECT_LE(now, energy * (1 + 1e-5) + 1e-5 * start) << spinning << i;
+      energy = now;
+    }
+    if (spinning) continue;
+    EXPECT_NEAR(beam.pieces[3]->GetLinearVelocity().Length(), 120, 0.1);
+    const b2Vec2 other = beam.pieces[0]->GetLocalPoint(beam.pieces[9]->GetPosition());
+    EXPECT_NEAR(other.x, 18, 0.01);
+    EXPECT_NEAR(other.y, 0, 0.01);
+    EXPECT_EQ(beam.bounds_hit, 0);
+  }
+}
+
+TEST(SpeedLimit, DoesNotKeepJointsFromBreaking) {
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body *wall = add_box(world, {.type = b2_staticBody}), *piece = add_box(world, {.x = 1});
+  ElasticPlasticJointDef def;
+  def.Initialize(wall, piece, {0.5f, 0}, {1, 0});
+  def.rows[axial].cap = 1e5;
+  def.max_elongation = 0.5;
+  const ElasticPlasticJoint* joint = structure.create_joint(def);
+  piece->SetLinearVelocity({1000, 0});
+  world.Step(dt, 8, 3);
+  EXPECT_NEAR(joint->elongation(), 2, 0.01);
+  EXPECT_NEAR(joint->dissipated(), 2e5, 1e3);
+  world.Step(dt, 8, 3);
+  EXPECT_TRUE(joint->broken());
+  EXPECT_EQ(structure.report().bounds_hit, 0);
+}
+
+// ---- Memory
+
+TEST(Memory, TheSteadyStateAllocatesNothing) {
+  for (const double cap : {unlimited, 7800 * 10 * 200 / 1.3}) {
+    Beam beam({.pieces = 20, .youngs_modulus = 210e9, .moment_cap = cap});
+    b2Body* block = add_box(beam.world, {.x = 19.5, .y = 1, .group = 0});
+    beam.structure.on_event([](const JointEvent&) {});
+    beam.run(0.5);
+    const long before = allocations();
+    for (int i = 0; i < 120; ++i) {
+      beam.world.Step(dt, 8, 3);
+      beam.structure.update();
+      block->ApplyForceToCenter(vec(0, -100 * i), true);
+    }
+    EXPECT_EQ(allocations(), before);
   }
 }
 
