@@ -1,0 +1,62 @@
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <system_error>
+
+#include "ductile/files.h"
+
+extern char** environ;
+
+namespace ductile {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A name of its own in the folder for such things; the file goes with this.
+struct Scratch {
+  explicit Scratch(const char* ending)
+      : file(fs::temp_directory_path() / ("ductile" + std::to_string(::getpid()) + ending)) {}
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path file;
+};
+
+/// Runs a program without a shell in between; its exit code, 127 where there is no such program.
+int run(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  if (::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0) return 127;
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+}  // namespace
+
+void write_picture(const fs::path& file, std::string_view svg) {
+  if (file.extension() == ".svg") return write_text(file, svg);
+  if (file.extension() != ".png") {
+    throw InvalidInput({{file.string() + ":name", "is neither .svg nor .png", "name a picture so"}});
+  }
+  const Scratch drawing(".svg"), pixels(".png");
+  write_text(drawing.file, svg);
+  const int code =
+      run({"rsvg-convert", "--zoom", "2", "--output", pixels.file.string(), drawing.file.string()});
+  if (code == 127) {
+    throw InvalidInput({{file.string() + ":name", "needs rsvg-convert, which is not here",
+                         "install it (Debian: librsvg2-bin), or name an .svg"}});
+  }
+  if (code != 0) throw std::runtime_error("rsvg-convert failed for " + file.string());
+  write_text(file, read_text(pixels.file));
+}
+
+}  // namespace ductile

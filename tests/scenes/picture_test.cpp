@@ -1,0 +1,215 @@
+#include "ductile/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <pugixml.hpp>
+#include <regex>
+
+#include "ductile/colours.h"
+#include "ductile/files.h"
+
+namespace ductile {
+namespace {
+
+using Node = pugi::xml_node;
+
+/// A wall and a 4 m beam of four pieces that sticks out of it.
+Plan beam() {
+  BodyDef wall{
+      .name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}}};
+  BodyDef beam{.name = "beam", .outline = {{{0, 0}, {4, 0}, {4, 1}, {0, 1}}}, .material = materials::S355};
+  beam.pieces = 4;
+  beam.along = {{{0, 0.5}, {4, 0.5}}};
+  SceneDef scene{.bodies = {wall, beam}, .joints = {{"wall", "beam"}}};
+  scene.loads = {{.body = "beam", .at = {4, 0.5}, .force = {0, -2e3}, .from = 1, .ramp = 2, .to = 5}};
+  return calibrate(scene);
+}
+
+pugi::xml_document parse(const std::string& svg) {
+  pugi::xml_document document;
+  const auto result = document.load_string(svg.c_str());
+  EXPECT_TRUE(result) << result.description();
+  EXPECT_STREQ(document.document_element().name(), "svg");
+  EXPECT_FALSE(std::regex_search(svg, std::regex("[ \"(,](nan|-?inf)"))) << svg;
+  return document;
+}
+
+std::vector<Node> all(Node below, const char* css_class) {
+  std::vector<Node> found;
+  for (const auto& match : below.select_nodes((".//g[@class='" + std::string(css_class) + "']").c_str()))
+    found.push_back(match.node());
+  return found;
+}
+
+Node named(Node below, const char* css_class, const std::string& name) {
+  for (const Node& node : all(below, css_class))
+    if (std::string(node.child_value("title")).starts_with(name + ":") || node.child_value("title") == name)
+      return node;
+  ADD_FAILURE() << css_class << " '" << name << "' is not in the picture";
+  return {};
+}
+
+Point dot(const Node& joint) {
+  const Node circle = joint.child("circle");
+  return {circle.attribute("cx").as_double(), circle.attribute("cy").as_double()};
+}
+
+std::string hex(Colour c) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
+  return text;
+}
+
+std::string words(const Node& node) {
+  std::string all;
+  for (const auto& match : node.select_nodes(".//text"))
+    all += std::string(match.node().child_value()) + "\n";
+  return all;
+}
+
+/// px per metre as the scale bar says.
+double scale_bar(const Node& svg) {
+  std::smatch length, px;
+  const std::string text = words(svg);
+  EXPECT_TRUE(std::regex_search(text, length, std::regex("\n([0-9.]+) (m?)m\n$"))) << text;
+  const double metres = std::stod(length[1]) * (length[2] == "m" ? 1e-3 : 1);
+  for (const auto& match : svg.select_nodes("path")) {
+    const std::string d = match.node().attribute("d").value();
+    if (std::regex_match(d, px, std::regex("M.*v-8h([0-9.]+)v8"))) return std::stod(px[1]) / metres;
+  }
+  ADD_FAILURE() << "no scale bar";
+  return 0;
+}
+
+TEST(Picture, HasEveryPieceAndJointOnceAndToScale) {
+  const Plan plan = beam();
+  const auto document = parse(picture_svg(plan, {.title = "A <beam> & a wall", .panels = {Panel{}}}));
+  const Node svg = document.document_element();
+  EXPECT_NE(words(svg).find("A <beam> & a wall"), std::string::npos);
+  EXPECT_EQ(all(svg, "piece").size(), plan.pieces.size());
+  EXPECT_EQ(all(svg, "joint").size(), plan.joints.size());
+  for (const Piece& piece : plan.pieces) named(svg, "piece", piece.name);
+  const Point a = dot(named(svg, "joint", "beam/0-beam/1")), b = dot(named(svg, "joint", "beam/2-beam/3"));
+  EXPECT_NEAR((b.x - a.x) / scale_bar(svg), 2, 0.005);  // drawn to a tenth of a px
+  EXPECT_NEAR(b.y, a.y, 0.11);
+}
+
+TEST(Picture, ColoursJointsByPlasticMoment) {
+  Plan plan = beam();
+  plan.joints[0].M = 1e3;
+  plan.joints[1].M = 0;
+  plan.joints[2].M = unlimited;
+  plan.joints[3].M = 1e6;
+  const auto document = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  std::vector<std::string> paints;
+  for (const Node& joint : all(document, "joint"))
+    paints.emplace_back(joint.child("circle").attribute("fill").value());
+  const auto stops = document.select_nodes("//linearGradient[@id='moments']/stop");
+  ASSERT_GE(stops.size(), 2u);
+  EXPECT_EQ(paints[0], stops[0].node().attribute("stop-color").value());
+  EXPECT_EQ(paints[1], "#ffffff");
+  EXPECT_EQ(paints[3], stops[stops.size() - 1].node().attribute("stop-color").value());
+  EXPECT_EQ(std::count(paints.begin(), paints.end(), paints[2]), 1);
+  const std::string text = words(document);
+  EXPECT_NE(text.find("1 kN m"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 MN m"), std::string::npos) << text;
+}
+
+TEST(Picture, ShowsARunInItsOwnPanels) {
+  const Plan plan = beam();
+  std::vector<PieceReading> pieces;
+  for (const Piece& piece : plan.pieces) pieces.push_back({.position = piece.center});
+  std::vector<JointReading> joints(plan.joints.size());
+  const auto index = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(plan.joints.begin(), plan.joints.end(), [&](auto& j) { return j.name == name; }) -
+        plan.joints.begin());
+  };
+  joints[index("wall-beam/0")].usage.M = 0.5;
+  joints[index("beam/0-beam/1")] = {.accumulated_rotation = 0.2, .capacity_used = 0.4, .dissipated = 1};
+  joints[index("beam/2-beam/3")] = {.broken = true, .broken_at = 1.25};
+  pieces.back().position.y -= 1;  // the last piece has dropped by 1 m
+  const Panel whole{.title = "before", .time = 0, .pieces = pieces, .joints = {}};
+  Panel broken{.title = "after", .time = 2, .pieces = pieces, .joints = joints};
+  const auto document = parse(picture_svg(plan, {.panels = {broken, broken, whole}}));
+  const auto panels = all(document, "panel");
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_EQ(all(document, "joint").size(), 3 * plan.joints.size());
+
+  const Node elastic = named(panels[0], "joint", "wall-beam/0"),
+             hinge = named(panels[0], "joint", "beam/0-beam/1"),
+             gone = named(panels[0], "joint", "beam/2-beam/3");
+  EXPECT_EQ(elastic.child("circle").attribute("fill").value(), hex(stage_colour(0.5)));
+  EXPECT_EQ(hinge.child("circle").attribute("fill").value(), hex(stage_colour(1.4)));
+  EXPECT_GT(hinge.child("circle").attribute("r").as_double(),
+            elastic.child("circle").attribute("r").as_double());
+  EXPECT_FALSE(gone.child("circle"));
+  EXPECT_NE(std::string(gone.child_value("title")).find("broke at 1.25 s"), std::string::npos);
+
+  // Its banks are a metre apart now: each is the first path of its group's two halves.
+  std::vector<double> heights;
+  for (const Node& path : gone.children("path")) {
+    std::smatch match;
+    const std::string d = path.attribute("d").value();
+    if (std::regex_match(d, match, std::regex("M[0-9.]+ ([0-9.]+)L.*")))
+      heights.push_back(std::stod(match[1]));
+  }
+  ASSERT_EQ(heights.size(), 2u);
+  EXPECT_NEAR((heights[1] - heights[0]) / scale_bar(document.document_element()), 1, 0.01);
+}
+
+TEST(Picture, DrawsLoadsAsTheyAreAtThePanelsTime) {
+  const Plan plan = beam();
+  const auto loads = [&](std::optional<double> time) {
+    Panel panel;
+    panel.time = time;
+    const auto document = parse(picture_svg(plan, {.panels = {panel}}));
+    std::string text;
+    for (const Node& load : all(document, "load")) text += words(load);
+    return text;
+  };
+  EXPECT_EQ(loads(std::nullopt), "2 kN\n");
+  EXPECT_EQ(loads(0.5), "");
+  EXPECT_EQ(loads(2), "1 kN\n");
+  EXPECT_EQ(loads(4), "2 kN\n");
+  EXPECT_EQ(loads(5), "");
+}
+
+TEST(Picture, HoldsWhateverAPlanHolds) {
+  parse(picture_svg(Plan{}, {.panels = {Panel{}}}));
+  SceneDef scene;
+  scene.bodies = {{.name = "ground",
+                   .type = BodyType::static_body,
+                   .outline = {{{-1e4, -1}, {1e4, -1}, {1e4, 0}, {-1e4, 0}}}}};
+  scene.bodies[0].name = "floor";
+  BodyDef wheel{.name = "wheel", .circle = 0.5, .material = materials::S355, .at = {0, 0.5}};
+  scene.bodies.push_back(wheel);
+  scene.loads = {{.body = "wheel", .at = {0, 0.5}, .moment = -5}};
+  const Plan plan = calibrate(scene);
+  const auto document = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  EXPECT_EQ(words(all(document, "load").front()), "5 N m\n");
+  // The floor of 20 km does not make a dot of the wheel.
+  EXPECT_GT(document.select_node("//circle").node().attribute("r").as_double(), 50);
+
+  Panel away;
+  for (const Piece& piece : plan.pieces)
+    away.pieces.push_back({.position = {piece.center.x, piece.center.y + 1e30}});
+  parse(picture_svg(plan, {.panels = {away}}));
+}
+
+TEST(Picture, IsThatOfASimulation) {
+  Simulation simulation(beam());
+  for (int i = 0; i < 30; ++i) simulation.step();
+  const Panel panel = panel_of(simulation, "now");
+  EXPECT_EQ(panel.time, simulation.time());
+  ASSERT_EQ(panel.pieces.size(), simulation.plan().pieces.size());
+  ASSERT_EQ(panel.joints.size(), simulation.plan().joints.size());
+  EXPECT_EQ(panel.pieces.back().position, simulation.piece(panel.pieces.size() - 1).position);
+  EXPECT_EQ(panel.joints.front().M, simulation.joint(0).M);
+}
+
+}  // namespace
+}  // namespace ductile
