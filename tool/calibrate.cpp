@@ -6,12 +6,14 @@
 
 #include "command.h"
 #include "ductile/files.h"
+#include "ductile/picture.h"
 
 namespace ductile::tool {
 namespace {
 
 struct Options {
   std::string scene, to, out;
+  std::vector<std::string> pictures;
   double target_error = 0;
   bool json = false;
 };
@@ -113,6 +115,12 @@ std::string run(const Options& options) {
   const Plan plan = plan_of(options.scene);
   if (!options.to.empty() && options.to != "json") throw NotYet("--to " + options.to);
   const std::string definitions = json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
+  if (!options.pictures.empty()) {
+    const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
+    const std::string svg =
+        picture_svg(plan, {.title = title_of(options.scene), .subtitle = what, .panels = {Panel{}}});
+    for (const std::string& file : options.pictures) write_picture(file, svg);
+  }
   if (!options.out.empty()) write_text(options.out, definitions);
   const bool print_definitions = options.json || (!options.to.empty() && options.out.empty());
   return print_definitions ? definitions : table(plan, options.scene);
@@ -130,6 +138,11 @@ void add_calibrate(CLI::App& app, std::string& output) {
       ->check(finite(0, true));
   command->add_option("--out", options->out,
                       "write the definitions to this file (json if --to is not given)");
+  command
+      ->add_option("--picture", options->pictures,
+                   "draw pieces, cuts and joints by plastic moment to this SVG or PNG file; may be repeated")
+      ->check(picture_name())
+      ->allow_extra_args(false);
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "ductile/files.h"
 
@@ -22,7 +24,23 @@ std::string piece_name(const Plan& plan, int piece) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-"; }
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value + 0.) : "-"; }  // no "-0"
+
+std::string title_of(const std::string& scene_file) {
+  std::string name = std::filesystem::path(scene_file).filename().string();
+  name = name.substr(0, name.find('.'));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return name;
+}
+
+CLI::Validator picture_name() {
+  return CLI::Validator(
+      [](const std::string& name) -> std::string {
+        return name.ends_with(".svg") || name.ends_with(".png") ? "" : "'" + name + "' is no .svg or .png";
+      },
+      "");
+}
 
 CLI::Validator finite(double low, bool open) {
   return CLI::Validator(

@@ -51,6 +51,12 @@ Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.
 std::string shown(double value);
 
+/// What a picture of it is called: "scenes/harbour_crane.scene.json" is "Harbour crane".
+std::string title_of(const std::string& scene_file);
+
+/// Accepts the names that write_picture() takes.
+CLI::Validator picture_name();
+
 /// Accepts finite numbers from `low`; above it only where `open`.
 CLI::Validator finite(double low, bool open = false);
 

@@ -1,12 +1,16 @@
 #include "ductile/simulation.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "command.h"
 #include "ductile/files.h"
+#include "ductile/picture.h"
 
 namespace ductile::tool {
 namespace {
@@ -15,6 +19,8 @@ constexpr double most_steps = 1e7;
 
 struct Options {
   std::string scene, history, solver = "direct";
+  std::vector<std::string> pictures;
+  std::vector<double> picture_at;
   double time = 0;
   Stepping stepping;
   bool json = false;
@@ -104,19 +110,74 @@ class History {
   NewFile file_;
 };
 
+std::string damage(const std::vector<JointReading>& joints) {
+  const auto yielded = std::count_if(joints.begin(), joints.end(), [](auto& j) { return j.dissipated > 0; });
+  const auto broken = std::count_if(joints.begin(), joints.end(), [](auto& j) { return j.broken; });
+  return fmt::format("{} of {} joints yielded, {} broke", yielded, joints.size(), broken);
+}
+
+/// The panels of --picture, taken as their times come by.
+class Pictures {
+ public:
+  explicit Pictures(const Options& options) : due_(options.picture_at), half_step_(options.stepping.dt / 2) {
+    if (options.pictures.empty()) return;
+    if (due_.empty()) due_ = {0, options.time};
+    std::sort(due_.begin(), due_.end());
+  }
+  void look(const Simulation& simulation) {
+    for (; next_ < due_.size() && simulation.time() > due_[next_] - half_step_; ++next_) {
+      Panel panel = panel_of(simulation, "");
+      panel.title = fmt::format("{:.4g} s: {}", simulation.time(), damage(panel.joints));
+      panels_.push_back(std::move(panel));
+    }
+  }
+  void write(const Simulation& simulation, const Options& options) {
+    const std::string how = fmt::format("{} joints, {} solver, steps of {:.3g} s",
+                                        simulation.plan().joints.size(), options.solver, options.stepping.dt);
+    const std::string svg = picture_svg(
+        simulation.plan(), {.title = title_of(options.scene), .subtitle = how, .panels = std::move(panels_)});
+    for (const std::string& file : options.pictures) write_picture(file, svg);
+  }
+
+ private:
+  std::vector<double> due_;
+  double half_step_;
+  std::size_t next_ = 0;
+  std::vector<Panel> panels_;
+};
+
+/// How far a long run is, on one line of a terminal.
+class Progress {
+ public:
+  void show(double share) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal_ || now - shown_ < std::chrono::milliseconds(200)) return;
+    shown_ = now;
+    started_ = true;
+    const auto width = static_cast<int>(40 * share);
+    fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:.0f} %", "", width, "", 40 - width, 100 * share);
+    std::fflush(stderr);
+  }
+  ~Progress() {
+    if (started_) std::fputs("\r\33[K", stderr);
+  }
+
+ private:
+  const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
+  bool started_ = false;
+  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
+};
+
 std::string table(const Simulation& simulation, const std::string& scene) {
-  std::size_t widest = 5, yielded = 0, broken = 0;
+  std::size_t widest = 5;
   std::vector<JointReading> joints;
   for (std::size_t i = 0; i < simulation.plan().joints.size(); ++i) {
     joints.push_back(simulation.joint(i));
     widest = std::max(widest, simulation.plan().joints[i].name.size());
-    yielded += joints.back().dissipated > 0;
-    broken += joints.back().broken;
   }
   std::string text =
-      fmt::format("{}: {} steps of {:.6g} s, {} of {} joints yielded, {} broke; {} us a step\n\n", scene,
-                  simulation.steps(), simulation.stepping.dt, yielded, joints.size(), broken,
-                  shown(simulation.time_per_step_us()));
+      fmt::format("{}: {} steps of {:.6g} s, {}; {} us a step\n\n", scene, simulation.steps(),
+                  simulation.stepping.dt, damage(joints), shown(simulation.time_per_step_us()));
   text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>12} {:>12} {:>6}\n", "joint", widest, "N [N]",
                       "Q [N]", "M [N m]", "M use", "rot. [rad]", "diss. [J]", "limit");
   const auto percent = [](double share) {
@@ -138,6 +199,11 @@ std::string run(const Options& options) {
     throw InvalidInput({{"command line:--time", fmt::format("asks for {:.3g} steps", steps),
                          fmt::format("let it be at most {:.0e} steps of --dt", most_steps)}});
   }
+  for (const double at : options.picture_at) {
+    if (at > options.time)
+      throw InvalidInput({{"command line:--picture-at", fmt::format("has {:g} s, after the end", at),
+                           fmt::format("name times up to --time, {:g} s", options.time)}});
+  }
   const JointSolver solver = options.solver == "direct"      ? JointSolver::direct
                              : options.solver == "iterative" ? JointSolver::iterative
                                                              : JointSolver::stock;
@@ -150,11 +216,19 @@ std::string run(const Options& options) {
     history->head(simulation->plan());
     history->row(*simulation);
   }
-  while (static_cast<double>(simulation->steps()) < steps) {
-    simulation->step();
-    if (history) history->row(*simulation);
+  Pictures pictures(options);
+  pictures.look(*simulation);
+  {
+    Progress progress;
+    while (static_cast<double>(simulation->steps()) < steps) {
+      simulation->step();
+      if (history) history->row(*simulation);
+      pictures.look(*simulation);
+      progress.show(static_cast<double>(simulation->steps()) / steps);
+    }
   }
   if (history) history->keep();
+  if (!options.pictures.empty()) pictures.write(*simulation, options);
   if (!options.json) return table(*simulation, options.scene);
   const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
                     {"joints", joints_json(*simulation)},
@@ -189,6 +263,14 @@ void add_simulate(CLI::App& app, std::string& output) {
                    "as b2World::Step (default 3)")
       ->check(iterations);
   command->add_option("--history", options->history, "write every step's values to this CSV file");
+  auto* picture =
+      command->add_option("--picture", options->pictures,
+                          "draw the scene before and after to this SVG or PNG file; may be repeated");
+  picture->check(picture_name())->allow_extra_args(false);
+  command->add_option("--picture-at", options->picture_at, "draw it at these times instead: 0,1.5,4")
+      ->delimiter(',')
+      ->needs(picture)
+      ->check(finite(0));
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }
