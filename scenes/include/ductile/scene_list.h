@@ -33,6 +33,8 @@ inline constexpr SceneEntry scene_list[] = {
     {"frame_bomb", "A bomb of 2 t at 30 m/s bends a column of the frame.", 5, Outcome::bends, 240},
     {"frame_heavy_bomb", "A bomb of 20 t at 30 m/s breaks through columns of the frame.", 5, Outcome::breaks,
      240},
+    {"harbour_crane", "A container caught on a barge bends the jib of a crane, then breaks it.", 6,
+     Outcome::breaks},
     {"car", "A car jumps onto the drawbridge, bends its hinge and drives across.", 13, Outcome::bends},
     {"car_heavy", "A car three times as heavy tears the drawbridge off.", 10, Outcome::breaks},
     {"B1-1", "A block of 10 000 t comes down on a beam of 20 m beside its root.", 5, Outcome::stands},
