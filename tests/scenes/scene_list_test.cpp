@@ -28,9 +28,10 @@ SceneDef scene_of(std::string_view name) {
 
 /// A scene, and what its steps were like.
 struct Play {
-  explicit Play(Plan plan, double hz = 60)
-      : simulation(std::move(plan), JointSolver::direct, {.dt = 1 / hz}) {}
-  explicit Play(std::string_view name, double hz = 60) : Play(calibrate(scene_of(name)), hz) {}
+  explicit Play(Plan plan, double hz = 60, bool ledger = false)
+      : simulation(std::move(plan), JointSolver::direct, {.dt = 1 / hz}, ledger) {}
+  explicit Play(std::string_view name, double hz = 60, bool ledger = false)
+      : Play(calibrate(scene_of(name)), hz, ledger) {}
 
   void step() {
     simulation.step();
@@ -105,11 +106,15 @@ class Scenes : public testing::TestWithParam<SceneEntry> {};
 
 TEST_P(Scenes, EndAsTheListSays) {
   const SceneEntry& scene = GetParam();
-  Play run(scene.name, scene.hz);
+  Play run(scene.name, scene.hz, true);
   run.until(scene.seconds);
   EXPECT_EQ(run.outcome(), scene.outcome);
   EXPECT_EQ(run.bounds_hit, 0);
   EXPECT_TRUE(run.finite());
+  const double turnover = run.simulation.ledger()->turnover();
+  const double error = run.simulation.ledger()->energy().total_error;
+  EXPECT_LE(std::abs(error), 1e-3 * turnover);
+  EXPECT_LE(error, 1e-4 * turnover);  // energy from nowhere
 }
 
 /// FNV-1a over all that a run tells of itself, each step.
