@@ -461,7 +461,7 @@ bool Solver::solve(SolveReport& report) {
     report.bound_hit = true;
     coast();
   }
-  report.residual = scale_ > 0 ? std::sqrt(norm / scale_) : 0;
+  report.residual = norm > 0 ? tolerance * std::sqrt(norm / target()) : 0;
   return round > 0;
 }
 

@@ -88,7 +88,7 @@ struct SolverJoint {
 struct SolveReport {
   int rounds = 0;  // directions computed
   int factorisations = 0;
-  double residual = 0;  // |∇f| over |M (v − v*)|, both in the norm of M⁻¹
+  double residual = 0;  // |∇f| in the norm of M⁻¹ as a share of its target, times `tolerance`
   bool bound_hit = false;
 };
 
