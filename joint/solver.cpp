@@ -614,10 +614,13 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   factor_holding();
   for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
-  double reach = 1;  // farthest coordinate
+  double reach = 1;  // farthest coordinate, longest arm
   for (std::size_t i = 0; i < free_; ++i) {
     poses_[i] = bodies[i].pose;
     reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
+  }
+  for (const SolverJoint& j : joints) {
+    for (const double arm : {j.ax, j.ay, j.bx, j.by}) reach = std::max(reach, std::abs(arm));
   }
   const double given = evaluate_poses(goal);
   if (try_goal) {
@@ -631,31 +634,45 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   // Gauss–Newton. A step along the tangent misses the gaps by its square, which κ multiplies: the sum need
   // not fall. What must fall is the step that comes next. A factor of other poses is good as long as it
   // shortens that; where it does not, what its J and the present one differ by comes out multiplied by κ.
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * reach;
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
   double size = correction(d_);
   const double enough = 1e-8 * size + rounding * rounding * mass_;
+  const auto move = [&](double t) {
+    for (std::size_t i = 0; i < free_; ++i) {
+      place(bodies[i], poses_[i]);
+      displace(bodies[i], t * d_[i]);
+    }
+    evaluate_poses(goal);
+  };
   bool kept = true;
-  for (int round = 0; kept && size > enough; ++round) {
+  bool fresh = false;  // d_ is of a factor of its own poses
+  for (int round = 0; size > enough && kept; ++round) {
     kept = round < 20;
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-    for (double t = 1;; t /= 2) {
-      for (std::size_t i = 0; i < free_; ++i) {
-        place(bodies[i], poses_[i]);
-        displace(bodies[i], t * d_[i]);
-      }
-      evaluate_poses(goal);
+    for (double t = 1; kept;) {
+      move(t);
       double next = correction(z_);
-      if (next > 0.01 * size) {
+      const bool refactor = next > 0.01 * size;
+      if (refactor) {
         factor();
         next = correction(z_);
       }
-      if (next <= (1 - t / 2) * size || t < 0.02) {
-        kept &= t >= 0.02;
+      if (next <= (1 - t / 2) * size) {
+        std::swap(d_, z_);
         size = next;
+        fresh = refactor;
         break;
       }
+      if (fresh) {
+        t /= 2;
+        kept = t > 0.02;
+      } else {
+        move(0);
+        factor();
+        size = correction(d_);
+        fresh = true;
+      }
     }
-    std::swap(d_, z_);
   }
   // The pull toward the goal has left strains of 1/κ of it: let go.
   for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
