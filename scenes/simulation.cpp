@@ -47,7 +47,8 @@ void Simulation::step() {
   world_.Step(static_cast<float>(dt), stepping.velocity_iterations, stepping.position_iterations);
   const std::chrono::duration<float, std::micro> took = std::chrono::steady_clock::now() - start;
   time_ += dt;
-  if (++steps_ >= first_timed_step) step_us_.push_back(took.count());
+  last_step_us_ = took.count();
+  if (++steps_ >= first_timed_step) step_us_.push_back(last_step_us_);
   if (structure_) structure_->update();
   if (ledger_) ledger_->after_step(*structure_);
 }

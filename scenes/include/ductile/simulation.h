@@ -90,6 +90,8 @@ class Simulation {
 
   /// µs: median of b2World::Step alone over the steps from the tenth on; NaN before.
   double time_per_step_us() const;
+  /// µs: the last b2World::Step alone; 0 before.
+  double last_step_us() const { return last_step_us_; }
 
   /// Null when no ledger is kept.
   const EnergyLedger* ledger() const { return ledger_ ? &*ledger_ : nullptr; }
@@ -124,6 +126,7 @@ class Simulation {
   std::unordered_map<std::size_t, JointReading> last_readings_;  // of those that are broken
   std::vector<SceneEvent> events_;
   std::vector<float> step_us_;
+  float last_step_us_ = 0;
   double time_ = 0;
   long steps_ = 0;
 };

@@ -1,0 +1,48 @@
+// What there was to see after a step: enough to draw the scene and to read every number of it.
+#pragma once
+
+#include <vector>
+
+#include "ductile/simulation.h"
+#include "geometry.h"
+
+namespace ductile::viewer {
+
+struct Pose {
+  Point position;  ///< m, of the centre of mass
+  double angle = 0;
+};
+
+/// J.
+struct Energy {
+  double kinetic = 0, potential = 0;   ///< of the pieces; potential is 0 at the start
+  double elastic = 0, dissipated = 0;  ///< of the joints
+};
+
+struct Frame {
+  double time = 0;  ///< s
+  std::vector<PieceReading> pieces;
+  std::vector<JointReading> joints;
+  std::vector<Pose> thrown;  ///< bodies that a user added while it ran
+  Energy energy;
+  StepReport report;   ///< zero with stock joints
+  double step_us = 0;  ///< µs: b2World::Step alone
+
+  /// Bytes of memory.
+  std::size_t size() const;
+};
+
+/// The present state of a simulation (without what a user added).
+Frame see(Simulation& simulation);
+
+/// A joint where it is in a frame: its axis turns with the bodies, the anchor is in the middle of both sides.
+struct Placed {
+  Point anchor;
+  Point axis;  ///< unit
+};
+Placed place(const Plan& plan, std::size_t joint, const Frame& frame);
+
+/// A point that was at `at` at t = 0, on piece `piece` as it is in a frame; −1: the ground.
+Point carried(const Plan& plan, int piece, Point at, const Frame& frame);
+
+}  // namespace ductile::viewer

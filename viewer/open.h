@@ -1,0 +1,23 @@
+// Files that a user opens or drops on the window: told apart by what is in them, not by their names.
+#pragma once
+
+#include <filesystem>
+
+#include "ductile/calibrate.h"
+
+namespace ductile::viewer {
+
+struct Opened {
+  SceneDef scene;
+  std::filesystem::path file;  ///< where saving goes: the scene file itself, or a new one beside a drawing
+  std::string note;            ///< what a user should know of how it was read
+};
+
+/// A scene file, or a drawing, whose shapes become steel bodies above a floor. Throws InvalidInput and
+/// std::system_error.
+Opened open_file(const std::filesystem::path& file);
+
+/// Files of scenes in a folder, by name. None where there is no such folder.
+std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder);
+
+}  // namespace ductile::viewer

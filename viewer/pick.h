@@ -1,0 +1,26 @@
+// Which joints and pieces of a frame are where.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "frame.h"
+
+namespace ductile::viewer {
+
+/// The joint that is there nearest to a point, within `reach` m.
+std::optional<std::size_t> joint_at(const Plan& plan, const Frame& frame, Point at, double reach);
+
+/// The joints, broken ones too, whose anchors are in a box.
+std::vector<std::size_t> joints_in(const Plan& plan, const Frame& frame, const Box& box);
+
+/// The joints of at least that stage (colours.h).
+std::vector<std::size_t> joints_from(const Frame& frame, double stage);
+
+/// The last of the pieces, which is drawn on top, that covers a point.
+std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point at);
+
+/// The bodies that can move, in a box; where there are none, all of them.
+Box extent(const Plan& plan, const Frame& frame);
+
+}  // namespace ductile::viewer

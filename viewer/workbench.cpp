@@ -1,0 +1,229 @@
+#include "workbench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <unordered_map>
+
+#include "ductile/files.h"
+#include "open.h"
+
+namespace ductile::viewer {
+namespace {
+
+constexpr std::size_t gone = std::numeric_limits<std::size_t>::max();  // the saved version was edited away
+constexpr double most_owed = 0.1;  // s: what a slow machine does not show in time is shown later, not lost
+
+SceneDef floor_alone() {
+  SceneDef scene;
+  BodyDef floor;
+  floor.name = "floor";
+  floor.type = BodyType::static_body;
+  floor.outline.outer = {{-10, -1}, {10, -1}, {10, 0}, {-10, 0}};
+  scene.bodies = {floor};
+  return scene;
+}
+
+}  // namespace
+
+Workbench::Workbench(std::vector<std::filesystem::path> scenes)
+    : scenes_(std::move(scenes)), versions_{floor_alone()}, before_(calibrate(versions_[0])) {
+  run_ = std::make_unique<Timeline>(before_);
+}
+
+void Workbench::open(const std::filesystem::path& file) {
+  Opened opened = open_file(file);
+  Plan plan = calibrate(opened.scene);
+  auto run = std::make_unique<Timeline>(plan, solver());
+  // Nothing can fail from here on.
+  run_ = std::move(run);
+  before_ = std::move(plan);
+  versions_ = {std::move(opened.scene)};
+  version_ = saved_ = 0;
+  file_ = std::move(opened.file);
+  message = std::move(opened.note);
+  selected.clear();
+  focus.reset();
+  body.reset();
+  owed_ = 0;
+  if (stock_) start_stock();
+}
+
+bool Workbench::try_open(const std::filesystem::path& file) {
+  try {
+    open(file);
+    return true;
+  } catch (const std::exception& error) {
+    message = file.filename().string() + " cannot be opened.\n" + error.what();
+    return false;
+  }
+}
+
+void Workbench::open_neighbour(int by) {
+  if (scenes_.empty()) return;
+  const auto n = static_cast<int>(scenes_.size());
+  const auto here = std::find(scenes_.begin(), scenes_.end(), file_);
+  const int next =
+      here == scenes_.end() ? (by > 0 ? 0 : n - 1) : (static_cast<int>(here - scenes_.begin()) + by + n) % n;
+  try_open(scenes_[static_cast<std::size_t>(next)]);
+}
+
+void Workbench::save(const std::filesystem::path& file) {
+  write_text(file, scene_text(scene()));
+  file_ = file;
+  saved_ = version_;
+  before_ = plan();
+}
+
+void Workbench::edit(SceneDef scene, bool continued) {
+  Plan plan = calibrate(scene);
+  // What was done to pieces that are no longer there is forgotten.
+  std::vector<Timeline::Entry> acts{{0, act::Set{run_->stepping()}}};
+  if (plan.pieces.size() == this->plan().pieces.size()) acts = run_->acts();
+  show(std::move(plan), solver(), std::move(acts));
+  if (saved_ > version_) saved_ = gone;
+  versions_.resize(version_ + 1);
+  if (continued && version_ > 0) {
+    if (saved_ == version_) saved_ = gone;
+    versions_.back() = std::move(scene);
+  } else {
+    versions_.push_back(std::move(scene));
+    ++version_;
+  }
+}
+
+void Workbench::undo() {
+  if (!can_undo()) return;
+  show(calibrate(versions_[version_ - 1]), solver(), {});
+  --version_;
+}
+
+void Workbench::redo() {
+  if (!can_redo()) return;
+  show(calibrate(versions_[version_ + 1]), solver(), {});
+  ++version_;
+}
+
+// Joints are found again by name.
+void Workbench::show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts) {
+  auto run = std::make_unique<Timeline>(std::move(plan), solver, std::move(acts));
+  std::unordered_map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < run->plan().joints.size(); ++i) index.emplace(run->plan().joints[i].name, i);
+  const auto again = [&](std::size_t joint) -> std::optional<std::size_t> {
+    const auto found = index.find(this->plan().joints[joint].name);
+    return found == index.end() ? std::nullopt : std::optional(found->second);
+  };
+  std::set<std::size_t> still;
+  for (const std::size_t joint : selected) {
+    if (const auto found = again(joint)) still.insert(*found);
+  }
+  selected = std::move(still);
+  if (focus) focus = again(*focus);
+  run_ = std::move(run);
+  owed_ = 0;
+  if (stock_) start_stock();
+}
+
+void Workbench::set_solver(JointSolver solver) {
+  const long step = run_->cursor();
+  show(plan(), solver, run_->acts());
+  run_->seek(step);
+}
+
+void Workbench::set_stepping(const Stepping& stepping) { act(act::Set{stepping}); }
+
+void Workbench::act(const Act& what) {
+  run_->act(what);
+  if (!stock_) return;
+  if (stock_->cursor() == run_->cursor()) {
+    stock_->act(what);
+  } else {
+    start_stock();
+  }
+}
+
+void Workbench::restart() {
+  const Stepping stepping = run_->stepping();
+  show(plan(), solver(), {{0, act::Set{stepping}}});
+}
+
+bool Workbench::seek_first(JointEvent::Kind kind) {
+  for (const TimelineEvent& event : run_->events()) {
+    if (event.event.kind != kind) continue;
+    playing = false;
+    run_->seek(event.step);
+    return true;
+  }
+  return false;
+}
+
+void Workbench::step_by(long steps) {
+  playing = false;
+  run_->seek(run_->cursor() + steps);
+}
+
+void Workbench::tick(double seconds, double budget) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto left = [&] { return budget - std::chrono::duration<double>(Clock::now() - start).count(); };
+  if (run_->work(budget) && playing) {
+    const double dt = run_->stepping().dt;
+    owed_ = std::min(owed_ + seconds * pace, std::max(most_owed, dt));
+    while (playing && owed_ >= dt && left() > 0) {
+      owed_ -= dt;
+      const std::size_t events = run_->events().size();
+      run_->seek(run_->cursor() + 1);
+      if (!run_->work(left())) break;
+      const auto stops = [this](const TimelineEvent& event) {
+        return stop_at == StopAt::yield ||
+               (stop_at == StopAt::broke && event.event.kind == JointEvent::broke);
+      };
+      playing = std::none_of(run_->events().begin() + static_cast<std::ptrdiff_t>(events),
+                             run_->events().end(), stops);
+    }
+  }
+  if (stock_) {
+    stock_->seek(run_->cursor());
+    stock_->work(budget);
+  }
+}
+
+void Workbench::compare_with_stock(bool on) {
+  if (on == (stock_ != nullptr)) return;
+  stock_.reset();
+  if (on) start_stock();
+}
+
+void Workbench::start_stock() {
+  stock_ = std::make_unique<Timeline>(plan(), JointSolver::stock, run_->acts());
+  stock_->seek(run_->cursor());
+}
+
+void Workbench::select(const std::vector<std::size_t>& joints, bool add) {
+  if (!add) selected.clear();
+  selected.insert(joints.begin(), joints.end());
+  if (!joints.empty()) {
+    focus = joints.front();
+  } else if (!add) {
+    focus.reset();
+  }
+}
+
+std::optional<Limits> limits_of(SceneDef& scene, const Plan& plan, std::size_t joint) {
+  const PlannedJoint& planned = plan.joints[joint];
+  if (planned.a < 0) return std::nullopt;
+  const auto body = [&](int piece) {
+    return static_cast<std::size_t>(plan.pieces[static_cast<std::size_t>(piece)].body);
+  };
+  const std::size_t a = body(planned.a), b = body(planned.b);
+  if (a == b) return Limits{&scene.bodies[a].joint, "joints inside " + scene.bodies[a].name};
+  for (JointBetweenDef& between : scene.joints) {
+    const std::string &first = scene.bodies[a].name, &second = scene.bodies[b].name;
+    if ((between.a == first && between.b == second) || (between.a == second && between.b == first)) {
+      return Limits{&between.overrides, between.a + " to " + between.b};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace ductile::viewer

@@ -1,0 +1,101 @@
+// The scene on the bench: opened, run, looked at, changed, saved. Knows no window.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ductile/calibrate.h"
+#include "timeline.h"
+
+namespace ductile::viewer {
+
+class Workbench {
+ public:
+  /// `scenes` are offered as a list.
+  explicit Workbench(std::vector<std::filesystem::path> scenes = {});
+
+  // --- the scene ---
+  /// Another scene. Throws, with everything as it was, where the file cannot be used.
+  void open(const std::filesystem::path& file);
+  /// The same, with what is wrong as the message; false then.
+  bool try_open(const std::filesystem::path& file);
+  /// The next or the previous of the list, around its ends.
+  void open_neighbour(int by);
+  /// Throws std::system_error.
+  void save(const std::filesystem::path& file);
+  /// Puts another scene in the place of this one and runs it from the start; undo() takes it back. Throws
+  /// InvalidInput, with everything as it was. `continued`: it replaces the last edit, as a slider does while
+  /// it is dragged.
+  void edit(SceneDef scene, bool continued = false);
+  void undo();
+  void redo();
+  bool can_undo() const { return version_ > 0; }
+  bool can_redo() const { return version_ + 1 < versions_.size(); }
+  /// Something has changed since it was opened or saved.
+  bool changed() const { return version_ != saved_; }
+
+  const std::vector<std::filesystem::path>& scenes() const { return scenes_; }
+  const std::filesystem::path& file() const { return file_; }
+  const SceneDef& scene() const { return versions_[version_]; }
+  const Plan& plan() const { return run_->plan(); }
+  /// As it was opened or saved last.
+  const Plan& plan_before() const { return before_; }
+
+  // --- the run ---
+  Timeline& run() { return *run_; }
+  const Timeline& run() const { return *run_; }
+  const Frame& frame() const { return run_->frame(); }
+  JointSolver solver() const { return run_->solver(); }
+  /// The same scene and acts with another solver, up to the step that is looked at.
+  void set_solver(JointSolver solver);
+  /// From the cursor on.
+  void set_stepping(const Stepping& stepping);
+  void act(const Act& what);
+  /// Back to the start, with nothing thrown in.
+  void restart();
+  /// Looks at the first yield or break; false where there has been none.
+  bool seek_first(JointEvent::Kind kind);
+  void step_by(long steps);
+
+  bool playing = true;
+  double pace = 1;  ///< seconds of the scene per second
+  enum class StopAt { never, yield, broke } stop_at = StopAt::never;
+  /// Time goes on by `seconds`, of which `budget` may be spent on simulating.
+  void tick(double seconds, double budget);
+
+  /// A run of the same with stock joints beside this one, at the same step; null where it is off.
+  const Timeline* stock() const { return stock_.get(); }
+  void compare_with_stock(bool on);
+
+  // --- what the user looks at ---
+  std::set<std::size_t> selected;    ///< joints
+  std::optional<std::size_t> focus;  ///< the joint whose details show
+  std::optional<std::size_t> body;   ///< of the plan: the one that is edited
+  void select(const std::vector<std::size_t>& joints, bool add);
+  std::string message;  ///< for the user; empty: none
+
+ private:
+  void show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts);
+  void start_stock();
+
+  std::vector<std::filesystem::path> scenes_;
+  std::filesystem::path file_;
+  std::vector<SceneDef> versions_;
+  std::size_t version_ = 0, saved_ = 0;
+  Plan before_;
+  std::unique_ptr<Timeline> run_, stock_;
+  double owed_ = 0;  // s of the scene that are to be shown
+};
+
+/// The overrides that govern a joint, and what they are called; null for a support, which has none.
+struct Limits {
+  JointOverrides* overrides;
+  std::string of;  ///< "joints inside beam", "wall to beam"
+};
+std::optional<Limits> limits_of(SceneDef& scene, const Plan& plan, std::size_t joint);
+
+}  // namespace ductile::viewer
