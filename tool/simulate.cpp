@@ -11,6 +11,7 @@
 #include "command.h"
 #include "ductile/files.h"
 #include "ductile/picture.h"
+#include "ductile/replay.h"
 
 namespace ductile::tool {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr double most_steps = 1e7;
 
 struct Options {
-  std::string scene, history, solver = "direct";
+  std::string scene, history, replay, solver = "direct";
   std::vector<std::string> pictures;
   std::vector<double> picture_at;
   double time = 0;
@@ -216,6 +217,12 @@ std::string run(const Options& options) {
     history->head(simulation->plan());
     history->row(*simulation);
   }
+  std::optional<NewFile> replay_file;
+  Replay replay(simulation->plan());
+  if (!options.replay.empty()) {
+    replay_file.emplace(options.replay);
+    replay.take(*simulation);
+  }
   Pictures pictures(options);
   pictures.look(*simulation);
   {
@@ -223,11 +230,16 @@ std::string run(const Options& options) {
     while (static_cast<double>(simulation->steps()) < steps) {
       simulation->step();
       if (history) history->row(*simulation);
+      if (replay_file) replay.take(*simulation);
       pictures.look(*simulation);
       progress.show(static_cast<double>(simulation->steps()) / steps);
     }
   }
   if (history) history->keep();
+  if (replay_file) {
+    replay_file->write(replay.page(std::filesystem::path(options.scene).filename().string(), *simulation));
+    replay_file->keep();
+  }
   if (!options.pictures.empty()) pictures.write(*simulation, options);
   if (!options.json) return table(*simulation, options.scene);
   const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
@@ -263,6 +275,7 @@ void add_simulate(CLI::App& app, std::string& output) {
                    "as b2World::Step (default 3)")
       ->check(iterations);
   command->add_option("--history", options->history, "write every step's values to this CSV file");
+<<<<<<< HEAD
   auto* picture =
       command->add_option("--picture", options->pictures,
                           "draw the scene before and after to this SVG or PNG file; may be repeated");
@@ -271,6 +284,10 @@ void add_simulate(CLI::App& app, std::string& output) {
       ->delimiter(',')
       ->needs(picture)
       ->check(finite(0));
+=======
+  command->add_option("--replay", options->replay,
+                      "write this HTML page, which plays the run back in any browser");
+>>>>>>> 9558cc4 (Replays: a run as one self-contained page that plays, slides and tells numbers; tried in headless Chromium)
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

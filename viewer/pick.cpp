@@ -58,22 +58,19 @@ std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point 
   return std::nullopt;
 }
 
-Box extent(const Plan& plan, const Frame& frame) {
+Box extent(const Plan& plan) {
   Box moving, all;
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
-    const Piece& piece = plan.pieces[i];
-    const Point centre = frame.pieces[i].position;
-    Box box;
-    if (piece.circle > 0) {
-      box.add(centre + Point{piece.circle, piece.circle});
-      box.add(centre - Point{piece.circle, piece.circle});
-    }
-    const Turn turn(frame.pieces[i].angle);
-    for (const Point& p : piece.outline.outer) box.add(centre + turn * (p - piece.center));
+  for (const Piece& piece : plan.pieces) {
     const bool moves = plan.bodies[static_cast<std::size_t>(piece.body)].type == BodyType::dynamic_body;
-    for (const Point corner : {box.low, box.high}) {
-      all.add(corner);
-      if (moves) moving.add(corner);
+    const auto add = [&](Point p) {
+      all.add(p);
+      if (moves) moving.add(p);
+    };
+    for (const Point& p : piece.outline.outer) add(p);
+    if (piece.circle > 0) {
+      const Point radius{piece.circle, piece.circle};
+      add(piece.center + radius);
+      add(piece.center - radius);
     }
   }
   if (all.empty()) return {{-1, -1}, {1, 1}};

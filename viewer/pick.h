@@ -20,7 +20,7 @@ std::vector<std::size_t> joints_from(const Frame& frame, double stage);
 /// The last of the pieces, which is drawn on top, that covers a point.
 std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point at);
 
-/// The bodies that can move, in a box; where there are none, all of them.
-Box extent(const Plan& plan, const Frame& frame);
+/// The bodies that can move, as they are at t = 0, in a box; where there are none, all of them.
+Box extent(const Plan& plan);
 
 }  // namespace ductile::viewer
