@@ -275,7 +275,6 @@ void add_simulate(CLI::App& app, std::string& output) {
                    "as b2World::Step (default 3)")
       ->check(iterations);
   command->add_option("--history", options->history, "write every step's values to this CSV file");
-<<<<<<< HEAD
   auto* picture =
       command->add_option("--picture", options->pictures,
                           "draw the scene before and after to this SVG or PNG file; may be repeated");
@@ -284,10 +283,8 @@ void add_simulate(CLI::App& app, std::string& output) {
       ->delimiter(',')
       ->needs(picture)
       ->check(finite(0));
-=======
   command->add_option("--replay", options->replay,
                       "write this HTML page, which plays the run back in any browser");
->>>>>>> 9558cc4 (Replays: a run as one self-contained page that plays, slides and tells numbers; tried in headless Chromium)
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

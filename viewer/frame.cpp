@@ -30,6 +30,7 @@ Frame see(Simulation& simulation) {
     }
     frame.report = structure->report();
   }
+  if (const EnergyLedger* ledger = simulation.ledger()) frame.energy = ledger->energy();
   return frame;
 }
 

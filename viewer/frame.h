@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ductile/ledger.h"
 #include "ductile/simulation.h"
 #include "geometry.h"
 
@@ -13,20 +14,14 @@ struct Pose {
   double angle = 0;
 };
 
-/// J.
-struct Energy {
-  double kinetic = 0, potential = 0;   ///< of the pieces; potential is 0 at the start
-  double elastic = 0, dissipated = 0;  ///< of the joints
-};
-
 struct Frame {
   double time = 0;  ///< s
   std::vector<PieceReading> pieces;
   std::vector<JointReading> joints;
   std::vector<Pose> thrown;  ///< bodies that a user added while it ran
-  Energy energy;
-  StepReport report;   ///< zero with stock joints
-  double step_us = 0;  ///< µs: b2World::Step alone
+  Energy energy;             ///< with the direct solver all of it, else what is stored and dissipated
+  StepReport report;         ///< zero with stock joints
+  double step_us = 0;        ///< µs: b2World::Step alone
 
   /// Bytes of memory.
   std::size_t size() const;

@@ -7,18 +7,22 @@
 namespace ductile::viewer {
 namespace {
 
-bool inside(const Convex& polygon, Point p) {  // counter-clockwise
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if (cross(b - a, p - a) < 0) return false;
+/// Whether a ray to the right crosses the ring an odd number of times.
+bool inside(const Ring& ring, Point p) {
+  bool odd = false;
+  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+    const Point a = ring[last], b = ring[i];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
   }
-  return true;
+  return odd;
 }
 
-bool covers(const Piece& piece, Point local) {
-  if (piece.circle > 0) return length(local) <= piece.circle;
-  return std::any_of(piece.fixtures.begin(), piece.fixtures.end(),
-                     [&](const Convex& convex) { return inside(convex, local); });
+/// Of a point as it was at t = 0.
+bool covers(const Piece& piece, Point p) {
+  if (piece.circle > 0) return length(p - piece.center) <= piece.circle;
+  return inside(piece.outline.outer, p) &&
+         std::none_of(piece.outline.holes.begin(), piece.outline.holes.end(),
+                      [&](const Ring& hole) { return inside(hole, p); });
 }
 
 }  // namespace
@@ -53,7 +57,8 @@ std::vector<std::size_t> joints_from(const Frame& frame, double least) {
 
 std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point at) {
   for (std::size_t i = plan.pieces.size(); i-- > 0;) {
-    if (covers(plan.pieces[i], Turn(frame.pieces[i].angle).back(at - frame.pieces[i].position))) return i;
+    const PieceReading& now = frame.pieces[i];
+    if (covers(plan.pieces[i], plan.pieces[i].center + Turn(now.angle).back(at - now.position))) return i;
   }
   return std::nullopt;
 }

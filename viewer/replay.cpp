@@ -202,8 +202,8 @@ void Replay::take(const Simulation& simulation) {
 }
 
 void Replay::thin() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < frames_.size(); i += 2, ++kept) {
+  std::size_t kept = 1;
+  for (std::size_t i = 2; i < frames_.size(); i += 2, ++kept) {
     frames_[kept] = std::move(frames_[i]);
     times_[kept] = times_[i];
   }

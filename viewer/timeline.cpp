@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 namespace ductile::viewer {
 namespace {
@@ -17,7 +18,7 @@ b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y
 }  // namespace
 
 Timeline::Timeline(Plan plan, JointSolver solver, std::vector<Entry> acts, std::size_t memory)
-    : simulation_(std::make_unique<Simulation>(std::move(plan), solver)),
+    : simulation_(std::make_unique<Simulation>(std::move(plan), solver, Stepping{}, true)),
       acts_(std::move(acts)),
       memory_(memory) {
   arrive();
@@ -101,15 +102,17 @@ void Timeline::act(const Act& what) {
 
 void Timeline::start_again() {
   thrown_.clear();
+  thrown_energy_ = fresh_energy_ = 0;
   hand_ = nullptr;
   grip_ = nullptr;
   events_told_ = 0;
-  simulation_ = std::make_unique<Simulation>(plan(), solver());
+  simulation_ = std::make_unique<Simulation>(plan(), solver(), Stepping{}, true);
   arrive();
 }
 
 // The world has come to a step: what belongs to it is done, and what there is to see is kept.
 void Timeline::arrive() {
+  thrown_energy_ += std::exchange(fresh_energy_, 0);
   for (const Entry& entry : acts_) {
     if (entry.step == simulation_->steps()) apply(entry.act);
   }
@@ -125,6 +128,8 @@ void Timeline::keep() {
   if (step < last_kept()) return;
 
   Frame frame = see(*simulation_);
+  frame.energy.external += thrown_energy_;
+  frame.energy.total_error -= thrown_energy_;
   for (const b2Body* body : thrown_) {
     frame.thrown.push_back({{body->GetWorldCenter().x, body->GetWorldCenter().y}, body->GetAngle()});
   }
@@ -191,6 +196,12 @@ void Timeline::apply(const Act& what) {
             fixture.friction = 0.3f;
             thrown_.push_back(world.CreateBody(&def));
             thrown_.back()->CreateFixture(&fixture);
+            // The ledger takes what is there at its start for granted.
+            if (simulation_->steps() > 0) {
+              const b2Vec2 g = world.GetGravity();
+              fresh_energy_ +=
+                  thrown.mass * (dot(thrown.velocity, thrown.velocity) / 2 - dot({g.x, g.y}, thrown.at));
+            }
           },
           [&](const act::Drive& drive) {
             float brake = 0;
