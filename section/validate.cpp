@@ -198,7 +198,6 @@ class Sweep {
       split_edges();
       walk();
     }
-    if (problems_.empty() && !order_lost_) problems_ = std::move(cover_problems_);
     return std::move(problems_);
   }
 
@@ -251,7 +250,6 @@ class Sweep {
 
   void walk() {
     splits_.clear();
-    cover_problems_.clear();
     status_.clear();
     order_lost_ = false;
     std::vector<Event> events;
@@ -274,9 +272,13 @@ class Sweep {
     const Point p = events.front().p;
     const auto [old_first, old_last] = status_.equal_range(At{p});
     end_faces(p, old_first, old_last);
-    if (first_walk_) report_touching(events, old_first, old_last);
+    through_.clear();
+    for (auto it = old_first; it != old_last; ++it)
+      if (edges_[*it].right != p) through_.push_back(*it);
+    if (first_walk_) report_touching(events);
     for (const Event& event : events)
       if (!event.starts && !edges_[event.edge].removed) status_.erase(event.edge);
+    part_through();
     for (const Event& event : events)
       if (event.starts) status_.insert(event.edge);
 
@@ -295,14 +297,30 @@ class Sweep {
     }
   }
 
+  /// Edges that pass through the vertex at hand, seen before those that end there were taken out, cross one
+  /// another in it.
+  void part_through() {
+    for (std::size_t i = 1; i < through_.size(); ++i) {
+      const std::size_t a = through_[i - 1], b = through_[i];
+      if (!cross(edges_[a].left, edges_[a].right, edges_[b].left, edges_[b].right)) continue;
+      if (!only_rounding(a, b)) report_crossing(a, b);
+      take_out(b);
+      through_[i] = a;
+    }
+  }
+
+  Status::iterator take_out(std::size_t e) {
+    order_lost_ = true;
+    edges_[e].removed = true;
+    return status_.erase(status_.find(e));
+  }
+
   /// Where two neighbours cross farther on, reports it and takes one of them out.
   void part_crossing(std::size_t a, std::size_t b) {
     while (a != none && b != none &&
            cross(edges_[a].left, edges_[a].right, edges_[b].left, edges_[b].right)) {
       if (!only_rounding(a, b)) report_crossing(a, b);
-      order_lost_ = true;
-      edges_[b].removed = true;
-      b = edge_at(status_.erase(status_.find(b)));
+      b = edge_at(take_out(b));
     }
   }
 
@@ -333,7 +351,7 @@ class Sweep {
   }
 
   /// Vertices of a ring that fall on one another or on another edge of it.
-  void report_touching(std::span<const Event> events, Status::iterator first, Status::iterator last) {
+  void report_touching(std::span<const Event> events) {
     const Point p = events.front().p;
     const auto at = [p] { return "(" + number(p.x) + ", " + number(p.y) + ")"; };
     // vertices at p; two events each
@@ -352,9 +370,8 @@ class Sweep {
                              "is the same point " + at() + " as vertex " + std::to_string(other),
                              "a ring must not touch itself"});
     }
-    for (auto it = first; it != last; ++it) {
-      const Edge& edge = edges_[*it];
-      if (edge.right == p) continue;
+    for (const std::size_t e : through_) {
+      const Edge& edge = edges_[e];
       const auto own =
           std::lower_bound(touching_.begin(), touching_.end(), std::pair{edge.loop, std::size_t{0}});
       if (own != touching_.end() && own->first == edge.loop)
@@ -421,7 +438,7 @@ class Sweep {
 
   /// Who covers the face above edge e?
   void report_cover(std::size_t e, Point p) {
-    if (cover_problems_.size() >= enough || order_lost_ || ++reports_ > 10 * enough) return;
+    if (problems_.size() >= enough || order_lost_ || ++reports_ > 10 * enough) return;
     std::map<std::size_t, int> cover;  // by loop
     for (const std::size_t other : status_) {
       cover[edges_[other].loop] += edges_[other].solid_above;
@@ -437,12 +454,13 @@ class Sweep {
     for (const auto& [region, entry] : by_region)
       if (entry.second > 0) covering.push_back(entry.first);
     if (covering.size() < 2) covering = holes;
+    if (covering.empty()) return;
     const std::size_t b = covering.back(), a = covering.size() > 1 ? covering[covering.size() - 2] : none;
     if (!told_.insert({a, b}).second) return;
     if (a == none)
-      cover_problems_.push_back({loops_[b].place(), "lies outside its outline " + near(p), remedy(b, b)});
+      problems_.push_back({loops_[b].place(), "lies outside its outline " + near(p), remedy(b, b)});
     else
-      cover_problems_.push_back(
+      problems_.push_back(
           {loops_[b].place(), "overlaps " + loops_[a].place() + " in area " + near(p), remedy(a, b)});
   }
 
@@ -455,10 +473,11 @@ class Sweep {
   bool first_walk_ = true;   // over the rings as given
   bool order_lost_ = false;  // edges were taken out, so the cover is not known
   std::size_t reports_ = 0;
+  std::vector<std::size_t> through_;  // edges that contain the vertex at hand and go on
   std::vector<std::pair<std::size_t, std::size_t>> touching_;  // loop, vertex
   std::map<std::size_t, std::vector<Point>> splits_;           // edge → vertices of other rings on it
   std::set<std::pair<std::size_t, std::size_t>> told_;
-  std::vector<Problem> problems_, cover_problems_;
+  std::vector<Problem> problems_;
 };
 
 /// m: what rounding may move a point on an edge whose ends have coordinates as large as these.
