@@ -1,4 +1,5 @@
 include(GNUInstallDirs)
+set(DUCTILE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/ductile)
 
 # Our own code is built with warnings as errors when ductile itself is what is being built; a project that adds
 # ductile keeps its own flags.
@@ -12,7 +13,8 @@ if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
 endif()
 
 # ductile_room(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one room of the house, as ductile::NAME.
-# Its public headers are in NAME/include/ductile.
+# Its public headers are in NAME/include/ductile. Installed, it is a component of the package of its own, so that a game
+# with precomputed capacities can have joint alone.
 function(ductile_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(ductile_${name} STATIC ${ROOM_SOURCES})
@@ -23,4 +25,9 @@ function(ductile_room name)
   target_compile_features(ductile_${name} PUBLIC cxx_std_20)
   target_link_libraries(ductile_${name} PUBLIC ${ROOM_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:ductile_options> ${ROOM_PRIVATE})
+  if(DUCTILE_INSTALL)
+    install(TARGETS ductile_${name} EXPORT ductile-${name})
+    install(DIRECTORY include/ductile DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(EXPORT ductile-${name} NAMESPACE ductile:: DESTINATION ${DUCTILE_CMAKE_DIR})
+  endif()
 endfunction()

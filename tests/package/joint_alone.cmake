@@ -1,0 +1,16 @@
+# joint/ is built, installed and used without CGAL, and nothing of GMP or MPFR is linked.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+configure(${SOURCE} ${SCRATCH}/ductile -D DUCTILE_SECTION=OFF -D DUCTILE_TESTS=OFF -D DUCTILE_BENCH=OFF
+  -D CMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -D CMAKE_INSTALL_PREFIX=${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/ductile --target install)
+configure(${CMAKE_CURRENT_LIST_DIR}/outside ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix -D ROOMS=joint)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build --verbose)
+if(NOT printed MATCHES "libductile_joint" OR printed MATCHES "gmp|mpfr|CGAL|ductile_section")
+  message(FATAL_ERROR "linked with:\n${printed}")
+endif()
+run(${SCRATCH}/build/game)
+run(readelf -d ${SCRATCH}/build/game)
+if(printed MATCHES "gmp|mpfr")
+  message(FATAL_ERROR "needs:\n${printed}")
+endif()
+refused("component section is not installed" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/outside -B ${SCRATCH}/build -D ROOMS=section)

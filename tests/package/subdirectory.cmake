@@ -1,0 +1,12 @@
+# add_subdirectory(ductile): only the libraries are added, no tests, no command, no install rules, no warnings as errors.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+configure(${CMAKE_CURRENT_LIST_DIR}/outside ${SCRATCH}/build -D SOURCE=${SOURCE})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build --target help)
+if(printed MATCHES "_tests|ductile_command|ductile_bench" OR NOT printed MATCHES "ductile_files")
+  message(FATAL_ERROR "has these targets:\n${printed}")
+endif()
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build --target game --verbose)
+if(printed MATCHES "Werror")
+  message(FATAL_ERROR "warnings are errors in another's project:\n${printed}")
+endif()
+run(${SCRATCH}/build/game)
