@@ -151,6 +151,34 @@ b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& j) {
   return def;
 }
 
+std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& j) {
+  const auto anchored = [&](auto def) {
+    place_anchors(def, plan, j);
+    return def;
+  };
+  const auto along = [&](auto def, Point axis) {
+    def.localAxisA = vector(axis);
+    return anchored(def);
+  };
+  const bool axial_free = std::max(j.N, j.Nc) == 0, shear_free = j.Q == 0,
+             turns = std::max(j.M, j.M_reverse) == 0;
+  if (axial_free && shear_free) {
+    if (turns) return std::nullopt;
+    b2MotorJointDef def;  // holds the angle only
+    def.maxForce = 0;
+    def.maxTorque = std::numeric_limits<float>::max();
+    def.correctionFactor = 1;
+    return def;
+  }
+  if (axial_free || shear_free) {
+    const Point free_axis = axial_free ? j.axis : left(j.axis);
+    if (turns) return along(b2WheelJointDef{}, free_axis);  // without a spring: a point on a line
+    return along(b2PrismaticJointDef{}, free_axis);
+  }
+  if (turns) return anchored(b2RevoluteJointDef{});
+  return weld_def(plan, j);
+}
+
 std::vector<std::string> lost_in_weld(const PlannedJoint& j) {
   std::vector<std::string> lost;
   if (std::max(j.M, j.M_reverse) == 0)
@@ -216,16 +244,23 @@ std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j,
 
 // --- fixtures ---
 
+std::optional<b2PolygonShape> polygon_shape(const std::vector<Point>& points) {
+  if (points.size() < 3) return std::nullopt;
+  const Ring ring = without_detail(hull(points));
+  if (ring.size() < 3 || ring.size() > b2_maxPolygonVertices || width(ring) < b2_linearSlop)
+    return std::nullopt;
+  b2Vec2 vertices[b2_maxPolygonVertices];
+  std::transform(ring.begin(), ring.end(), vertices, vector);
+  b2PolygonShape shape;
+  shape.Set(vertices, static_cast<int32>(ring.size()));
+  return shape;
+}
+
 std::vector<b2PolygonShape> shapes(const Piece& piece) {
   const double w = piece.outline.outer.empty() ? 0 : width(hull(piece.outline.outer));
   std::vector<b2PolygonShape> result;
-  for (const Convex& part : convex_parts(piece)) {
-    const Ring ring = without_detail(part);
-    if (ring.size() < 3 || width(ring) < b2_linearSlop) continue;
-    b2Vec2 vertices[b2_maxPolygonVertices];
-    std::transform(ring.begin(), ring.end(), vertices, vector);
-    result.emplace_back().Set(vertices, static_cast<int32>(ring.size()));
-  }
+  for (const Convex& part : convex_parts(piece))
+    if (const auto shape = polygon_shape(part)) result.push_back(*shape);
   if (w < 4 * b2_linearSlop || result.empty())
     throw InvalidInput({{"piece '" + piece.name + "'",
                          "is " + to_string(w) + " m wide, and Box2D collides nothing below 0.02 m",

@@ -52,42 +52,17 @@ Point mass_centre(const Plan& plan, int body) {
 
 b2Joint* create_stock_joint(b2World& world, const Plan& plan, const PlannedJoint& j, b2Body* a, b2Body* b,
                             bool all_rigid) {
-  const auto create = [&](auto def) {
-    def.bodyA = a;
-    def.bodyB = b;
-    return world.CreateJoint(&def);
-  };
-  const auto weld = weld_def(plan, j);
-  const auto anchored = [&](auto def) {
-    def.localAnchorA = weld.localAnchorA;
-    def.localAnchorB = weld.localAnchorB;
-    return def;
-  };
-  const auto along = [&](auto def, Point axis) {
-    def = anchored(def);
-    def.localAxisA = vector(axis);
-    return def;
-  };
-  const bool axial_free = std::max(j.N, j.Nc) == 0, shear_free = j.Q == 0,
-             turns = std::max(j.M, j.M_reverse) == 0;
-  if (axial_free && shear_free && turns) return nullptr;
-  if (axial_free && shear_free) {  // holds the angle only
-    b2MotorJointDef def;
-    def.maxForce = 0;
-    def.maxTorque = std::numeric_limits<float>::max();
-    def.correctionFactor = 1;
-    def.angularOffset = 0;
-    return create(def);
-  }
-  if (axial_free || shear_free) {
-    const Point free_axis = axial_free ? j.axis : left(j.axis);
-    if (turns) return create(along(b2WheelJointDef{}, free_axis));  // without a spring: a point on a line
-    return create(along(b2PrismaticJointDef{}, free_axis));
-  }
-  if (turns) return create(anchored(b2RevoluteJointDef{}));
-  b2WeldJointDef def = weld;
-  if (all_rigid) def.stiffness = def.damping = 0;
-  return create(def);
+  std::optional<StockJointDef> stock = stock_def(plan, j);
+  if (!stock) return nullptr;
+  if (auto* weld = std::get_if<b2WeldJointDef>(&*stock); weld && all_rigid)
+    weld->stiffness = weld->damping = 0;
+  return std::visit(
+      [&](auto& def) {
+        def.bodyA = a;
+        def.bodyB = b;
+        return world.CreateJoint(&def);
+      },
+      *stock);
 }
 
 b2Body* body_of(const Built& built, int piece) { return piece < 0 ? built.ground : built.bodies[piece]; }

@@ -7,7 +7,9 @@
 
 #include <box2d/box2d.h>
 
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "ductile/calibrate.h"
@@ -27,6 +29,15 @@ b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& joint);
 /// way at the joint's plastic moment (the smaller of both senses).
 b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& joint);
 
+/// The stock joints that stand for planned ones.
+using StockJointDef =
+    std::variant<b2WeldJointDef, b2RevoluteJointDef, b2PrismaticJointDef, b2WheelJointDef, b2MotorJointDef>;
+
+/// The stock joint that leaves free what is free in the joint's rows: a revolute, prismatic or motor joint,
+/// or a wheel joint without a spring (a point on a line). Where no row is free, weld_def(). Nothing where all
+/// are.
+std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& joint);
+
 /// What of the plan a stock weld or hinge does not do, in plain words; empty where nothing is lost.
 std::vector<std::string> lost_in_weld(const PlannedJoint& joint);
 std::vector<std::string> lost_in_hinge(const PlannedJoint& joint);
@@ -35,6 +46,10 @@ std::vector<std::string> lost_in_hinge(const PlannedJoint& joint);
 /// extent: of both sides where two bodies meet, stretched and cut to overridden caps. Empty where a cap is
 /// unlimited or 0, or no section is known.
 std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& joint, double tolerance = 1e-3);
+
+/// The hull of the points as a fixture that Box2D takes: without vertices that it would weld, or that stand
+/// out less than its floats tell. None where that is thinner than b2_linearSlop or has more than 8 vertices.
+std::optional<b2PolygonShape> polygon_shape(const std::vector<Point>& points);
 
 /// The fixtures of a piece that is not a disc, about its centre. Parts too thin for Box2D to collide (below
 /// b2_linearSlop) are left out, which costs nothing: mass comes from the outline. A piece thinner than
