@@ -2,149 +2,288 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace ductile {
 namespace {
 
-double dot(const b2Vec2& a, const b2Vec2& b) { return double{a.x} * b.x + double{a.y} * b.y; }
-double cross(const b2Vec2& a, const b2Vec2& b) { return double{a.x} * b.y - double{a.y} * b.x; }
+double operator*(const Wrench& w, const Speed& v) { return w.x * v.x + w.y * v.y + w.moment * v.turn; }
+Wrench operator*(double s, const Wrench& w) { return {s * w.x, s * w.y, s * w.moment}; }
+Wrench& operator+=(Wrench& a, const Wrench& b) {
+  a.x += b.x;
+  a.y += b.y;
+  a.moment += b.moment;
+  return a;
+}
+Speed mean(const Speed& a, const Speed& b) {
+  return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.turn + b.turn) / 2};
+}
+
+Speed speed_of(const b2Body& body) {
+  const b2Vec2 v = body.GetLinearVelocity();
+  return {v.x, v.y, body.GetAngularVelocity()};
+}
+
+/// A force or impulse with a lever to the centre of mass.
+Wrench acting(const b2Vec2& arm, double x, double y, double moment = 0) {
+  return {x, y, arm.x * y - arm.y * x + moment};
+}
+
+double inertia(const b2Body& body) {
+  return body.GetInertia() - double{body.GetMass()} * body.GetLocalCenter().LengthSquared();
+}
+
+double kinetic(const b2Body& body, const Speed& v) {
+  return (body.GetMass() * (v.x * v.x + v.y * v.y) + inertia(body) * v.turn * v.turn) / 2;
+}
+
+Wrench weight(const b2Body& body, const b2Vec2& gravity) {
+  const double m = double{body.GetMass()} * body.GetGravityScale();
+  return {m * gravity.x, m * gravity.y};
+}
+
+bool is_dynamic(const b2Body& body) { return body.GetType() == b2_dynamicBody; }
+
+template <class List, class Do>
+void each(List* list, Do todo) {
+  for (; list; list = list->GetNext()) todo(*list);
+}
 
 }  // namespace
 
-EnergyLedger::EnergyLedger(b2World& world) : world_(&world) { world.SetContactListener(this); }
+EnergyLedger::EnergyLedger(b2World& world, std::span<b2Joint* const> judged)
+    : world_(world), judged_(judged.begin(), judged.end()) {
+  world.SetContactListener(this);
+  each(world_.GetBodyList(), [&](b2Body& body) { origins_.emplace(&body, body.GetWorldCenter()); });
+  last_ = mechanical();
+  start_ = last_ + stored_in_springs();
+  sum_up(nullptr);
+}
+
+double EnergyLedger::mechanical() const {
+  double sum = 0;
+  for (const b2Body* body = std::as_const(world_).GetBodyList(); body; body = body->GetNext()) {
+    if (!is_dynamic(*body)) continue;
+    sum += kinetic(*body, speed_of(*body));
+    if (const auto origin = origins_.find(body); origin != origins_.end()) {
+      const b2Vec2 moved = body->GetWorldCenter() - origin->second;
+      sum -= weight(*body, world_.GetGravity()) * Speed{moved.x, moved.y};
+    }
+  }
+  return sum;
+}
+
+double EnergyLedger::stored_in_springs() const {
+  double sum = 0;
+  each(world_.GetJointList(), [&](b2Joint& joint) {
+    if (const auto spring = spring_of(joint)) sum += spring->stiffness * spring->strain * spring->strain / 2;
+  });
+  return sum;
+}
 
 void EnergyLedger::before_step(double dt, const std::vector<AppliedLoad>& loads) {
   dt_ = dt;
-  const b2Vec2 g = world_->GetGravity();
-  if (started_) {
-    // Bodies hang higher or lower in a gravity that changes.
-    for (const b2Body* b = world_->GetBodyList(); b; b = b->GetNext()) {
-      if (b->GetType() != b2_dynamicBody) continue;
-      sum_.external -= double{b->GetMass()} * b->GetGravityScale() * dot(g - gravity_, b->GetWorldCenter());
-    }
-  }
-  gravity_ = g;
-  before_.clear();
-  for (b2Body* b = world_->GetBodyList(); b; b = b->GetNext()) {
-    before_[b] = {b->GetLinearVelocity(), b->GetWorldCenter(), b->GetAngularVelocity(), b->IsAwake()};
-  }
-  if (!started_) {
-    started_ = true;
-    measure();
-    start_ = sum_.kinetic + sum_.potential;
-    potential_at_start_ = sum_.potential;
-  }
-  contacts_.clear();
-  own_.clear();
+  motions_.clear();
+  manifolds_.clear();
+  holds_.clear();
+  each(world_.GetBodyList(), [&](b2Body& body) {
+    origins_.emplace(&body, body.GetWorldCenter());
+    motions_[&body] = {.place = body.GetWorldCenter(), .before = speed_of(body)};
+  });
+  each(world_.GetJointList(), [&](b2Joint& joint) {
+    const b2Vec2 at = joint.GetAnchorB();  // where prismatic and wheel joints act on both bodies
+    holds_[&joint] = {at - joint.GetBodyA()->GetWorldCenter(), at - joint.GetBodyB()->GetWorldCenter(),
+                      spring_of(joint)};
+  });
   for (const AppliedLoad& load : loads) {
-    const float h = static_cast<float>(dt);
-    own_.push_back(
-        {nullptr, load.body, h * load.force, {0, 0}, load.at - load.body->GetWorldCenter(), h * load.moment});
+    motions_[load.body].loads +=
+        acting(load.at - load.body->GetWorldCenter(), load.force.x, load.force.y, load.moment);
   }
-  // Stock joints of the world: their impulses are known after the step, their arms now.
-  joints_.clear();
-  joint_arms_.clear();
-  for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) {
-    if (ElasticPlasticJoint::cast(j) != nullptr) continue;
-    b2Body *a = j->GetBodyA(), *b = j->GetBodyB();
-    const b2Vec2 at = j->GetAnchorB();
-    joints_.push_back(j);
-    joint_arms_.push_back({a, b, {0, 0}, at - a->GetWorldCenter(), at - b->GetWorldCenter(), 0});
+  sums_.external += mechanical() - last_;
+}
+
+void EnergyLedger::after_step(const Structure* structure) {
+  each(world_.GetBodyList(), [&](b2Body& body) {
+    if (const auto motion = motions_.find(&body); motion != motions_.end()) account(body, motion->second);
+  });
+  each(world_.GetJointList(), [&](b2Joint& joint) { account(joint); });
+  last_ = mechanical();
+  sum_up(structure);
+}
+
+void EnergyLedger::sum_up(const Structure* structure) {
+  now_ = sums_;
+  each(world_.GetBodyList(), [&](b2Body& body) {
+    if (is_dynamic(body)) now_.kinetic += kinetic(body, speed_of(body));
+  });
+  now_.potential = last_ - now_.kinetic;
+  now_.elastic = stored_in_springs();
+  if (structure) {
+    const JointEnergy joints = structure->energy();
+    now_.elastic += joints.elastic;
+    now_.dissipated = joints.dissipated;
+    now_.damping += joints.damping;
+    now_.numerical += joints.numerical;
+    now_.clamped += joints.clamped;
+  }
+  const double stored = now_.kinetic + now_.potential + now_.elastic;
+  const double taken = now_.dissipated + now_.damping + now_.numerical + now_.clamped;
+  now_.total_error = stored + taken - now_.external - now_.contacts - start_;
+  turnover_ = std::max(turnover_, now_.kinetic + std::abs(now_.potential) + now_.elastic + now_.dissipated +
+                                      now_.damping + std::abs(now_.external) + std::abs(now_.contacts));
+}
+
+/// Marks what a contact may have moved: the body, and with it its structure.
+void EnergyLedger::touch(b2Body& body) {
+  std::vector<b2Body*> open{&body};
+  while (!open.empty()) {
+    b2Body* const next = open.back();
+    open.pop_back();
+    const auto motion = motions_.find(next);
+    if (motion == motions_.end() || std::exchange(motion->second.touched, true) || !is_dynamic(*next))
+      continue;
+    for (b2JointEdge* edge = next->GetJointList(); edge; edge = edge->next) {
+      if (ElasticPlasticJoint::cast(edge->joint)) open.push_back(edge->other);
+    }
   }
 }
 
+void EnergyLedger::account(b2Body& body, const Motion& motion) {
+  if (body.GetType() == b2_kinematicBody) {
+    // What a moving body is made to do against contacts, it does to the others.
+    const double taken = motion.contacts * speed_of(body);
+    sums_.contacts += taken;
+    sums_.external -= taken;
+  }
+  if (!is_dynamic(body)) return;
+  Speed after = speed_of(body);
+  const Speed moving = after;  // what the pose was integrated with
+  sums_.clamped += clamped(body, motion, after);
+  const Speed middle = mean(motion.before, after);
+  sums_.contacts += motion.contacts * middle;
+
+  // Weight and loads work along the way that the body went.
+  const Wrench weight_now = weight(body, world_.GetGravity());
+  const b2Vec2 way = body.GetWorldCenter() - motion.place;
+  const Speed went = motion.sub_stepped ? Speed{way.x / dt_, way.y / dt_, moving.turn} : moving;
+  const double by_loads = dt_ * (motion.loads * went);
+  sums_.external += by_loads;
+  sums_.numerical += by_loads - dt_ * (motion.loads * middle);
+  sums_.numerical += dt_ * (weight_now * went) - dt_ * (weight_now * middle);
+  if (motion.sub_stepped || is_judged(body)) return;
+  // What it moved besides: bodies that overlap are pushed apart, and on to their structure, without any
+  // velocity; poses are rounded to floats.
+  const double lifted = -(weight_now * Speed{way.x - dt_ * moving.x, way.y - dt_ * moving.y});
+  if (motion.touched) {
+    sums_.contacts += lifted;
+  } else {
+    sums_.numerical -= lifted;
+  }
+}
+
+bool EnergyLedger::is_judged(const b2Body& body) const {
+  for (const b2JointEdge* edge = body.GetJointList(); edge; edge = edge->next) {
+    if (judged_.contains(edge->joint)) return true;
+  }
+  return false;
+}
+
+/// What a joint exerted on its bodies in the last step, N.
+std::pair<Wrench, Wrench> EnergyLedger::reaction(b2Joint& joint, const Hold& hold) const {
+  const float inv_dt = static_cast<float>(1 / dt_);
+  const b2Vec2 force = joint.GetReactionForce(inv_dt);
+  const double moment = joint.GetReactionTorque(inv_dt);
+  return {acting(hold.arm_a, -force.x, -force.y, -moment), acting(hold.arm_b, force.x, force.y, moment)};
+}
+
+/// Box2D moves a body at most 2 m and π/2 a step, and slows it down to that. `after` becomes what it would
+/// have been. A structure sees to its own bodies.
+double EnergyLedger::clamped(b2Body& body, const Motion& motion, Speed& after) const {
+  const bool fast = std::hypot(after.x, after.y) * dt_ > b2_maxTranslation * (1 - 1e-5);
+  const bool turns_fast = std::abs(after.turn) * dt_ > b2_maxRotation * (1 - 1e-5);
+  if (!fast && !turns_fast) return 0;
+  Wrench impulse = motion.contacts;
+  impulse += dt_ * weight(body, world_.GetGravity());
+  impulse += dt_ * motion.loads;
+  for (b2JointEdge* edge = body.GetJointList(); edge; edge = edge->next) {
+    if (ElasticPlasticJoint::cast(edge->joint)) return 0;
+    const auto hold = holds_.find(edge->joint);
+    if (hold == holds_.end()) continue;
+    const auto [on_a, on_b] = reaction(*edge->joint, hold->second);
+    impulse += dt_ * (edge->joint->GetBodyA() == &body ? on_a : on_b);
+  }
+  const Speed slowed = after;
+  if (fast) {
+    after.x = motion.before.x + impulse.x / body.GetMass();
+    after.y = motion.before.y + impulse.y / body.GetMass();
+  }
+  if (turns_fast && inertia(body) > 0) after.turn = motion.before.turn + impulse.moment / inertia(body);
+  return kinetic(body, after) - kinetic(body, slowed);
+}
+
+std::optional<EnergyLedger::Spring> EnergyLedger::spring_of(b2Joint& joint) const {
+  if (joint.GetType() != e_weldJoint || !judged_.contains(&joint)) return std::nullopt;
+  const auto& weld = static_cast<b2WeldJoint&>(joint);
+  const b2Body &a = *joint.GetBodyA(), &b = *joint.GetBodyB();
+  return Spring{weld.GetStiffness(), weld.GetDamping(),
+                double{b.GetAngle()} - a.GetAngle() - weld.GetReferenceAngle(),
+                double{b.GetAngularVelocity()} - a.GetAngularVelocity()};
+}
+
+void EnergyLedger::account(b2Joint& joint) {
+  const auto found = holds_.find(&joint);
+  if (found == holds_.end()) return;
+  const Hold& hold = found->second;
+  const bool ductile = ElasticPlasticJoint::cast(&joint) != nullptr, judged = judged_.contains(&joint);
+  const auto work_on = [&](const b2Body& body, const Wrench& force) {
+    if (body.GetType() == b2_staticBody) return 0.;
+    const Motion& motion = motions_[&body];
+    const double work = dt_ * (force * mean(motion.before, speed_of(body)));
+    // A joint that is accounted for row by row takes what it takes; what a kinematic body gives it is
+    // outside's.
+    if (ductile || judged) return is_dynamic(body) ? 0. : -work;
+    return is_dynamic(body) ? work : 0.;
+  };
+  const auto [on_a, on_b] = reaction(joint, hold);
+  sums_.external += work_on(*joint.GetBodyA(), on_a) + work_on(*joint.GetBodyB(), on_b);
+  if (!hold.spring) return;
+  // Implicit Euler, as in the ductile joint: R = k e' + c ė', of which R h v̄ is taken from the bodies.
+  const auto& [k, c, strain, before] = *hold.spring;
+  const double speed = spring_of(joint)->speed, change = dt_ * speed;
+  const double R = k * (strain + change) + c * speed;
+  sums_.damping += c * speed * change;
+  sums_.numerical += k * change * change / 2 + R * dt_ * (before - speed) / 2;
+}
+
 void EnergyLedger::PreSolve(b2Contact* contact, const b2Manifold*) {
-  contact->GetWorldManifold(&manifolds_[contact]);
-  auto& m = manifolds_[contact];
-  // Kept as arms: the bodies will have moved when the impulses are told.
-  const b2Vec2 a = contact->GetFixtureA()->GetBody()->GetWorldCenter();
-  const b2Vec2 b = contact->GetFixtureB()->GetBody()->GetWorldCenter();
-  arms_[contact] = {m.points[0] - a, m.points[0] - b, m.points[1] - a, m.points[1] - b};
+  b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
+  Manifold& manifold = manifolds_[contact];
+  contact->GetWorldManifold(&manifold.world);
+  manifold.center_a = a.GetWorldCenter();
+  manifold.center_b = b.GetWorldCenter();
+  for (const b2Body* body : {&a, &b}) {
+    const auto motion = motions_.find(body);
+    if (motion != motions_.end() && body->GetWorldCenter() != motion->second.place) {
+      motion->second.sub_stepped = true;
+    }
+  }
 }
 
 void EnergyLedger::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   const auto found = manifolds_.find(contact);
   if (found == manifolds_.end()) return;
-  const b2Vec2 n = found->second.normal, t = b2Cross(n, 1.0f);
-  const auto& arms = arms_[contact];
+  const Manifold& manifold = found->second;
+  const b2Vec2 normal = manifold.world.normal, tangent = b2Cross(normal, 1.0f);
+  touch(*contact->GetFixtureA()->GetBody());
+  touch(*contact->GetFixtureB()->GetBody());
   for (int i = 0; i < impulse->count; ++i) {
-    contacts_.push_back({contact->GetFixtureA()->GetBody(), contact->GetFixtureB()->GetBody(),
-                         impulse->normalImpulses[i] * n + impulse->tangentImpulses[i] * t,
-                         arms[static_cast<std::size_t>(2 * i)], arms[static_cast<std::size_t>(2 * i + 1)],
-                         0});
+    const b2Vec2 point = manifold.world.points[i];
+    const double n = impulse->normalImpulses[i], t = impulse->tangentImpulses[i];
+    const double x = n * normal.x + t * tangent.x, y = n * normal.y + t * tangent.y;
+    motions_[contact->GetFixtureA()->GetBody()].contacts += acting(point - manifold.center_a, -x, -y);
+    motions_[contact->GetFixtureB()->GetBody()].contacts += acting(point - manifold.center_b, x, y);
   }
-}
-
-double EnergyLedger::work(const Push& p) const {
-  const auto on = [&](const b2Body* body, const b2Vec2& arm) {
-    if (body == nullptr || body->GetType() != b2_dynamicBody) return 0.0;
-    const auto found = before_.find(body);
-    const Motion then = found != before_.end() ? found->second : Motion{};
-    const b2Vec2 v = 0.5f * (then.v + body->GetLinearVelocity());
-    const double w = (double{then.w} + body->GetAngularVelocity()) / 2;
-    return dot(p.impulse, v) + (body->IsFixedRotation() ? 0 : w * (cross(arm, p.impulse) + p.twist));
-  };
-  return on(p.b, p.arm_b) - on(p.a, p.arm_a);
-}
-
-double EnergyLedger::kinetic(const b2Body& b) {
-  const double v2 = dot(b.GetLinearVelocity(), b.GetLinearVelocity()), w = b.GetAngularVelocity();
-  const double inertia = double{b.GetInertia()} - b.GetMass() * dot(b.GetLocalCenter(), b.GetLocalCenter());
-  return (b.GetMass() * v2 + (b.IsFixedRotation() ? 0 : inertia) * w * w) / 2;
-}
-
-void EnergyLedger::measure() {
-  sum_.kinetic = sum_.potential = 0;
-  for (const b2Body* b = world_->GetBodyList(); b; b = b->GetNext()) {
-    if (b->GetType() != b2_dynamicBody) continue;
-    sum_.kinetic += kinetic(*b);
-    sum_.potential -= double{b->GetMass()} * b->GetGravityScale() * dot(gravity_, b->GetWorldCenter());
-  }
-}
-
-void EnergyLedger::after_step(const Structure& structure) {
-  const float inv_dt = static_cast<float>(1 / dt_);
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    // One that was destroyed meanwhile is not looked at.
-    bool there = false;
-    for (b2Joint* j = world_->GetJointList(); j && !there; j = j->GetNext()) there = j == joints_[i];
-    if (!there) continue;
-    Push p = joint_arms_[i];
-    p.impulse = static_cast<float>(dt_) * joints_[i]->GetReactionForce(inv_dt);
-    p.twist = static_cast<float>(dt_) * joints_[i]->GetReactionTorque(inv_dt);
-    own_.push_back(p);
-  }
-  for (const Push& p : own_) sum_.external += work(p);
-  for (const Push& p : contacts_) sum_.contacts += work(p);
-  for (const b2Body* b = world_->GetBodyList(); b; b = b->GetNext()) {
-    const auto found = before_.find(b);
-    if (found == before_.end() || b->GetType() != b2_dynamicBody) continue;
-    const Motion& then = found->second;
-    if (!then.awake && !b->IsAwake()) continue;
-    const b2Vec2 weight = b->GetMass() * b->GetGravityScale() * gravity_;
-    const b2Vec2 v = b->GetLinearVelocity(), moved = b->GetWorldCenter() - then.c;
-    // Gravity pushes the velocity from before the step and lets the body fall with the one after.
-    sum_.numerical += dt_ * dot(weight, v - then.v) / 2;
-    // What the body moved besides: contacts' pushes, and what they held it back by.
-    sum_.contacts -= dot(weight, moved) - dt_ * dot(weight, v);
-  }
-  measure();
-  joints_energy_ = structure.energy();
-  sum_.elastic = joints_energy_.elastic;
-  const Energy e = energy();
-  turnover_ = std::max(turnover_, e.kinetic + e.elastic + e.dissipated + e.damping + std::abs(e.external) +
-                                      std::abs(e.contacts) + std::abs(e.potential - potential_at_start_));
-}
-
-Energy EnergyLedger::energy() const {
-  Energy e = sum_;
-  e.dissipated = joints_energy_.dissipated;
-  e.damping = joints_energy_.damping;
-  e.numerical += joints_energy_.numerical;
-  e.clamped = joints_energy_.clamped;
-  e.total_error = e.kinetic + e.potential + e.elastic + e.dissipated + e.damping + e.numerical + e.clamped -
-                  e.external - e.contacts - start_;
-  return e;
 }
 
 }  // namespace ductile

@@ -31,11 +31,14 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with, bool
   } else {
     const auto kind = solver == JointSolver::direct ? SolverKind::direct : SolverKind::iterative;
     structure_ = build(world_, plan_, {.solver = kind, .keep_ledger = ledger}, &built_);
-    if (ledger && kind == SolverKind::direct) ledger_.emplace(world_);
     structure_->on_event([this](const JointEvent& event) { record(event); });
   }
   for (std::size_t i = 0; i < built_.joints.size(); ++i) {
     if (built_.joints[i]) index_.emplace(built_.joints[i], i);
+  }
+  if (ledger && solver != JointSolver::iterative) {
+    ledger_.emplace(world_, solver == JointSolver::stock ? std::span<b2Joint* const>(built_.joints)
+                                                         : std::span<b2Joint* const>());
   }
 }
 
@@ -50,7 +53,7 @@ void Simulation::step() {
   last_step_us_ = took.count();
   if (++steps_ >= first_timed_step) step_us_.push_back(last_step_us_);
   if (structure_) structure_->update();
-  if (ledger_) ledger_->after_step(*structure_);
+  if (ledger_) ledger_->after_step(structure());
 }
 
 void Simulation::record(const JointEvent& event) {

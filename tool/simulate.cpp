@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "command.h"
 #include "ductile/files.h"
@@ -63,24 +64,32 @@ Json pieces_json(const Simulation& simulation) {
   return list;
 }
 
-/// Null with solvers that keep no ledger.
-Json energy_json(const Simulation& simulation) {
-  if (simulation.ledger() == nullptr) return nullptr;
-  const Energy e = simulation.ledger()->energy();
-  return {{"kinetic", number(e.kinetic)},       {"potential", number(e.potential)},
-          {"elastic", number(e.elastic)},       {"external", number(e.external)},
-          {"dissipated", number(e.dissipated)}, {"damping", number(e.damping)},
-          {"contacts", number(e.contacts)},     {"numerical", number(e.numerical)},
-          {"clamped", number(e.clamped)},       {"total_error", number(e.total_error)}};
+/// The terms of the energy by their names; NaN with iterative joints, which keep no ledger.
+std::vector<std::pair<const char*, double>> energy_of(const Simulation& simulation) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Energy e = simulation.ledger() ? simulation.ledger()->energy()
+                                       : Energy{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {{"kinetic", e.kinetic},        {"potential", e.potential},   {"elastic", e.elastic},
+          {"external", e.external},      {"dissipated", e.dissipated}, {"damping", e.damping},
+          {"contacts", e.contacts},      {"numerical", e.numerical},   {"clamped", e.clamped},
+          {"total_error", e.total_error}};
 }
 
-/// One row a step: time, then every piece's pose and every joint's forces and plastic offsets.
+Json energy_json(const Simulation& simulation) {
+  Json object;
+  for (const auto& [name, value] : energy_of(simulation)) object[name] = number(value);
+  return object;
+}
+
+/// One row a step: time, energies, every piece's pose and every joint's forces and plastic offsets.
 class History {
  public:
   explicit History(const std::string& file) : file_(file) {}
 
-  void head(const Plan& plan) {
+  void head(const Simulation& simulation) {
+    const Plan& plan = simulation.plan();
     std::string line = "time";
+    for (const auto& [name, value] : energy_of(simulation)) line += fmt::format(",{}", name);
     for (const Piece& piece : plan.pieces) line += fmt::format(",{0} x,{0} y,{0} angle", piece.name);
     for (const PlannedJoint& joint : plan.joints) {
       line += fmt::format(
@@ -93,6 +102,7 @@ class History {
     fmt::memory_buffer line;
     const auto out = std::back_inserter(line);
     fmt::format_to(out, "{}", simulation.time());
+    for (const auto& [name, value] : energy_of(simulation)) fmt::format_to(out, ",{}", value);
     for (std::size_t i = 0; i < simulation.plan().pieces.size(); ++i) {
       const PieceReading p = simulation.piece(i);
       fmt::format_to(out, ",{},{},{}", p.position.x, p.position.y, p.angle);
@@ -191,7 +201,9 @@ std::string table(const Simulation& simulation, const std::string& scene) {
                         percent(j.usage.M), shown(j.plastic_rotation), shown(j.dissipated),
                         j.broken ? "broke" : percent(j.capacity_used));
   }
-  return text;
+  text += "\nenergy [J]:";
+  for (const auto& [name, value] : energy_of(simulation)) text += fmt::format(" {} {}", name, shown(value));
+  return text + "\n";
 }
 
 std::string run(const Options& options) {
@@ -214,7 +226,7 @@ std::string run(const Options& options) {
   std::optional<History> history;
   if (!options.history.empty()) {
     history.emplace(options.history);
-    history->head(simulation->plan());
+    history->head(*simulation);
     history->row(*simulation);
   }
   std::optional<NewFile> replay_file;

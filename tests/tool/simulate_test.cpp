@@ -53,7 +53,25 @@ TEST(SimulateCommand, EverySolverRuns) {
     ASSERT_EQ(ran.exit, 0) << ran.err;
     EXPECT_EQ(ran.json()["joints"].size(), 4u);
     EXPECT_EQ(ran.json()["pieces"].size(), 5u);
+    EXPECT_EQ(ran.json()["energy"].size(), 10u);
+    EXPECT_EQ(ran.json()["energy"]["total_error"].is_null(), solver == std::string("iterative"));
   }
+}
+
+TEST(SimulateCommand, TellsWhereTheEnergyWent) {
+  const Folder folder;
+  const std::string falling = folder.write("scene.json", R"({"gravity": [0,-10], "bodies": [
+    {"name": "stone", "outline": [[0,0],[1,0],[1,1],[0,1]], "material": "S355", "velocity": [3,0]}]})");
+  const double m = 7850;
+  const json at_start = run("simulate " + falling + " --time 0 --json").json()["energy"];
+  EXPECT_NEAR(at_start["kinetic"].get<double>(), m * 9 / 2, 1e-3 * m);
+  const json energy = run("simulate " + falling + " --time 1 --json").json()["energy"];
+  EXPECT_NEAR(energy["kinetic"].get<double>(), m * (9 + 100) / 2, 1e-3 * m * 50);
+  EXPECT_NEAR(energy["potential"].get<double>(), -m * 100 / 2, 0.02 * m * 50);  // Euler falls g h t/2 farther
+  for (const char* name : {"elastic", "external", "dissipated", "damping", "contacts", "clamped"}) {
+    EXPECT_EQ(energy[name], 0) << name;
+  }
+  EXPECT_NEAR(energy["total_error"].get<double>(), 0, 1e-5 * m * 100);
 }
 
 TEST(SimulateCommand, WhatIsUnlimitedIsNullAndWhatIsFreeIsZero) {

@@ -69,7 +69,8 @@ struct SceneEvent {
 class Simulation {
  public:
   /// Throws InvalidInput on what Box2D cannot hold (pieces that are too small, numbers beyond floats). With
-  /// `ledger` (direct solver) energy() is kept, at a small cost per step.
+  /// `ledger` one is kept, at a small cost per step (not with iterative joints, which keep no account of
+  /// theirs).
   explicit Simulation(Plan plan, JointSolver solver = JointSolver::direct, const Stepping& stepping = {},
                       bool ledger = false);
 
