@@ -102,7 +102,6 @@ void Timeline::act(const Act& what) {
 
 void Timeline::start_again() {
   thrown_.clear();
-  thrown_energy_ = fresh_energy_ = 0;
   hand_ = nullptr;
   grip_ = nullptr;
   events_told_ = 0;
@@ -112,7 +111,6 @@ void Timeline::start_again() {
 
 // The world has come to a step: what belongs to it is done, and what there is to see is kept.
 void Timeline::arrive() {
-  thrown_energy_ += std::exchange(fresh_energy_, 0);
   for (const Entry& entry : acts_) {
     if (entry.step == simulation_->steps()) apply(entry.act);
   }
@@ -128,8 +126,6 @@ void Timeline::keep() {
   if (step < last_kept()) return;
 
   Frame frame = see(*simulation_);
-  frame.energy.external += thrown_energy_;
-  frame.energy.total_error -= thrown_energy_;
   for (const b2Body* body : thrown_) {
     frame.thrown.push_back({{body->GetWorldCenter().x, body->GetWorldCenter().y}, body->GetAngle()});
   }
@@ -196,12 +192,6 @@ void Timeline::apply(const Act& what) {
             fixture.friction = 0.3f;
             thrown_.push_back(world.CreateBody(&def));
             thrown_.back()->CreateFixture(&fixture);
-            // The ledger takes what is there at its start for granted.
-            if (simulation_->steps() > 0) {
-              const b2Vec2 g = world.GetGravity();
-              fresh_energy_ +=
-                  thrown.mass * (dot(thrown.velocity, thrown.velocity) / 2 - dot({g.x, g.y}, thrown.at));
-            }
           },
           [&](const act::Drive& drive) {
             float brake = 0;

@@ -107,7 +107,6 @@ class Timeline {
   b2Body* hand_ = nullptr;       // what a grabbed body is held against
   b2Joint* grip_ = nullptr;
   std::vector<b2Body*> thrown_;
-  double thrown_energy_ = 0, fresh_energy_ = 0;  // J that came with them; before the ledger has seen them
   std::vector<Entry> acts_;                      // by step
   std::deque<Frame> frames_;
   std::size_t memory_, used_ = 0;
