@@ -107,7 +107,7 @@ class Timeline {
   b2Body* hand_ = nullptr;       // what a grabbed body is held against
   b2Joint* grip_ = nullptr;
   std::vector<b2Body*> thrown_;
-  std::vector<Entry> acts_;                      // by step
+  std::vector<Entry> acts_;  // by step
   std::deque<Frame> frames_;
   std::size_t memory_, used_ = 0;
   std::vector<TimelineEvent> events_;
