@@ -24,7 +24,9 @@ std::string piece_name(const Plan& plan, int piece) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value + 0.) : "-"; }  // no "-0"
+std::string shown(double value) {
+  return std::isfinite(value) ? fmt::format("{:.6g}", value + 0.) : "-";
+}  // no "-0"
 
 std::string title_of(const std::string& scene_file) {
   std::string name = std::filesystem::path(scene_file).filename().string();
