@@ -255,6 +255,7 @@ void Component::first_velocity(const b2SolverData& data) {
       moved = true;
     }
     m.taken = m.given = data.velocities[m.island_index];
+    m.lost = {};
   }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
@@ -273,9 +274,9 @@ void Component::first_velocity(const b2SolverData& data) {
   if (solver.keeps_ledger) {
     // b2Body still has the velocities from before gravity.
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-      const b2Vec2 v = mirrors[i].body->GetLinearVelocity();
-      solver.before[i] =
-          into_own_frame(solver.bodies[i].turn, v.x, v.y, mirrors[i].body->GetAngularVelocity());
+      const b2Velocity v =
+          mirrors[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
+      solver.before[i] = into_own_frame(solver.bodies[i].turn, v.v.x, v.v.y, v.w);
     }
     open = true;
   }
@@ -317,15 +318,19 @@ void Component::solve(const b2SolverData& data) {
   } else {
     solver.sweep();
   }
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    const SolverBody& b = solver.bodies[i];
-    data.velocities[mirrors[i].island_index] = mirrors[i].given = to_box2d(b.turn, b.v);
-  }
+  give(data);
   ++report->solves;
   report->rounds += solved.rounds;
   report->factorisations += solved.factorisations;
   report->bounds_hit += solved.bound_hit ? 1 : 0;
   report->residual = std::max(report->residual, solved.residual);
+}
+
+void Component::give(const b2SolverData& data) {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const SolverBody& b = solver.bodies[i];
+    data.velocities[mirrors[i].island_index] = mirrors[i].given = to_box2d(b.turn, b.v);
+  }
 }
 
 void Component::position(const b2SolverData& data) {
@@ -363,6 +368,40 @@ void Component::write_poses(const b2SolverData& data) {
   }
 }
 
+// Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
+// what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
+// together.
+void Component::limit_speed(const b2SolverData& data) {
+  if (kind != SolverKind::direct) return;
+  constexpr double in_floats = 1 - 1e-5;  // Box2D shall have nothing left to do
+  const auto share = [&](double limit, double speed) {
+    return std::min(1.0, in_floats * limit / (solver.step() * speed));
+  };
+  for (int pass = 0;; ++pass) {
+    double least = 1;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const Vec3& v = solver.bodies[i].v;
+      least = std::min(
+          {least, share(b2_maxTranslation, std::hypot(v.x, v.y)), share(b2_maxRotation, std::abs(v.w))});
+    }
+    if (least == 1) return;
+    const bool together = pass == 4;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      SolverBody& b = solver.bodies[i];
+      const double linear = together ? least : share(b2_maxTranslation, std::hypot(b.v.x, b.v.y));
+      const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
+      const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
+      b.v_free -= less;
+      b.v -= less;
+      const b2Velocity lost = to_box2d(b.turn, less);
+      mirrors[i].lost.v += lost.v;
+      mirrors[i].lost.w += lost.w;
+    }
+    if (together) return give(data);
+    solve(data);
+  }
+}
+
 // After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
 // Box2D.
 void Component::advance() {
@@ -376,19 +415,6 @@ void Component::advance() {
     const Vec3 by_others = b.v_free - into_own_frame(b.turn, m.taken.v.x, m.taken.v.y, m.taken.w);
     alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
              slack_;
-  }
-  // Box2D moves a body by no more than 2 m and π/2 a step, each for itself. What it makes of pieces that are
-  // faster is not what their joints have seen: they are moved there as by any other push.
-  bool limited = false;
-  const double h = solver.step();
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    const Vec3& v = solver.bodies[i].v;
-    limited |= h * std::hypot(v.x, v.y) > b2_maxTranslation || h * std::abs(v.w) > b2_maxRotation;
-  }
-  if (limited) {
-    solver.stay();
-    at_rest_ = false;
-    return;
   }
   solver.advance();
   bool kinematic = false;
@@ -411,11 +437,11 @@ double Component::close_ledger() {
     if (i >= solver.free_bodies()) continue;
     solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
-    if (h * m.given.v.Length() > b2_maxTranslation) {
-      clamped += double{m.mass} * b2Dot(m.given.v - v, 0.5f * (m.began.v + v));
-    }
-    if (h * std::abs(m.given.w) > b2_maxRotation)
-      clamped += double{m.inertia} * (m.given.w - w) * (m.began.w + w) / 2;
+    b2Velocity lost = m.lost;
+    if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
+    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
+    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (m.began.v + v)) +
+               solver.bodies[i].inertia * lost.w * (m.began.w + w) / 2;
   }
   solver.close_ledger(solver.before);
   return clamped;

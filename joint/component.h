@@ -57,6 +57,7 @@ struct Component {
     b2Velocity given{};  // velocity as we left it
     b2Velocity began{};  // velocity before gravity, when a ledger is kept
     b2Velocity taken{};  // velocity as Box2D brought it at the step's start
+    b2Velocity lost{};   // velocity that limit_speed() took
     float mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
     b2BodyType type = b2_staticBody;
@@ -74,6 +75,8 @@ struct Component {
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
   double close_ledger();
+  /// After the last velocity call, before poses move.
+  void limit_speed(const b2SolverData& data);
   /// After the last velocity call: poses move, what has flowed is booked.
   void advance();
   void position(const b2SolverData& data);
@@ -96,6 +99,7 @@ struct Component {
   bool as_before(const b2SolverData& data);
   void read_mass(std::size_t body);
   void solve(const b2SolverData& data);
+  void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 
   std::vector<Pose> goal;

@@ -4,9 +4,9 @@
 //
 //   M (v − v*) + Jᵀ s = 0        J v + b = s/G + z⁺ − z⁻        z⁺ p⁺ = μ,   z⁻ p⁻ = μ,   μ → 0
 //
-// s are the impulses, p⁺ = F⁺ − s and p⁻ = F⁻ + s what is left to the caps, z± the plastic slips; all p, z >
-// 0. Each round is one system with the pattern of H: the slope of a row is 1/(1/G + z⁺/p⁺ + z⁻/p⁻).
-// Mehrotra's predictor–corrector. Hardening is left out here: the Newton rounds that follow put it in.
+// s are the impulses, z± the plastic slips, p⁺ = F⁺ + ηz⁺ − s and p⁻ = F⁻ + ηz⁻ + s what is left to the caps,
+// which hardening raises by η per slip; all p, z > 0. Each round is one system with the pattern of H: the
+// slope of a row is 1/(1/G + z⁺/(p⁺ + ηz⁺) + z⁻/(p⁻ + ηz⁻)). Mehrotra's predictor–corrector.
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,10 @@ int Solver::interior_point() {
       const double x = joints[k].x[i];
       w.z[0] = std::max(x, 0.0) + slip / 10;
       w.z[1] = std::max(-x, 0.0) + slip / 10;
+      // s = F⁺ + ηz is the law's share a of G beyond the cap where a G = η/(1 + η/G).
+      const double a = joints[k].law.after_yield[i];
+      w.hardening = a * joints[k].law.G[i] / (1 - a);
+      for (int side = 0; side < 2; ++side) w.p[side] += w.hardening * w.z[side];
     }
   }
 
@@ -83,7 +87,9 @@ int Solver::interior_point() {
       for (unsigned i = 0; i < 3; ++i) {
         const Barrier& w = barrier_[k][i];
         double compliance = 1 / j.law.G[i];
-        for (int side = 0; side < 2; ++side) compliance += w.bounded[side] ? w.z[side] / w.p[side] : 0;
+        for (int side = 0; side < 2; ++side) {
+          if (w.bounded[side]) compliance += w.z[side] / (w.p[side] + w.hardening * w.z[side]);
+        }
         j.slope[i] = j.law.G[i] > 0 ? 1 / compliance : 0;
       }
     }
@@ -109,9 +115,9 @@ int Solver::interior_point() {
           w.r = v[i] + j.law.bias[i] - w.s / j.law.G[i];
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
-            // dp dz of the predictor; dp = ∓ds
-            w.second[side] = corrector ? (side == 0 ? -w.ds : w.ds) * w.dz[side] : 0;
-            w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side]) / w.p[side];
+            w.second[side] = corrector ? w.dp[side] * w.dz[side] : 0;
+            const double over = w.z[side], after = w.hardening * over;
+            w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side] + after * over) / (w.p[side] + after);
           }
           s[i] = w.s + j.slope[i] * w.r;
         }
@@ -130,22 +136,21 @@ int Solver::interior_point() {
           w.ds = j.slope[i] * (y[i] + w.r);
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
-            const double dp = side == 0 ? -w.ds : w.ds;
-            w.dz[side] = (mu - w.second[side] - w.z[side] * dp) / w.p[side] - w.z[side];
+            const double over = w.z[side], ds = side == 0 ? w.ds : -w.ds;
+            w.dz[side] = (mu - w.second[side] - over * (w.p[side] - ds)) / (w.p[side] + w.hardening * over);
+            w.dp[side] = w.hardening * w.dz[side] - ds;
           }
         }
       }
       step = 1;
       each_bound([&](const Barrier& w, int side) {
-        const double dp = side == 0 ? -w.ds : w.ds;
-        if (dp < 0) step = std::min(step, -boundary * w.p[side] / dp);
+        if (w.dp[side] < 0) step = std::min(step, -boundary * w.p[side] / w.dp[side]);
         if (w.dz[side] < 0) step = std::min(step, -boundary * w.z[side] / w.dz[side]);
       });
       if (corrector) break;
       double after = 0;
       each_bound([&](const Barrier& w, int side) {
-        const double dp = side == 0 ? -w.ds : w.ds;
-        after += (w.z[side] + step * w.dz[side]) * (w.p[side] + step * dp);
+        after += (w.z[side] + step * w.dz[side]) * (w.p[side] + step * w.dp[side]);
       });
       mu = std::pow(std::clamp(after / gap, 0.0, 1.0), 3) * gap / bounds;
     }
@@ -154,7 +159,7 @@ int Solver::interior_point() {
       for (Barrier& w : rows) w.s += step * w.ds;
     }
     each_bound([&](Barrier& w, int side) {
-      w.p[side] += step * (side == 0 ? -w.ds : w.ds);
+      w.p[side] += step * w.dp[side];
       w.z[side] += step * w.dz[side];
     });
   }

@@ -138,15 +138,35 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   newton_ = false;
-  if (h != h_ || !laws_set_) {
-    h_ = h;
-    factored_ = false;
-    laws_set_ = true;
-    for (SolverJoint& j : joints) set_law(j);
-    // A rigid row's spring goes with the step.
-  }
+  const bool changed = h != h_ || !laws_set_;
+  if (changed) factored_ = false;
+  laws_set_ = true;
+  h_ = h;
+  // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
+  // once it would be a blow.
+  const double share = h < drift_time_ ? h / drift_time_ : 1;
+  drift_time_ = std::max(h, drift_time_ - h);
   for (SolverJoint& j : joints) {
-    for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = j.relaxation[i] * (j.gap[i] - j.neutral[i]);
+    Rows strain{};
+    if (changed || share < 1) strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
+    if (changed) {
+      // A rigid row's spring goes with the step, and keeps its force. One that was edited keeps its force
+      // where it became stiffer, its strain where it became softer: no energy comes of it.
+      const Rows spring = j.spring;
+      const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
+      set_law(j);
+      for (unsigned i = 0; i < 3; ++i) {
+        if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
+        if (j.spring[i] < spring[i] && !(was_rigid[i] && is_rigid(j, i))) continue;
+        j.neutral[i] += strain[i] * (1 - spring[i] / j.spring[i]);
+        strain[i] *= spring[i] / j.spring[i];
+      }
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      double e = j.gap[i] - j.neutral[i];
+      if (share < 1) e = strain[i] + share * (e - strain[i]);
+      j.law.bias[i] = j.relaxation[i] * e;
+    }
   }
 }
 
@@ -490,15 +510,6 @@ void Solver::advance() {
   coasting_ = false;
 }
 
-void Solver::stay() {
-  stayed_ = true;
-  if (!keeps_ledger) return;
-  for (const SolverJoint& j : joints) {
-    const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
-    for (unsigned i = 0; i < 3; ++i) ledger.numerical += j.impulse[i] * (j.x[i] - j.law.bias[i] + v0[i]) / 2;
-  }
-}
-
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
 // elastic part; the plastic offset is incremented.
 void Solver::flow(SolverJoint& j) const {
@@ -531,7 +542,7 @@ void Solver::open_ledger() {
     const SolverJoint& j = joints[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
-      gaps_[k][i] = j.gap[i] - j.neutral[i];
+      gaps_[k][i] = j.relaxation[i] > 0 ? j.law.bias[i] / j.relaxation[i] : 0;
       ledger.numerical -= j.impulse[i] * (j.x[i] - j.law.bias[i] - v0[i]) / 2;
     }
   }
@@ -686,16 +697,11 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     SolverJoint& j = joints[k];
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
-      if (!free && (flows(j.piece, i) ? stayed_ : kept)) continue;
+      if (kept && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += j.gap[i] - gaps_[k][i];
       if (!free) j.plastic[i] += j.gap[i] - gaps_[k][i];
     }
-    if (!stayed_ || j.piece == 0) continue;
-    const Rows booked = j.dissipated;
-    flow(j);
-    for (unsigned i = 0; i < 3; ++i) ledger.numerical -= j.dissipated[i] - booked[i];
   }
-  stayed_ = false;
   return kept;
 }
 
@@ -718,7 +724,8 @@ void Solver::displace(SolverBody& b, const Vec3& by) {
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, b = hk·e/G.
 double Solver::elastic(const SolverJoint& j, unsigned i) const {
-  return j.law.G[i] > 0 ? h_ * j.impulse[i] / j.law.G[i] + j.damping[i] * j.law.bias[i] / j.spring[i] : 0;
+  return j.law.G[i] > 0 ? j.law.h * j.impulse[i] / j.law.G[i] + j.damping[i] * j.law.bias[i] / j.spring[i]
+                        : 0;
 }
 
 Rows Solver::force(const SolverJoint& j) const {

@@ -127,8 +127,6 @@ class Solver {
   bool solve(SolveReport& report);
   /// Moves poses by h v, books plastic flow.
   void advance();
-  /// Instead of it, where the bodies will not go by h v: all stays until project() tells where they went.
-  void stay();
   /// Moves the bodies toward poses that something else pushed them to, in such a way that no joint is
   /// strained by it: least ½|x − goal|²_M with the gaps of all rows that hold kept. With `try_goal` the goal
   /// itself is tried first: right where all of it may have been moved alike. False where gaps could not be
@@ -192,6 +190,7 @@ class Solver {
   std::size_t free_ = 0;
   double mass_ = 0;  // of all free bodies
   double h_ = 0;
+  double drift_time_ = 0;  // s that what turning bodies have parted is still to be taken back in
   BlockLdlt ldlt_;
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
@@ -200,7 +199,6 @@ class Solver {
   double rate_ = 1;          // contraction of the residual by the last round
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
-  bool stayed_ = false;  // what flowed in this step is not booked yet
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M
@@ -211,8 +209,8 @@ class Solver {
   std::vector<Vec3> g_, d_, z_, g0_, v0_;
   // One row in interior_point(): see there. Sides: the cap and the reverse cap.
   struct Barrier {
-    double s, ds, r;
-    double p[2], z[2], dz[2], second[2];
+    double s, ds, r, hardening;
+    double p[2], z[2], dp[2], dz[2], second[2];
     bool bounded[2];
   };
   std::vector<std::array<Barrier, 3>> barrier_;

@@ -145,6 +145,7 @@ void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
   if (velocity_calls_ < data.step.velocityIterations) return;
   for (Component* c : active_) {
     if (c->resting) continue;
+    c->limit_speed(data);
     c->advance();
     look_for_breaks(*c);
   }

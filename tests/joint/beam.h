@@ -18,6 +18,7 @@ struct BeamDef {
   double gravity = 10;
   double angle = 0;     // of the beam's axis
   double x = 0, y = 0;  // of its root
+  bool fixtures = true;
   SolverKind solver = SolverKind::direct;
 };
 
@@ -45,7 +46,7 @@ struct Beam {
       fixture.shape = &box;
       fixture.density = static_cast<float>(d.density);
       fixture.filter.groupIndex = -1;
-      piece->CreateFixture(&fixture);
+      if (d.fixtures) piece->CreateFixture(&fixture);
       const double mass = d.density * l * d.height;
       b2MassData data{
           static_cast<float>(mass), {0, 0}, static_cast<float>(mass * (l * l + d.height * d.height) / 12)};

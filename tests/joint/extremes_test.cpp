@@ -1,0 +1,227 @@
+// Far beyond what is sensible: nothing may become NaN, gain energy, hang, abort or hit the bound on rounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "beam.h"
+#include "bodies.h"
+
+namespace ductile {
+namespace {
+
+// What the bodies and joints hold must not grow: gravity is all that works on them.
+class Watch {
+ public:
+  // Box2D's way of stepping keeps the energy of a swing of frequency ω to a share of ωh at every moment.
+  Watch(const Beam& beam, const std::vector<b2Body*>& others, double longest_step)
+      : beam_(beam),
+        bodies_(others),
+        share_(1e-4 + longest_step * std::sqrt(beam.def.gravity / beam.def.length)) {
+    bodies_.insert(bodies_.end(), beam.pieces.begin(), beam.pieces.end());
+    start_ = total();
+    height_ = potential_energy(bodies_, beam.def.gravity);
+    // What floats tell of a height, and what Box2D may push a block up by: the skin of polygons.
+    for (const b2Body* b : others) rounding_ += 0.02 * b->GetMass() * beam.def.gravity;
+    for (const b2Body* b : bodies_) {
+      rounding_ += b->GetMass() * (1 + std::abs(beam.def.gravity)) * 1e-6 * (1 + b->GetPosition().Length());
+    }
+  }
+  void look() {
+    ASSERT_TRUE(finite(bodies_));
+    double plastic = 0;
+    for (const ElasticPlasticJoint* j : beam_.structure.joints()) {
+      for (const Row row : {axial, shear, rotation}) {
+        ASSERT_TRUE(std::isfinite(j->force(row)) && std::isfinite(j->plastic(row)) &&
+                    std::isfinite(j->elastic(row)));
+        ASSERT_TRUE(std::isfinite(j->GetReactionForce(60).Length()) &&
+                    std::isfinite(j->GetReactionTorque(60)));
+      }
+      ASSERT_TRUE(std::isfinite(j->elastic_energy()));
+      ASSERT_GE(j->dissipated(), 0);
+      plastic += j->dissipated();
+    }
+    const double now = total() + plastic;
+    turnover_ = std::max(turnover_, kinetic_energy(bodies_) + plastic +
+                                        std::abs(potential_energy(bodies_, beam_.def.gravity) - height_));
+    ASSERT_LE(now, start_ + share_ * turnover_ + rounding_);
+    hits_ += beam_.structure.report().bounds_hit;
+  }
+  int hits() const { return hits_; }
+
+ private:
+  double total() const {
+    double sum = kinetic_energy(bodies_) + potential_energy(bodies_, beam_.def.gravity);
+    for (const ElasticPlasticJoint* j : beam_.structure.joints()) sum += j->elastic_energy();
+    return sum;
+  }
+  const Beam& beam_;
+  std::vector<b2Body*> bodies_;
+  double start_, height_, share_, rounding_ = 0, turnover_ = 0;
+  int hits_ = 0;
+};
+
+struct Extreme {
+  std::string name;
+  BeamDef beam = {};
+  double resting = 0, welded = 0;  // mass of a block at the tip, in pieces
+  std::vector<double> steps = {1.0 / 60};
+  int velocity_iterations = 8, position_iterations = 3;
+  double seconds = 4;
+  std::vector<RowDef> rows = {};  // of every joint, instead of the beam's
+};
+
+constexpr double steel = 210e9;
+
+std::vector<Extreme> make_extremes() {
+  std::vector<Extreme> all;
+  // Rigid and elastic, strong enough and too weak for its own weight.
+  for (const double E : {0.0, steel}) {
+    for (const double weakness : {0.0, 1.3}) {
+      const std::string tail = std::string(E > 0 ? "_elastic" : "_rigid") + (weakness > 0 ? "_plastic" : "");
+      const auto beam = [&](int pieces, double length, double height) {
+        const double moment = 7800 * height * 10 * length * length / 2;
+        return BeamDef{.pieces = pieces,
+                       .length = length,
+                       .height = height,
+                       .youngs_modulus = E,
+                       .moment_cap = weakness > 0 ? moment / weakness : unlimited};
+      };
+      const BeamDef usual = beam(10, 20, 1);
+      BeamDef b = usual;
+      all.push_back({.name = "contact_1000" + tail, .beam = b, .resting = 1000});
+      all.push_back({.name = "welded_1e6" + tail, .beam = b, .welded = 1e6});
+      all.push_back({.name = "welded_1e6_to_40" + tail, .beam = beam(40, 20, 1), .welded = 1e6});
+      all.push_back({.name = "welded_a_millionth" + tail, .beam = b, .welded = 1e-6});
+      b = beam(5, 0.05, 0.005);
+      b.fixtures = false;  // Box2D's polygons cannot be so small
+      all.push_back({.name = "five_centimetres" + tail, .beam = b});
+      all.push_back({.name = "one_kilometre" + tail, .beam = beam(20, 1000, 50)});
+      b = usual;
+      all.push_back({.name = "dt_15" + tail, .beam = b, .resting = 1, .steps = {1.0 / 15}});
+      all.push_back({.name = "dt_5000" + tail, .beam = b, .resting = 1, .steps = {1.0 / 5000}, .seconds = 1});
+      all.push_back({.name = "dt_changing" + tail,
+                     .beam = b,
+                     .resting = 1,
+                     .steps = {1.0 / 15, 1.0 / 5000, 0, 1.0 / 60, 1.0 / 240, 0, 1.0 / 30}});
+      all.push_back({.name = "no_iterations" + tail,
+                     .beam = b,
+                     .resting = 1,
+                     .velocity_iterations = 0,
+                     .position_iterations = 0,
+                     .seconds = 1});
+      all.push_back(
+          {.name = "no_position_iterations" + tail, .beam = b, .resting = 1, .position_iterations = 0});
+      all.push_back({.name = "one_iteration" + tail,
+                     .beam = b,
+                     .resting = 1,
+                     .velocity_iterations = 1,
+                     .position_iterations = 1});
+      b.x = 1e5, b.y = -1e5;
+      all.push_back({.name = "far" + tail, .beam = b});
+      b = usual;
+      b.gravity = 0;
+      all.push_back({.name = "weightless" + tail, .beam = b});
+      b.gravity = 1e4;
+      all.push_back({.name = "heavy" + tail, .beam = b, .resting = 1});
+    }
+    for (const auto& [name, cap] : {std::pair{"hinges_none", 0.0},
+                                    {"hinges_tiny", 1e-30},
+                                    {"hinges_weak", 1e3},
+                                    {"hinges_huge", 1e300}}) {
+      all.push_back({.name = name + std::string(E > 0 ? "_elastic" : "_rigid"),
+                     .beam = {.pieces = 20, .youngs_modulus = E, .moment_cap = cap},
+                     .seconds = 10});
+    }
+  }
+  for (const auto& [name, scale] : {std::pair{"hard", 1e6}, {"soft", 1e-6}, {"softest", 1e-12}}) {
+    for (const double cap : {unlimited, 7800 * 10 * 200 / 1.3, 1e3}) {
+      all.push_back({.name = name + std::string(cap > 1e8   ? ""
+                                                : cap > 1e6 ? "_plastic"
+                                                            : "_weak"),
+                     .beam = {.youngs_modulus = scale * steel, .moment_cap = cap},
+                     .resting = 1,
+                     .seconds = 10});
+    }
+  }
+  for (const auto& [name, cap] :
+       {std::pair{"rows_tiny", 1e-30}, {"rows_weak", 1e4}, {"rows_near", 2e6}, {"rows_huge", 1e300}}) {
+    const RowDef row{.cap = cap, .cap_reverse = cap};
+    all.push_back({.name = name, .beam = {.pieces = 20}, .resting = 1, .rows = {row, row, row}});
+  }
+  const RowDef no_pull{.cap = 0}, no_push{.cap_reverse = 0};
+  all.push_back({.name = "no_tension", .beam = {.angle = 0.1}, .rows = {no_pull, {}, {}}});
+  all.push_back({.name = "no_compression", .beam = {.angle = -0.1}, .rows = {no_push, {}, {}}});
+  all.push_back({.name = "no_sagging", .beam = {.pieces = 20}, .rows = {{}, {}, no_push}});
+  all.push_back({.name = "no_way_down", .beam = {.pieces = 20}, .rows = {no_pull, no_push, no_push}});
+  const RowDef damped{.stiffness = 1e8, .damping_ratio = 100};
+  all.push_back({.name = "overdamped", .resting = 1, .rows = {damped, damped, damped}});
+  all.push_back({.name = "out_of_scale",
+                 .resting = 1,
+                 .rows = {{.stiffness = 1, .damping_ratio = 1e300},
+                          {.stiffness = 1e-300, .damping_ratio = 1e10},
+                          {.stiffness = 1e300, .damping_ratio = 1e300}}});
+  for (const double hardening : {1e-300, 1e6, 1e300}) {
+    const RowDef row{.cap = 1e4, .cap_reverse = 1e4, .hardening = hardening};
+    all.push_back({.name = "hardening_" + std::to_string(static_cast<int>(std::log10(hardening)) + 300),
+                   .beam = {.pieces = 20},
+                   .resting = 1,
+                   .rows = {row, row, row}});
+  }
+  return all;
+}
+const std::vector<Extreme> extremes = make_extremes();
+
+class Extremes : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Extremes, StayFiniteAndGainNothing) {
+  const Extreme& extreme = extremes[GetParam()];
+  Beam beam(extreme.beam);
+  for (ElasticPlasticJoint* j : beam.joints) {
+    if (extreme.rows.empty()) break;
+    ElasticPlasticJointDef def;
+    def.bodyA = j->GetBodyA(), def.bodyB = j->GetBodyB();
+    def.localAnchorA = j->GetLocalAnchorA(), def.localAnchorB = j->GetLocalAnchorB();
+    std::copy_n(extreme.rows.begin(), 3, def.rows);
+    beam.world.DestroyJoint(j);
+    beam.structure.create_joint(def);
+  }
+  const double piece = beam.mass() / extreme.beam.pieces, l = extreme.beam.length / extreme.beam.pieces;
+  const double h = extreme.beam.height;
+  std::vector<b2Body*> others;
+  if (extreme.resting > 0) {
+    const b2Vec2 at = beam.point(extreme.beam.length - l / 2);
+    others.push_back(add_box(beam.world, {.x = at.x,
+                                          .y = at.y + h + 0.015,
+                                          .width = h,
+                                          .height = h,
+                                          .mass = extreme.resting * piece,
+                                          .group = 0}));
+  }
+  if (extreme.welded > 0) {
+    const b2Vec2 at = beam.point(extreme.beam.length);
+    others.push_back(
+        add_box(beam.world, {.x = at.x, .y = at.y, .width = h, .height = h, .mass = extreme.welded * piece}));
+    ElasticPlasticJointDef weld;
+    weld.Initialize(beam.pieces.back(), others.back(), at, {1, 0});
+    beam.structure.create_joint(weld);
+  }
+  Watch watch(beam, others, *std::max_element(extreme.steps.begin(), extreme.steps.end()));
+  std::size_t i = 0;
+  for (double t = 0; t < extreme.seconds; ++i) {
+    const double dt = extreme.steps[i % extreme.steps.size()];
+    beam.world.Step(static_cast<float>(dt), extreme.velocity_iterations, extreme.position_iterations);
+    watch.look();
+    if (HasFatalFailure()) FAIL() << extreme.name << " at step " << i << ", " << t << " s";
+    beam.structure.update();
+    t += dt;
+  }
+  EXPECT_EQ(watch.hits(), 0) << extreme.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Extremes, testing::Range(std::size_t{0}, extremes.size()),
+                         [](const auto& info) { return extremes[info.param].name; });
+
+}  // namespace
+}  // namespace ductile
