@@ -138,11 +138,7 @@ void add_calibrate(CLI::App& app, std::string& output) {
       ->check(finite(0, true));
   command->add_option("--out", options->out,
                       "write the definitions to this file (json if --to is not given)");
-  command
-      ->add_option("--picture", options->pictures,
-                   "draw pieces, cuts and joints by plastic moment to this SVG or PNG file; may be repeated")
-      ->check(picture_name())
-      ->allow_extra_args(false);
+  add_picture(command, options->pictures, "draw pieces, cuts and joints by plastic moment");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

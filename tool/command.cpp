@@ -36,12 +36,15 @@ std::string title_of(const std::string& scene_file) {
   return name;
 }
 
-CLI::Validator picture_name() {
-  return CLI::Validator(
-      [](const std::string& name) -> std::string {
-        return name.ends_with(".svg") || name.ends_with(".png") ? "" : "'" + name + "' is no .svg or .png";
+CLI::Option* add_picture(CLI::App* command, std::vector<std::string>& files, const std::string& what) {
+  const CLI::Validator name(
+      [](const std::string& file) -> std::string {
+        return file.ends_with(".svg") || file.ends_with(".png") ? "" : "'" + file + "' is no .svg or .png";
       },
       "");
+  return command->add_option("--picture", files, what + " to this SVG or PNG file; may be repeated")
+      ->check(name)
+      ->allow_extra_args(false);
 }
 
 CLI::Validator finite(double low, bool open) {

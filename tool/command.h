@@ -54,8 +54,8 @@ std::string shown(double value);
 /// What a picture of it is called: "scenes/harbour_crane.scene.json" is "Harbour crane".
 std::string title_of(const std::string& scene_file);
 
-/// Accepts the names that write_picture() takes.
-CLI::Validator picture_name();
+/// --picture FILE, as often as one likes.
+CLI::Option* add_picture(CLI::App* command, std::vector<std::string>& files, const std::string& what);
 
 /// Accepts finite numbers from `low`; above it only where `open`.
 CLI::Validator finite(double low, bool open = false);

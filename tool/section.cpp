@@ -5,12 +5,14 @@
 
 #include "command.h"
 #include "ductile/files.h"
+#include "ductile/picture.h"
 
 namespace ductile::tool {
 namespace {
 
 struct Options {
   std::string file;
+  std::vector<std::string> pictures;
   double angle = 90;
   bool json = false;
 };
@@ -39,6 +41,10 @@ std::string run(const Options& options) {
   };
   const auto curve = section.interaction(d, centroid.x * d.x + centroid.y * d.y);
 
+  if (!options.pictures.empty()) {
+    const std::string svg = section_svg(section, d, title_of(options.file));
+    for (const std::string& file : options.pictures) write_picture(file, svg);
+  }
   if (options.json) {
     Json interaction = Json::array();
     for (const Interaction& point : curve) interaction.push_back({{"N", point.N}, {"M", point.M}});
@@ -98,6 +104,7 @@ void add_section(CLI::App& app, std::string& output) {
   command->add_option("--angle", options->angle, "bending direction in degrees from the x axis")
       ->check(finite(-std::numeric_limits<double>::infinity()))
       ->capture_default_str();
+  add_picture(command, options->pictures, "draw the section at its plastic moment, and its N-M curve");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -130,7 +130,8 @@ std::string damage(const std::vector<JointReading>& joints) {
 /// The panels of --picture, taken as their times come by.
 class Pictures {
  public:
-  explicit Pictures(const Options& options) : due_(options.picture_at), half_step_(options.stepping.dt / 2) {
+  explicit Pictures(const Options& options)
+      : due_(options.picture_at), half_step_(0.50001 * options.stepping.dt) {
     if (options.pictures.empty()) return;
     if (due_.empty()) due_ = {0, options.time};
     std::sort(due_.begin(), due_.end());
@@ -287,10 +288,7 @@ void add_simulate(CLI::App& app, std::string& output) {
                    "as b2World::Step (default 3)")
       ->check(iterations);
   command->add_option("--history", options->history, "write every step's values to this CSV file");
-  auto* picture =
-      command->add_option("--picture", options->pictures,
-                          "draw the scene before and after to this SVG or PNG file; may be repeated");
-  picture->check(picture_name())->allow_extra_args(false);
+  auto* picture = add_picture(command, options->pictures, "draw the scene before and after");
   command->add_option("--picture-at", options->picture_at, "draw it at these times instead: 0,1.5,4")
       ->delimiter(',')
       ->needs(picture)

@@ -83,8 +83,4 @@ class NewFile {
 /// The same in one go.
 void write_text(const std::filesystem::path& file, std::string_view text);
 
-/// An SVG document as a file: as it is, or, by a name that ends in .png, in two pixels per px by the program
-/// rsvg-convert. A problem where the name ends otherwise, or that program is not installed.
-void write_picture(const std::filesystem::path& file, std::string_view svg);
-
 }  // namespace ductile

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <pugixml.hpp>
-#include <sstream>
 #include <utility>
 
-#include "ductile/colours.h"
+#include "svg.h"
 
 namespace ductile {
 namespace {
 
-using Node = pugi::xml_node;
+using namespace picture;
 
-constexpr auto ink = "#22303c", quiet = "#5d6b78", edge = "#8794a0", still = "#c6cdd4", ghost = "#eef1f4";
+constexpr auto still = "#c6cdd4", ghost = "#eef1f4";
 // Moving bodies in turn, pale, so that the joints' colours stand out on all of them.
 constexpr std::array tints{"#e6ecf2", "#f1e7d9", "#e3ecdf", "#eee4ef"};
 
@@ -25,28 +23,7 @@ constexpr std::array tints{"#e6ecf2", "#f1e7d9", "#e3ecdf", "#eee4ef"};
 constexpr std::array<Colour, 5> moment_colours{
     {{0xfc, 0xe3, 0x8a}, {0xf6, 0xa0, 0x4d}, {0xd9, 0x53, 0x4f}, {0x93, 0x2b, 0x72}, {0x2f, 0x10, 0x5c}}};
 
-constexpr double margin = 20, gap = 14, header = 62, caption = 30, footer = 64;
-
-struct Box {
-  double x0 = unlimited, y0 = unlimited, x1 = -unlimited, y1 = -unlimited;
-
-  void add(Point p) {
-    x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
-    y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-  }
-  void add(const Box& other) {
-    if (other.empty()) return;
-    add(Point{other.x0, other.y0});
-    add(Point{other.x1, other.y1});
-  }
-  bool empty() const { return !(x0 <= x1); }
-  double width() const { return x1 - x0; }
-  double height() const { return y1 - y0; }
-  Box grown(double by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
-  Box within(const Box& limit) const {
-    return {std::max(x0, limit.x0), std::max(y0, limit.y0), std::min(x1, limit.x1), std::min(y1, limit.y1)};
-  }
-};
+constexpr double gap = 14, caption = 30, footer = 64;
 
 /// Where a point of a piece, as drawn, is in a panel.
 class Pose {
@@ -105,18 +82,6 @@ Box view_of(const Plan& plan, const std::vector<Panel>& panels) {
   return view.grown(0.03 * std::max(view.width(), view.height()));
 }
 
-/// "88.9 kN m": three digits, with the prefix that fits.
-std::string quantity(double value, const char* unit) {
-  if (!std::isfinite(value)) return "unlimited";
-  static constexpr std::array<std::pair<double, const char*>, 4> prefixes{
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}}};
-  for (const auto& [factor, prefix] : prefixes)
-    if (std::abs(value) >= factor * 0.9995) return fmt::format("{:.3g} {}{}", value / factor, prefix, unit);
-  return fmt::format("{:.2g} {}", value, unit);
-}
-
-std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
 Colour moment_colour(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (moment_colours.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), moment_colours.size() - 2);
@@ -149,34 +114,6 @@ struct MomentScale {
     return ticks;
   }
 };
-
-void set(Node) {}
-template <class Value, class... Rest>
-void set(Node node, const char* name, const Value& value, const Rest&... rest) {
-  if constexpr (std::is_floating_point_v<Value>) {
-    node.append_attribute(name) = fmt::format("{:.5g}", value).c_str();
-  } else if constexpr (std::is_same_v<Value, std::string>) {
-    node.append_attribute(name) = value.c_str();
-  } else {
-    node.append_attribute(name) = value;
-  }
-  set(node, rest...);
-}
-
-/// A child element with attributes, given as name, value, name, value …
-template <class... Attributes>
-Node add(Node parent, const char* element, const Attributes&... attributes) {
-  Node node = parent.append_child(element);
-  set(node, attributes...);
-  return node;
-}
-
-template <class... Attributes>
-void write(Node parent, const std::string& text, double x, double y, const Attributes&... attributes) {
-  add(parent, "text", "x", x, "y", y, attributes...).text() = text.c_str();
-}
-
-void hover(Node node, const std::string& text) { add(node, "title").text() = text.c_str(); }
 
 /// One panel's drawing, y up in metres to y down in px.
 class Artist {
@@ -441,20 +378,6 @@ void stage_bar(Node to, Node defs, Point at, double width) {
   write(to, "plastic: share of limit", at.x + width, at.y - 7, "text-anchor", "end");
 }
 
-void scale_bar(Node to, double px_per_metre, Point right, double most) {
-  double length = std::pow(10, std::floor(std::log10(most / px_per_metre)));
-  for (const double digit : {5., 2.})
-    if (digit * length * px_per_metre <= most) {
-      length *= digit;
-      break;
-    }
-  const double width = length * px_per_metre;
-  add(to, "path", "fill", "none", "stroke", ink, "stroke-width", "1.6", "d",
-      fmt::format("M{:.1f} {:.1f}v-8h{:.1f}v8", right.x - width, right.y, width));
-  const std::string words = length < 1 ? fmt::format("{:g} mm", length * 1e3) : fmt::format("{:g} m", length);
-  write(to, words, right.x - width / 2, right.y + 17, "text-anchor", "middle", "font-size", "12");
-}
-
 }  // namespace
 
 Panel panel_of(const Simulation& simulation, std::string title) {
@@ -482,14 +405,8 @@ std::string picture_svg(const Plan& plan, const PictureDef& picture) {
   const double height = header + static_cast<double>(rows) * row_height + footer;
 
   pugi::xml_document document;
-  Node svg = add(document, "svg", "xmlns", "http://www.w3.org/2000/svg", "width", picture.width, "height",
-                 height, "viewBox", fmt::format("0 0 {:.5g} {:.5g}", picture.width, height), "font-family",
-                 "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif", "font-size", "13", "fill", ink);
-  hover(svg, picture.title);
+  Node svg = page(document, picture.width, height, picture.title, picture.subtitle);
   Node defs = add(svg, "defs");
-  add(svg, "rect", "width", picture.width, "height", height, "rx", "8", "fill", "#ffffff");
-  write(svg, picture.title, margin, 30, "font-size", "19", "font-weight", "bold");
-  write(svg, picture.subtitle, margin, 51, "fill", quiet);
 
   bool by_moment = false, by_stage = false;
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
@@ -500,7 +417,7 @@ std::string picture_svg(const Plan& plan, const PictureDef& picture) {
     add(add(defs, "clipPath", "id", clip), "rect", "x", corner.x, "y", corner.y, "width", wide, "height",
         high, "rx", "4");
     Node group = add(svg, "g", "class", "panel", "clip-path", fmt::format("url(#{})", clip));
-    add(group, "rect", "x", corner.x, "y", corner.y, "width", wide, "height", high, "fill", "#f7f9fb");
+    add(group, "rect", "x", corner.x, "y", corner.y, "width", wide, "height", high, "fill", ground);
     const Box place{corner.x, corner.y, corner.x + wide, corner.y + high};
     Artist(plan, panel, moments, view, scale, place, columns == 1 ? 1 : 0.7).draw(group);
     write(svg, panel.title, corner.x + wide / 2, corner.y + high + 19, "text-anchor", "middle");
@@ -517,9 +434,7 @@ std::string picture_svg(const Plan& plan, const PictureDef& picture) {
   if (by_stage) stage_bar(svg, defs, {x, foot}, bar);
   scale_bar(svg, scale, {picture.width - margin, foot + 10}, 0.15 * picture.width);
 
-  std::ostringstream text;
-  document.save(text, "", pugi::format_raw | pugi::format_no_declaration);
-  return std::move(text).str() + "\n";
+  return text_of(document);
 }
 
 }  // namespace ductile

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "ductile/files.h"
+#include "ductile/picture.h"
 
 extern char** environ;
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "ductile/files.h"
+#include "ductile/picture.h"
 
 namespace {
 using namespace ductile;
