@@ -4,7 +4,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
 file(RENAME ${SCRATCH}/prefix ${SCRATCH}/moved)
 set(outside ${CMAKE_CURRENT_LIST_DIR}/outside)
 configure(${outside} ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${SCRATCH}/moved
-  -D ROOMS=section,joint,calibrate,files,pictures)
+  -D ROOMS=section,joint,calibrate,files,pictures,design)
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run(${SCRATCH}/build/game)
 run(${SCRATCH}/build/level)

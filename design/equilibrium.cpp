@@ -1,0 +1,200 @@
+#include "equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "ductile/joint.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+bool is_free(const PlannedJoint& joint, Row row) {
+  return row == axial   ? joint.N == 0 && joint.Nc == 0
+         : row == shear ? joint.Q == 0
+                        : joint.M == 0 && joint.M_reverse == 0;
+}
+
+double stiffness_of(const PlannedJoint& joint, Row row) {
+  return row == axial ? joint.stiffness.N : row == shear ? joint.stiffness.Q : joint.stiffness.M;
+}
+
+// Of a row of B on one piece at `arm` from its centre: what it lengthens by per unit of x, y and θ.
+std::array<double, 3> row_on_piece(Row row, Point axis, Point arm) {
+  if (row == rotation) return {0, 0, 1};
+  const Point e = row == axial ? axis : left(axis);
+  return {e.x, e.y, dot(e, left(arm))};
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
+  find_loose();
+  if (std::find(held.begin(), held.end(), true) == held.end())
+    throw InvalidInput({{"joints", "no joint holds anything to the ground or to a body that stands still",
+                         "add a support, or a joint to a static body"}});
+  fill();
+  set_stiffness();
+  Eigen::SparseMatrix<double> A = k_.cwiseSqrt().asDiagonal() * B;
+  A.makeCompressed();
+  // A column that keeps less of itself than rounding leaves is a motion that no row resists.
+  double largest = 0;
+  for (Index i = 0; i < A.outerSize(); ++i) largest = std::max(largest, A.col(i).norm());
+  qr_.setPivotThreshold(1e-11 * largest);
+  qr_.compute(A);
+}
+
+void Equilibrium::find_loose() {
+  const std::size_t n = plan_.pieces.size();
+  const auto stands = [&](std::size_t i) {
+    return i == n ||
+           plan_.bodies[static_cast<std::size_t>(plan_.pieces[i].body)].type != BodyType::dynamic_body;
+  };
+  std::vector<std::size_t> group(n + 1);  // the last one: all that stands still
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  const auto index = [&](int piece) { return piece < 0 ? n : static_cast<std::size_t>(piece); };
+  for (std::size_t i = 0; i < n; ++i)
+    if (stands(i)) group[root(i)] = root(n);
+  for (const PlannedJoint& j : plan_.joints)
+    if (!is_free(j, axial) || !is_free(j, shear) || !is_free(j, rotation))
+      group[root(index(j.a))] = root(index(j.b));
+  column.assign(n, -1);
+  int columns = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (stands(i)) continue;
+    if (root(i) == root(n)) {
+      column[i] = columns;
+      columns += 3;
+    } else {
+      loose.push_back(static_cast<int>(i));
+    }
+  }
+  for (const PlannedJoint& j : plan_.joints) held.push_back(root(index(j.b)) == root(n));
+}
+
+std::array<double, 3> Equilibrium::scale(int piece) const {
+  const Piece& p = plan_.pieces[static_cast<std::size_t>(piece)];
+  const double s = 1 / std::sqrt(p.mass);
+  return {s, s, 1 / std::sqrt(p.inertia)};
+}
+
+void Equilibrium::fill() {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+    const PlannedJoint& j = plan_.joints[i];
+    if (!held[i]) continue;
+    for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
+      if (piece < 0 || column[static_cast<std::size_t>(piece)] < 0) continue;
+      const Point arm = j.anchor - plan_.pieces[static_cast<std::size_t>(piece)].center;
+      const auto s = scale(piece);
+      for (const Row row : {axial, shear, rotation}) {
+        if (is_free(j, row)) continue;
+        const auto entry = row_on_piece(row, j.axis, arm);
+        for (int c = 0; c < 3; ++c)
+          entries.emplace_back(3 * static_cast<int>(i) + row, column[static_cast<std::size_t>(piece)] + c,
+                               sign * entry[static_cast<std::size_t>(c)] * s[static_cast<std::size_t>(c)]);
+      }
+    }
+  }
+  const auto moving = std::count_if(column.begin(), column.end(), [](int c) { return c >= 0; });
+  B.resize(3 * static_cast<Index>(plan_.joints.size()), 3 * moving);
+  B.setFromTriplets(entries.begin(), entries.end());
+}
+
+// A row's effective mass is 1 / ‖its row of B‖², since B's columns are scaled by the masses.
+void Equilibrium::set_stiffness() {
+  VectorXd squares = VectorXd::Zero(B.rows());
+  for (Index c = 0; c < B.outerSize(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(B, c); it; ++it)
+      squares[it.row()] += it.value() * it.value();
+  k_ = VectorXd::Zero(B.rows());
+  double fastest = 0;  // k / m_eff of the stiffest elastic row, 1/s²
+  for (const bool elastic : {true, false})
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+      for (const Row row : {axial, shear, rotation}) {
+        const Index r = 3 * static_cast<Index>(i) + row;
+        const double k = stiffness_of(plan_.joints[i], row);
+        if (squares[r] == 0 || elastic != (k < unlimited)) continue;
+        if (elastic) fastest = std::max(fastest, k * squares[r]);
+        k_[r] = elastic ? k : (fastest > 0 ? 1e6 * fastest : 1) / squares[r];
+      }
+}
+
+void Equilibrium::add(VectorXd& f, int piece, Point force, double moment) const {
+  const int c = column[static_cast<std::size_t>(piece)];
+  if (c < 0) return;
+  const auto s = scale(piece);
+  f[c] += s[0] * force.x;
+  f[c + 1] += s[1] * force.y;
+  f[c + 2] += s[2] * moment;
+}
+
+std::vector<LoadCase> Equilibrium::cases() const {
+  std::set<double> starts{0};
+  for (const Plan::Load& load : plan_.loads)
+    if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
+  std::vector<LoadCase> result;
+  for (const double time : starts) {
+    LoadCase& now = result.emplace_back(LoadCase{time, VectorXd::Zero(B.cols()), VectorXd::Zero(B.cols())});
+    for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
+      add(now.gravity, static_cast<int>(i), plan_.pieces[i].mass * plan_.gravity, 0);
+    for (const Plan::Load& load : plan_.loads) {
+      if (load.def.from > time || load.def.to <= time) continue;
+      const Point arm = load.at - plan_.pieces[static_cast<std::size_t>(load.piece)].center;
+      add(now.loads, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
+    }
+  }
+  return result;
+}
+
+// With A = √k B = Q R Pᵀ and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q R⁻ᵀ Pᵀ f.
+VectorXd Equilibrium::least_energy(const VectorXd& f) const {
+  const Index rank = qr_.rank();
+  VectorXd y = VectorXd::Zero(B.rows());
+  const VectorXd permuted = qr_.colsPermutation().transpose() * f;
+  const auto R = qr_.matrixR().topLeftCorner(rank, rank);
+  y.head(rank) = R.transpose().template triangularView<Eigen::Lower>().solve(permuted.head(rank));
+  const VectorXd Y = qr_.matrixQ() * y;
+  return k_.cwiseSqrt().cwiseProduct(Y);
+}
+
+VectorXd Equilibrium::forces(const VectorXd& f) const {
+  VectorXd result = least_energy(f);
+  result += least_energy(f - B.transpose() * result);
+  return result;
+}
+
+VectorXd Equilibrium::motions(const VectorXd& f) const {
+  const Index rank = qr_.rank();
+  const VectorXd permuted = qr_.colsPermutation().transpose() * f;
+  const auto R = qr_.matrixR().topLeftCorner(rank, rank);
+  VectorXd x = VectorXd::Zero(B.cols());
+  const VectorXd y = R.transpose().template triangularView<Eigen::Lower>().solve(permuted.head(rank));
+  x.head(rank) = R.template triangularView<Eigen::Upper>().solve(y);
+  return qr_.colsPermutation() * x;
+}
+
+VectorXd Equilibrium::balanced(const VectorXd& f) const {
+  const VectorXd kept = B.transpose() * forces(f);
+  Index worst = 0;
+  const double rest = (f - kept).cwiseAbs().maxCoeff(&worst);
+  if (rest > 1e-6 * f.cwiseAbs().maxCoeff()) {
+    const auto piece =
+        static_cast<std::size_t>(std::find(column.begin(), column.end(), worst / 3 * 3) - column.begin());
+    throw InvalidInput({{"piece '" + plan_.pieces[piece].name + "'",
+                         "the loads move it, and no joint resists: the structure is a mechanism",
+                         "add a support, or give a free row of its joints a capacity"}});
+  }
+  return kept;
+}
+
+}  // namespace ductile

@@ -1,0 +1,43 @@
+// What a designer asks of a plan before it ever runs: how much each joint is used, and what it takes to
+// collapse.
+//
+// First-order statics of the pieces where they are drawn, held by the plan's joints. Contacts and wheels
+// carry nothing here: a structure that no joint holds to the ground, a static or a kinematic body is loose,
+// and left out. SI units, signs as everywhere: N positive in tension, +M turns the second piece
+// counter-clockwise against the first.
+#pragma once
+
+#include <vector>
+
+#include "ductile/calibrate.h"
+#include "ductile/simulation.h"
+
+namespace ductile {
+
+/// What a joint carries at rest.
+struct StaticJoint {
+  double N = 0, Q = 0, M = 0;  ///< N, N, N m; NaN in a loose structure
+  JointReading::Usage usage;   ///< |value| / cap of its sign; NaN where unlimited, 0 where the row is free
+  /// The factor on all loads and gravity at which the joint yields: 1 / its largest usage, or with
+  /// Plan::interaction where the ray from the origin leaves the yield surface. Unlimited where it never does.
+  double yields_at = unlimited;
+};
+
+/// Elastic forces under the plan's loads and gravity, each at its full value whatever its ramp. Where loads
+/// start and end, those that act at one time are taken together, and the time of least reserve is reported.
+struct StaticCheck {
+  double time = 0;                  ///< s
+  std::vector<StaticJoint> joints;  ///< by Plan::joints
+  std::vector<Point> displacement;  ///< m, by Plan::pieces: of the centre of mass, elastic
+  double reserve = unlimited;       ///< the least yields_at: the factor on all loads until the first yield
+  std::vector<int> first_to_yield;  ///< joints that yield at some factor, the first first
+  std::vector<int> loose;           ///< pieces that no joint holds to anything that stands still
+};
+
+/// The forces of least complementary energy among those in equilibrium with the loads (Menabrea): exact
+/// where statics alone decides, by the joints' stiffnesses where it does not; rigid rows count as stiffer
+/// than the stiffest by 1e6, each in proportion to its effective mass, as in the structure's solver. Throws
+/// InvalidInput where the loads move a mechanism, or nothing is held.
+StaticCheck static_check(const Plan& plan);
+
+}  // namespace ductile

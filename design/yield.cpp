@@ -1,0 +1,46 @@
+#include "yield.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ductile/box2d.h"
+
+namespace ductile {
+
+Yield::Yield(const Plan& plan, const PlannedJoint& joint) : joint_(joint) {
+  if (!plan.interaction) return;
+  const std::vector<AxialMoment> polygon = interaction_of(plan, joint);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const AxialMoment &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double twice_area = p.N * q.M - p.M * q.N;
+    facets.push_back({(q.M - p.M) / twice_area, (p.N - q.N) / twice_area});
+  }
+}
+
+double Yield::cap(Row row, bool reverse) const {
+  return row == axial      ? (reverse ? joint_.Nc : joint_.N)
+         : row == rotation ? (reverse ? joint_.M_reverse : joint_.M)
+                           : joint_.Q;
+}
+
+double Yield::usage(Row row, double value) const {
+  const double limit = cap(row, value < 0);
+  if (limit == unlimited) return std::numeric_limits<double>::quiet_NaN();
+  if (is_free(row) || value == 0) return 0;
+  return std::abs(value) / limit;
+}
+
+const Yield::Facet& Yield::steepest(double N, double M) const {
+  return *std::max_element(facets.begin(), facets.end(), [&](const Facet& a, const Facet& b) {
+    return a.n * N + a.m * M < b.n * N + b.m * M;
+  });
+}
+
+double Yield::usage(const std::array<double, 3>& force) const {
+  const double q = std::fmax(0, usage(shear, force[1]));  // 0 for NaN
+  if (facets.empty()) return std::fmax(q, std::fmax(usage(axial, force[0]), usage(rotation, force[2])));
+  const Facet& f = steepest(force[0], force[2]);
+  return std::hypot(f.n * force[0] + f.m * force[2], q);
+}
+
+}  // namespace ductile

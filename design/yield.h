@@ -1,0 +1,35 @@
+// When a joint yields: by each row's own cap, or with Plan::interaction within g(N, M)² + (Q/Q_max)² ≤ 1,
+// g the gauge of its N–M polygon (joint/yield_surface.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ductile/calibrate.h"
+
+namespace ductile {
+
+class Yield {
+ public:
+  Yield(const Plan& plan, const PlannedJoint& joint);
+
+  double cap(Row row, bool reverse) const;
+  bool is_free(Row row) const { return cap(row, false) == 0 && cap(row, true) == 0; }
+
+  /// Of one row: |value| / cap of its sign. NaN where unlimited, 0 where free, infinite against a cap of 0.
+  double usage(Row row, double value) const;
+  /// Of the joint, NaN-free: it yields at 1. Grows in proportion to the forces (N, Q, M).
+  double usage(const std::array<double, 3>& force) const;
+
+  /// n·N + m·M ≤ 1 for every facet of the polygon; none where the caps are independent.
+  struct Facet {
+    double n, m;
+  };
+  std::vector<Facet> facets;
+  const Facet& steepest(double N, double M) const;
+
+ private:
+  const PlannedJoint& joint_;
+};
+
+}  // namespace ductile

@@ -1,0 +1,177 @@
+// Static forces against closed forms, and against the simulation at rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ductile/design.h"
+#include "ductile/files.h"
+#include "structures.h"
+
+namespace {
+using namespace ductile;
+
+constexpr double L = 20, P = 1e6;
+
+const StaticJoint& at(const Plan& plan, const StaticCheck& check, const std::string& name) {
+  return check.joints.at(static_cast<std::size_t>(joint_named(plan, name)));
+}
+
+TEST(StaticCheck, StaticsAloneDecidesACantileverWhateverItsStiffness) {
+  for (const int pieces : {1, 2, 10, 100}) {
+    for (const auto elastic : {Elasticity::true_stiffness, Elasticity::rigid}) {
+      SceneDef scene = cantilever(pieces, P);
+      scene.joint.elastic = elastic;
+      const Plan plan = calibrate(scene);
+      const StaticCheck check = static_check(plan);
+      for (int i = 0; i < pieces; ++i) {
+        const std::string name = i == 0 ? "wall-beam/0" : plan.joints[static_cast<std::size_t>(i - 1)].name;
+        const double arm = L - L * i / pieces;
+        const StaticJoint& j = at(plan, check, pieces == 1 ? "wall-beam" : name);
+        EXPECT_NEAR(j.M / (-P * arm), 1, 1e-9) << name << " of " << pieces;
+        EXPECT_NEAR(j.Q / -P, 1, 1e-9);
+        EXPECT_NEAR(j.N / P, 0, 1e-9);
+      }
+      EXPECT_NEAR(check.reserve * P * L / plastic_moment, 1, 1e-9);
+      EXPECT_EQ(check.first_to_yield.size(), static_cast<std::size_t>(pieces));
+      const std::string root = pieces == 1 ? "wall-beam" : "wall-beam/0";
+      EXPECT_EQ(check.first_to_yield.front(), joint_named(plan, root));
+    }
+  }
+}
+
+// Bending alone P L³/3EI; the pieces' rotations are lumped in joints of ℓ, the root's of ℓ/2: the sum over
+// joints of M_i² ℓ_i/(P EI) differs from the integral by 1/2n² of it, and by n more pieces for shear.
+TEST(StaticCheck, ElasticTipDeflection) {
+  for (const int n : {10, 40}) {
+    SceneDef scene = cantilever(n, P);
+    scene.joint.shear = unlimited;
+    Plan plan = calibrate(scene);
+    for (PlannedJoint& joint : plan.joints) joint.stiffness.Q = joint.stiffness.N = unlimited;
+    const StaticCheck check = static_check(plan);
+    const double EI = 210e9 / 12, l = L / n;
+    double tip = 0, slope = 0;  // closed sum at the last piece's centre
+    for (int i = 0; i < n; ++i) {
+      const double x = l * i, angle = P * (L - x) * (i == 0 ? l / 2 : l) / EI;
+      tip += angle * (L - l / 2 - x);
+      slope += angle;
+    }
+    EXPECT_NEAR(check.displacement.back().y / -tip, 1, 1e-5) << n;  // rigid is 1e6 times stiffer
+    EXPECT_NEAR((tip + slope * l / 2) / (P * L * L * L / 3 / EI), 1, 1. / (n * n)) << n;
+  }
+}
+
+// P L/8 at the ends and in the middle of a clamped beam; 3 P L/16 at the clamped end of a propped one.
+TEST(StaticCheck, IndeterminateForcesFollowTheStiffness) {
+  for (const int n : {20, 40}) {
+    const double order = 2. / (n * n);  // of the joints' discretisation
+    const Plan clamped = calibrate(fixed_fixed(n, P));
+    const StaticCheck c = static_check(clamped);
+    EXPECT_NEAR(at(clamped, c, "left-beam/0").M / (-P * L / 8), 1, order);
+    const std::string middle = "beam/" + std::to_string(n / 2 - 1) + "-beam/" + std::to_string(n / 2);
+    EXPECT_NEAR(at(clamped, c, middle).M / (P * L / 8), 1, order);
+
+    SceneDef scene = propped(n, P);
+    Plan plan = calibrate(scene);
+    for (PlannedJoint& joint : plan.joints) joint.stiffness.Q = unlimited;  // Bernoulli
+    EXPECT_NEAR(at(plan, static_check(plan), "wall-beam/0").M / (-3 * P * L / 16), 1, order);
+  }
+}
+
+TEST(StaticCheck, AgreesWithTheSimulationAtRest) {
+  for (const char* name : {"frame", "fixed_fixed", "cantilever"}) {
+    SceneDef scene = read_scene(DUCTILE_SOURCE_DIR "/scenes/" + std::string(name) + ".scene.json");
+    scene.gravity_ramp = 1;
+    for (BodyDef& body : scene.bodies)
+      if (body.material) body.material->damping_ratio = 1;
+    const Plan plan = calibrate(scene);
+    const StaticCheck check = static_check(plan);
+    Simulation simulation(plan);
+    while (simulation.time() < 3) simulation.step();
+    double largest[3] = {}, apart[3] = {};
+    for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+      const JointReading r = simulation.joint(i);
+      const double simulated[] = {r.N, r.Q, r.M},
+                   statics[] = {check.joints[i].N, check.joints[i].Q, check.joints[i].M};
+      for (int k = 0; k < 3; ++k) {
+        largest[k] = std::max(largest[k], std::abs(statics[k]));
+        apart[k] = std::max(apart[k], std::abs(statics[k] - simulated[k]));
+      }
+    }
+    // The simulation's axes have turned with the sag, by up to 6e-3 in the cantilever.
+    EXPECT_LT(apart[0], 7e-3 * std::max(largest[0], largest[1])) << name;
+    EXPECT_LT(apart[1], 2e-3 * largest[1]) << name;
+    EXPECT_LT(apart[2], 2e-3 * largest[2]) << name;
+  }
+}
+
+// N/N_p and M/M_p of a rectangle: m + n² = 1 along the ray.
+TEST(StaticCheck, ReserveOnTheYieldSurface) {
+  SceneDef scene = cantilever(1, P);
+  scene.joint = {};
+  scene.interaction = true;
+  scene.loads[0].force = {-200e6, -1e6};
+  const StaticCheck check = static_check(calibrate(scene));
+  const double m = P * L / plastic_moment, n = 200e6 / 350e6, q = P / 175e6;
+  // s: (s m)/√(1 − (s q)²) + (s n)²/(1 − (s q)²) = 1
+  double low = 0, high = 10;
+  for (int i = 0; i < 100; ++i) {
+    const double s = (low + high) / 2, left = 1 - s * s * q * q;
+    (s * m / std::sqrt(left) + s * s * n * n / left < 1 ? low : high) = s;
+  }
+  EXPECT_NEAR(check.reserve / low, 1, 2e-3);  // the joint's polygon is within 1e-3 of the curve
+  EXPECT_LT(check.reserve, low * (1 + 1e-9)) << "inscribed";
+}
+
+TEST(StaticCheck, LoadsThatEndAreLookedAtWhenTheyAct) {
+  SceneDef scene = cantilever(4, 1e6);
+  scene.loads[0].to = 2;
+  scene.loads.push_back({.body = "beam", .at = {20, 0}, .force = {0, -3e6}, .from = 3, .ramp = 1, .to = 5});
+  const StaticCheck check = static_check(calibrate(scene));
+  EXPECT_EQ(check.time, 3);
+  EXPECT_NEAR(check.reserve, plastic_moment / (3e6 * L), 1e-9);
+}
+
+TEST(StaticCheck, NothingYieldsWithoutLoad) {
+  const StaticCheck check = static_check(calibrate(cantilever(4, 0)));
+  EXPECT_EQ(check.reserve, unlimited);
+  EXPECT_TRUE(check.first_to_yield.empty());
+}
+
+TEST(StaticCheck, LoosePiecesAreNamedAndLeftOut) {
+  SceneDef scene = cantilever(4, P);
+  BodyDef stone = beam(2, 1, 1);
+  stone.name = "stone";
+  stone.at = {10, 3};
+  scene.bodies.push_back(stone);
+  const Plan plan = calibrate(scene);
+  const StaticCheck check = static_check(plan);
+  ASSERT_EQ(check.loose.size(), 2u);
+  EXPECT_EQ(plan.pieces[static_cast<std::size_t>(check.loose[0])].name, "stone/0");
+  EXPECT_TRUE(std::isnan(at(plan, check, "stone/0-stone/1").M));
+  EXPECT_NEAR(check.reserve * P * L / plastic_moment, 1, 1e-9);
+}
+
+std::string refusal(const SceneDef& scene) {
+  try {
+    static_check(calibrate(scene));
+  } catch (const InvalidInput& e) {
+    return to_string(e.problems().front());
+  }
+  return "";
+}
+
+TEST(StaticCheck, AMechanismIsRefused) {
+  SceneDef rolling = simply_supported(4, P);
+  rolling.supports[0].fix_x = false;
+  EXPECT_EQ(refusal(rolling), "") << "a beam on rollers carries what does not push it along";
+  rolling.loads[0].force.x = 1e-4 * P;
+  EXPECT_NE(refusal(rolling).find("mechanism"), std::string::npos);
+  SceneDef hinged = cantilever(4, P);
+  hinged.joints[0].overrides.moment = 0;
+  EXPECT_NE(refusal(hinged).find("mechanism"), std::string::npos);
+  SceneDef flying = cantilever(4, P);
+  flying.joints.clear();
+  EXPECT_NE(refusal(flying).find("no joint holds"), std::string::npos);
+}
+
+}  // namespace
