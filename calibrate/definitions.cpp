@@ -29,11 +29,16 @@ void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {
   def.localAnchorB = vector(joint.anchor - center(plan, joint.b));
 }
 
+bool axial_free(const PlannedJoint& j) { return std::max(j.N, j.Nc) == 0; }
+bool shear_free(const PlannedJoint& j) { return j.Q == 0; }
+bool turns_freely(const PlannedJoint& j) { return std::max(j.M, j.M_reverse) == 0; }
+
 void list_what_no_stock_joint_does(std::vector<std::string>& lost, const PlannedJoint& j) {
-  if (j.stiffness.N < unlimited || j.stiffness.Q < unlimited)
+  if ((j.stiffness.N < unlimited && !axial_free(j)) || (j.stiffness.Q < unlimited && !shear_free(j)))
     lost.push_back("it does not stretch or shear elastically");
-  if (std::min(j.N, j.Nc) < unlimited) lost.push_back("it carries any axial force without yielding");
-  if (j.Q < unlimited) lost.push_back("it carries any shear force without yielding");
+  if (std::min(j.N, j.Nc) < unlimited && !axial_free(j))
+    lost.push_back("it carries any axial force without yielding");
+  if (j.Q < unlimited && !shear_free(j)) lost.push_back("it carries any shear force without yielding");
   if (std::min({j.max_rotation, j.max_elongation, j.max_compression, j.max_slip}) < unlimited)
     lost.push_back("it never breaks");
 }
@@ -160,31 +165,29 @@ std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& j) 
     def.localAxisA = vector(axis);
     return anchored(def);
   };
-  const bool axial_free = std::max(j.N, j.Nc) == 0, shear_free = j.Q == 0,
-             turns = std::max(j.M, j.M_reverse) == 0;
-  if (axial_free && shear_free) {
-    if (turns) return std::nullopt;
+  if (axial_free(j) && shear_free(j)) {
+    if (turns_freely(j)) return std::nullopt;
     b2MotorJointDef def;  // holds the angle only
     def.maxForce = 0;
     def.maxTorque = std::numeric_limits<float>::max();
     def.correctionFactor = 1;
     return def;
   }
-  if (axial_free || shear_free) {
-    const Point free_axis = axial_free ? j.axis : left(j.axis);
-    if (turns) return along(b2WheelJointDef{}, free_axis);  // without a spring: a point on a line
+  if (axial_free(j) || shear_free(j)) {
+    const Point free_axis = axial_free(j) ? j.axis : left(j.axis);
+    if (turns_freely(j)) return along(b2WheelJointDef{}, free_axis);  // without a spring: a point on a line
     return along(b2PrismaticJointDef{}, free_axis);
   }
-  if (turns) return anchored(b2RevoluteJointDef{});
+  if (turns_freely(j)) return anchored(b2RevoluteJointDef{});
   return weld_def(plan, j);
 }
 
-std::vector<std::string> lost_in_weld(const PlannedJoint& j) {
+std::vector<std::string> lost_in_stock(const PlannedJoint& j) {
   std::vector<std::string> lost;
-  if (std::max(j.M, j.M_reverse) == 0)
-    lost.push_back("it is not a pin");
-  else if (std::min(j.M, j.M_reverse) < unlimited)
+  if (std::min(j.M, j.M_reverse) < unlimited && !turns_freely(j))
     lost.push_back("it carries any moment without yielding");
+  if (j.stiffness.M < unlimited && !turns_freely(j) && (axial_free(j) || shear_free(j)))
+    lost.push_back("it does not bend elastically");
   list_what_no_stock_joint_does(lost, j);
   return lost;
 }

@@ -113,6 +113,29 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   std::vector<Level> levels_;
 };
 
+void print(const nlohmann::ordered_json& json, const std::string& indent, std::string& text) {
+  const auto has_object = [](const auto& self, const nlohmann::ordered_json& value) -> bool {
+    if (!value.is_array()) return value.is_object();
+    return std::any_of(value.begin(), value.end(),
+                       [&](const nlohmann::ordered_json& element) { return self(self, element); });
+  };
+  const bool leaf = indent.size() >= 4 && !(json.is_array() && has_object(has_object, json));
+  if (leaf || !json.is_structured() || !has_object(has_object, json)) {
+    text += json.dump();
+    return;
+  }
+  const std::string deeper = indent + "  ";
+  text += json.is_object() ? "{" : "[";
+  const char* separator = "\n";
+  for (const auto& [key, value] : json.items()) {
+    text += separator + deeper;
+    if (json.is_object()) text += nlohmann::ordered_json(key).dump() + ": ";
+    print(value, deeper, text);
+    separator = ",\n";
+  }
+  text += "\n" + indent + (json.is_object() ? "}" : "]");
+}
+
 }  // namespace
 
 void Problems::add(const std::string& place, std::string what, std::string remedy) {
@@ -276,6 +299,12 @@ void Object::point(const char* key, Point& target) {
 
 void wrong_choice(const Value& value, const std::vector<std::string_view>& choices) {
   value.wrong("is " + value.shown(), "write one of: " + list(choices));
+}
+
+std::string printed(const nlohmann::ordered_json& json) {
+  std::string text;
+  print(json, "", text);
+  return text + "\n";
 }
 
 }  // namespace ductile

@@ -35,6 +35,9 @@ class Problems {
 /// that a double does not hold.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
+/// Indented, with points, rings and short lists on one line each, as one would write them.
+std::string printed(const nlohmann::ordered_json& json);
+
 /// The numbers that are allowed somewhere.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();

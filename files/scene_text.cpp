@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ductile/files.h"
+#include "json.h"
 
 namespace ductile {
 namespace {
@@ -198,29 +198,6 @@ void put_list(Json& scene, const char* key, const std::vector<T>& list) {
   for (const T& element : list) scene[key].push_back(json(element));
 }
 
-/// Indented, with points, rings and short lists on one line each, as one would write them.
-void print(const Json& json, const std::string& indent, std::string& text) {
-  const auto has_object = [](const auto& self, const Json& value) -> bool {
-    if (!value.is_array()) return value.is_object();
-    return std::any_of(value.begin(), value.end(), [&](const Json& element) { return self(self, element); });
-  };
-  const bool leaf = indent.size() >= 4 && !(json.is_array() && has_object(has_object, json));
-  if (leaf || !json.is_structured() || !has_object(has_object, json)) {
-    text += json.dump();
-    return;
-  }
-  const std::string deeper = indent + "  ";
-  text += json.is_object() ? "{" : "[";
-  const char* separator = "\n";
-  for (const auto& [key, value] : json.items()) {
-    text += separator + deeper;
-    if (json.is_object()) text += Json(key).dump() + ": ";
-    print(value, deeper, text);
-    separator = ",\n";
-  }
-  text += "\n" + indent + (json.is_object() ? "}" : "]");
-}
-
 }  // namespace
 
 std::string scene_text(const SceneDef& scene) {
@@ -243,9 +220,7 @@ std::string scene_text(const SceneDef& scene) {
   put_list(object, "supports", scene.supports);
   put_list(object, "loads", scene.loads);
   put_list(object, "wheels", scene.wheels);
-  std::string text;
-  print(object, "", text);
-  return text + "\n";
+  return printed(object);
 }
 
 }  // namespace ductile

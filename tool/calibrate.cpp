@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "command.h"
+#include "ductile/definitions.h"
 #include "ductile/files.h"
 #include "ductile/picture.h"
 
@@ -110,11 +112,29 @@ std::string table(const Plan& plan, const std::string& scene) {
   return text;
 }
 
+/// "scenes/B1-1.scene.json" is made by build_B1_1().
+std::string function_of(const std::string& scene_file) {
+  std::string name = "build_" + std::filesystem::path(scene_file).filename().string();
+  name = name.substr(0, name.find('.'));
+  const auto in_a_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  std::replace_if(
+      name.begin(), name.end(), [&](char c) { return !in_a_name(c); }, '_');
+  return name;
+}
+
+std::string definitions_of(const Plan& plan, const Options& options) {
+  if (options.to == "box2d") return box2d_text(plan);
+  if (options.to == "cpp") return cpp_text(plan, function_of(options.scene));
+  if (options.to == "rube") throw NotYet("--to rube");
+  return json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
+}
+
 std::string run(const Options& options) {
   if (options.target_error > 0) throw NotYet("--target-error");
   const Plan plan = plan_of(options.scene);
-  if (!options.to.empty() && options.to != "json") throw NotYet("--to " + options.to);
-  const std::string definitions = json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
+  const std::string definitions = in_file(options.scene, [&] { return definitions_of(plan, options); });
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
     const std::string svg =

@@ -78,11 +78,11 @@ TEST(Definitions, CarryWhatThePlanSays) {
   EXPECT_EQ(def.localAnchorA, b2Vec2(5, 0));
   EXPECT_EQ(def.localAnchorB, b2Vec2(-5, 0));
   EXPECT_TRUE(def.interaction.empty());
-  EXPECT_FALSE(lost_in_weld(j).empty());
+  EXPECT_FALSE(lost_in_stock(j).empty());
   PlannedJoint weld;
   weld.N = weld.Nc = weld.Q = weld.M = weld.M_reverse = unlimited;
   weld.stiffness = {unlimited, unlimited, 1e6};
-  EXPECT_TRUE(lost_in_weld(weld).empty());
+  EXPECT_TRUE(lost_in_stock(weld).empty());
 }
 
 TEST(Definitions, NumbersThatNoFloatHoldsAreRefused) {

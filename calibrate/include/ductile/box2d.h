@@ -38,8 +38,8 @@ using StockJointDef =
 /// are.
 std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& joint);
 
-/// What of the plan a stock weld or hinge does not do, in plain words; empty where nothing is lost.
-std::vector<std::string> lost_in_weld(const PlannedJoint& joint);
+/// What of the plan stock_def() or hinge_def() does not do, in plain words; empty where nothing is lost.
+std::vector<std::string> lost_in_stock(const PlannedJoint& joint);
 std::vector<std::string> lost_in_hinge(const PlannedJoint& joint);
 
 /// The N–M polygon of a joint, counter-clockwise from its section's exact curve within `tolerance` of its

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "built_plan.h"
+#include "ductile/definitions.h"
+
+namespace ductile {
+namespace {
+
+/// The shortest text that reads back as the same number.
+template <class T>
+std::string digits(T value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// Always with a point, so that it is no int: a large one would not compile, and -0 lose its sign.
+std::string literal(double value) {
+  if (std::isinf(value)) return "unlimited";
+  const std::string text = digits(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+std::string literal(float value) {
+  const std::string text = digits(value);
+  return (text.find_first_of(".e") == std::string::npos ? text + ".0" : text) + "f";
+}
+std::string literal(const b2Vec2& v) { return "{" + literal(v.x) + ", " + literal(v.y) + "}"; }
+
+/// Names may hold anything; a comment ends with its line.
+std::string comment(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\'; }, ' ');
+  return "  // " + name + "\n";
+}
+
+std::string shape(const b2Fixture& fixture) {
+  if (fixture.GetType() == b2Shape::e_circle) return "disc(" + literal(fixture.GetShape()->m_radius) + ")";
+  const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
+  std::string list;
+  for (int i = 0; i < polygon.m_count; ++i) list += (i ? ", " : "") + literal(polygon.m_vertices[i]);
+  return "polygon({" + list + "})";
+}
+
+std::string row(const RowDef& row) {
+  return "{" + literal(row.stiffness) + ", " + literal(row.damping_ratio) + ", " + literal(row.cap) + ", " +
+         literal(row.cap_reverse) + "}";
+}
+
+// What every source begins with: one line per body, fixture and joint then suffices.
+constexpr const char* tools = R"(
+  constexpr double unlimited = ductile::unlimited;
+  const auto body = [&](b2BodyType type, b2Vec2 position, b2Vec2 velocity, float spin, bool sleep) {
+    b2BodyDef def;
+    def.type = type;
+    def.position = position;
+    def.linearVelocity = velocity;
+    def.angularVelocity = spin;
+    def.allowSleep = sleep;
+    return world.CreateBody(&def);
+  };
+  [[maybe_unused]] const auto polygon = [](std::initializer_list<b2Vec2> vertices) {
+    b2PolygonShape shape;
+    shape.Set(vertices.begin(), static_cast<int32>(vertices.size()));
+    return shape;
+  };
+  [[maybe_unused]] const auto disc = [](float radius) {
+    b2CircleShape shape;
+    shape.m_radius = radius;
+    return shape;
+  };
+  const auto fixture = [](b2Body* of, const b2Shape& shape, float friction, float restitution, float density, int16 group) {
+    b2FixtureDef def;
+    def.shape = &shape;
+    def.friction = friction;
+    def.restitution = restitution;
+    def.filter.groupIndex = group;
+    of->CreateFixture(&def)->SetDensity(density);  // for later: the mass is set below
+  };
+  [[maybe_unused]] const auto mass = [](b2Body* of, float mass, float inertia) {
+    const b2MassData data{mass, {0, 0}, inertia};
+    of->SetMassData(&data);
+  };
+)";
+
+constexpr const char* joint_tool = R"(
+  ductile::Structure structure(world);
+  struct Limits {
+    double rotation, elongation, compression, slip;
+  };
+  [[maybe_unused]] const auto joint = [&](b2Body* a, b2Body* b, b2Vec2 anchor_a, b2Vec2 anchor_b, float axis, float follow,
+                                          ductile::RowDef axial, ductile::RowDef shear, ductile::RowDef rotation, Limits limits,
+                                          std::vector<ductile::AxialMoment> interaction = {}) {
+    ductile::ElasticPlasticJointDef def;
+    def.bodyA = a;
+    def.bodyB = b;
+    def.localAnchorA = anchor_a;
+    def.localAnchorB = anchor_b;
+    def.axisAngle = axis;
+    def.axisFollow = follow;
+    def.rows[ductile::axial] = axial;
+    def.rows[ductile::shear] = shear;
+    def.rows[ductile::rotation] = rotation;
+    def.max_rotation = limits.rotation;
+    def.max_elongation = limits.elongation;
+    def.max_compression = limits.compression;
+    def.max_slip = limits.slip;
+    def.interaction = std::move(interaction);
+    return structure.create_joint(def);
+  };
+)";
+
+}  // namespace
+
+std::string cpp_text(const Plan& plan, const std::string& function) {
+  BuiltPlan built(plan);
+  constexpr const char* types[] = {"b2_staticBody", "b2_kinematicBody", "b2_dynamicBody"};
+  std::string bodies, fixtures, joints, wheels;
+  int lowest_group = 0;
+  const auto add_body = [&](const b2Body& body, const std::string& name) {
+    bodies += std::string("      body(") + types[body.GetType()] + ", " + literal(body.GetPosition()) + ", " +
+              literal(body.GetLinearVelocity()) + ", " + literal(body.GetAngularVelocity()) + ", " +
+              (body.IsSleepingAllowed() ? "true" : "false") + ")," + comment(name);
+  };
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const b2Body& body = *built.built.bodies[i];
+    const std::string of = "bodies[" + std::to_string(i) + "]";
+    add_body(body, std::to_string(i) + ": " + plan.pieces[i].name);
+    for (const b2Fixture* fixture : fixtures_of(body)) {
+      const int group = fixture->GetFilterData().groupIndex;
+      lowest_group = std::min(lowest_group, group);
+      fixtures += "  fixture(" + of + ", " + shape(*fixture) + ", " + literal(fixture->GetFriction()) + ", " +
+                  literal(fixture->GetRestitution()) + ", " + literal(fixture->GetDensity()) + ", " +
+                  std::to_string(group) + ");\n";
+    }
+    if (body.GetType() == b2_dynamicBody)
+      fixtures +=
+          "  mass(" + of + ", " + literal(body.GetMass()) + ", " + literal(body.GetInertia()) + ");\n";
+  }
+  if (built.built.ground) add_body(*built.built.ground, "ground");
+  const auto body_at = [&](int piece) {
+    return "bodies[" + std::to_string(piece < 0 ? plan.pieces.size() : static_cast<std::size_t>(piece)) + "]";
+  };
+  for (std::size_t i = 0; i < plan.wheels.size(); ++i) {
+    const b2WheelJoint& w = *built.built.wheels[i];
+    wheels += "  {\n    b2WheelJointDef def;\n    def.bodyA = " + body_at(plan.wheels[i].chassis) +
+              ";\n    def.bodyB = " + body_at(plan.wheels[i].wheel) +
+              ";\n    def.localAnchorA = " + literal(w.GetLocalAnchorA()) +
+              ";\n    def.localAnchorB = " + literal(w.GetLocalAnchorB()) +
+              ";\n    def.localAxisA = " + literal(w.GetLocalAxisA()) +
+              ";\n    def.stiffness = " + literal(w.GetStiffness()) +
+              ";\n    def.damping = " + literal(w.GetDamping()) +
+              ";\n    def.enableMotor = true;\n    def.motorSpeed = " + literal(w.GetMotorSpeed()) +
+              ";\n    def.maxMotorTorque = " + literal(w.GetMaxMotorTorque()) +
+              ";\n    world.CreateJoint(&def);\n  }\n";
+  }
+  for (const PlannedJoint& j : plan.joints) {
+    const ElasticPlasticJointDef def = elastic_plastic_def(plan, j);
+    joints += "  joint(" + body_at(j.a) + ", " + body_at(j.b) + ", " + literal(def.localAnchorA) + ", " +
+              literal(def.localAnchorB) + ", " + literal(def.axisAngle) + ", " + literal(def.axisFollow) +
+              ", " + row(def.rows[axial]) + ", " + row(def.rows[shear]) + ", " + row(def.rows[rotation]) +
+              ", {" + literal(def.max_rotation) + ", " + literal(def.max_elongation) + ", " +
+              literal(def.max_compression) + ", " + literal(def.max_slip) + "}";
+    std::string points;
+    for (const AxialMoment& p : def.interaction)
+      points += (points.empty() ? "{" : ", {") + literal(p.N) + ", " + literal(p.M) + "}";
+    joints += (points.empty() ? "" : ", {" + points + "}") + ");" + comment(j.name);
+  }
+
+  std::string text =
+      "// Written by `ductile calibrate --to cpp`. Needs Box2D 2.4 and ductile::joint, no other part of "
+      "ductile.\n"
+      "#include <box2d/box2d.h>\n#include <ductile/joint.h>\n\n#include <initializer_list>\n#include "
+      "<utility>\n#include <vector>\n\n"
+      "// Makes bodies and joints in `world`, which owns them. Call update() of the structure after each "
+      "Step.\n";
+  if (lowest_group < 0) text += "// Uses the collision groups -1 to " + std::to_string(lowest_group) + ".\n";
+  for (const std::string& lost : lost_in_definitions(plan)) text += comment("Not in it: " + lost).substr(2);
+  text += "inline ductile::Structure " + function + "(b2World& world) {";
+  text += tools;
+  text += "\n  world.SetGravity(" +
+          literal(b2Vec2{static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)}) + ");\n";
+  if (!bodies.empty()) text += "  b2Body* const bodies[] = {\n" + bodies + "  };\n";
+  return text + fixtures + wheels + joint_tool + joints + "  return structure;\n}\n";
+}
+
+}  // namespace ductile

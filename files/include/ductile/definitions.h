@@ -1,0 +1,21 @@
+// A plan as text for other programs: definitions of Box2D's own joints as data, and C++ source.
+//
+// Bodies, fixtures and joints are those that build() makes in a world, number for number: floats are written
+// with the digits that bring the same float back. Box2D refuses what it cannot hold (InvalidInput).
+#pragma once
+
+#include <string>
+
+#include "ductile/calibrate.h"
+
+namespace ductile {
+
+/// JSON (docs/box2d.md): bodies with fixtures and mass, and for every joint the fields of the stock
+/// definitions that stand for it, in Box2D 2.4 and in Box2D 3, each beside what it loses.
+std::string box2d_text(const Plan& plan);
+
+/// C++ source of a function `function(b2World&)` that makes the plan with ductile joints and returns their
+/// Structure. It needs ductile::joint and no other room.
+std::string cpp_text(const Plan& plan, const std::string& function);
+
+}  // namespace ductile
