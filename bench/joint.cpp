@@ -115,9 +115,9 @@ std::vector<Case> cases() {
                    .settle = 1});
     all.push_back({.name = name + "/swaying", .layout = layout, .before_step = shake});
   }
-  all.push_back({"joint/grid/30/rest", [] { return grid(30); }});
+  all.push_back({"joint/grid/30/rest", [] { return grid(30, 30); }});
   all.push_back({.name = "joint/grid/30/rigid_motion",
-                 .layout = [] { return grid(30).let_go(); },
+                 .layout = [] { return grid(30, 30).let_go(); },
                  .gravity = 0,
                  .stock_gravity = 0,
                  .start = spin,
@@ -125,7 +125,7 @@ std::vector<Case> cases() {
   for (const int softer : {1, 100, 1000}) {
     all.push_back(
         {.name = "joint/grid/30/deforming" + (softer == 1 ? "" : "/softer_" + std::to_string(softer)),
-         .layout = [=] { return softened(grid(30), softer); },
+         .layout = [=] { return softened(grid(30, 30), softer); },
          .before_step = shake});
   }
   for (const int pieces : {1000, 10000, 100000}) {

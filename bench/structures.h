@@ -1,5 +1,5 @@
-// Structures of many equal boxes, built either with our joints or with stock welds, for timing one against
-// the other. Steel, SI, depth 1 m.
+// Structures of many boxes, built either with our joints or with stock ones, for timing and judging one
+// against the other. Steel, SI, depth 1 m.
 #pragma once
 
 #include <cmath>
@@ -19,6 +19,9 @@ struct Steel {
 struct Layout {
   struct Piece {
     double x, y, angle, length, height;
+    double density = Steel::density;  // kg/m³
+    double mass() const { return density * length * height; }
+    double inertia() const { return mass() * (length * length + height * height) / 12; }
   };
   struct Weld {
     int a, b;  // pieces; a = -1: the ground
@@ -28,8 +31,8 @@ struct Layout {
   };
   std::vector<Piece> pieces;
   std::vector<Weld> welds;
-  double E = Steel::E;
-  bool breaks = true;
+  double E = Steel::E;  // infinite: rigid
+  bool yields = true, breaks = true;
 
   int box(double x, double y, double angle, double length, double height) {
     pieces.push_back({x, y, angle, length, height});
@@ -92,13 +95,14 @@ inline Layout frame(int storeys, int bays) {
   return layout;
 }
 
-/// n × n boxes of 1 m, each welded to its neighbours and the first column to the ground: n(2n − 1) joints.
-inline Layout grid(int n) {
+/// n columns × m boxes of 1 m, each welded to its neighbours and the first column to the ground: n(2m − 1)
+/// joints.
+inline Layout grid(int n, int m) {
   Layout layout;
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < m; ++j) {
       const int box = layout.box(i + 0.5, j + 0.5, 0, 1, 1);
-      layout.weld(i == 0 ? -1 : box - n, box, i, j + 0.5, 0, i == 0 ? 0.5 : 1);
+      layout.weld(i == 0 ? -1 : box - m, box, i, j + 0.5, 0, i == 0 ? 0.5 : 1);
       if (j > 0) layout.weld(box - 1, box, i + 0.5, j, std::numbers::pi / 2, 1);
     }
   }
@@ -130,13 +134,22 @@ inline Layout serpentine(int pieces) {
 
 /// A layout in a world of its own. Pieces of a structure do not collide with each other; nothing sleeps.
 struct Built {
-  enum Kind { ours, stock };
+  enum Kind {
+    ours,
+    iterative,    // ours, in the paper's own scheme
+    stock,        // rigid b2WeldJoints
+    stock_soft,   // b2WeldJoints with the joint's bending stiffness
+    stock_hinges  // b2RevoluteJoints whose motors give way at the plastic moment
+  };
 
   Built(const Layout& layout, Kind kind, double gravity) : world({0, static_cast<float>(-gravity)}) {
     world.SetAllowSleeping(false);
-    if (kind == ours) structure.emplace(world);
+    if (kind <= iterative) {
+      structure.emplace(world,
+                        StructureDef{.solver = kind == ours ? SolverKind::direct : SolverKind::iterative});
+    }
     b2BodyDef at_origin;
-    b2Body* ground = world.CreateBody(&at_origin);
+    ground = world.CreateBody(&at_origin);
     for (const Layout::Piece& p : layout.pieces) {
       b2BodyDef def;
       def.type = b2_dynamicBody;
@@ -146,7 +159,7 @@ struct Built {
       shape.SetAsBox(static_cast<float>(p.length / 2), static_cast<float>(p.height / 2));
       b2FixtureDef fixture;
       fixture.shape = &shape;
-      fixture.density = static_cast<float>(Steel::density);
+      fixture.density = static_cast<float>(p.density);
       fixture.filter.groupIndex = -1;
       pieces.push_back(world.CreateBody(&def));
       pieces.back()->CreateFixture(&fixture);
@@ -154,20 +167,28 @@ struct Built {
     for (const Layout::Weld& w : layout.welds) {
       b2Body* a = w.a < 0 ? ground : pieces[static_cast<std::size_t>(w.a)];
       b2Body* b = pieces[static_cast<std::size_t>(w.b)];
-      if (kind == ours) {
-        const double h = layout.pieces[static_cast<std::size_t>(w.b)].height;
-        structure->create_joint(joint(layout, w, h, a, b));
+      const ElasticPlasticJointDef ep =
+          joint(layout, w, layout.pieces[static_cast<std::size_t>(w.b)].height, a, b);
+      if (kind <= iterative) {
+        joints.push_back(structure->create_joint(ep));
+      } else if (kind == stock_hinges) {
+        b2RevoluteJointDef def;
+        def.Initialize(a, b, vec(w.x, w.y));
+        def.enableMotor = true;
+        def.maxMotorTorque = static_cast<float>(ep.rows[rotation].cap);
+        joints.push_back(world.CreateJoint(&def));
       } else {
         b2WeldJointDef def;
         def.Initialize(a, b, vec(w.x, w.y));
-        world.CreateJoint(&def);
+        if (kind == stock_soft) def.stiffness = static_cast<float>(ep.rows[rotation].stiffness);
+        joints.push_back(world.CreateJoint(&def));
       }
     }
   }
 
   /// One step as a game makes it.
-  void step() {
-    world.Step(1.0f / 60, 8, 3);
+  void step(double dt = 1. / 60, int velocity_iterations = 8, int position_iterations = 3) {
+    world.Step(static_cast<float>(dt), velocity_iterations, position_iterations);
     ++steps;
     if (!structure) return;
     structure->update();
@@ -218,8 +239,11 @@ struct Built {
     def.rows[axial] = {.stiffness = layout.E * h / w.span, .cap = N, .cap_reverse = N};
     def.rows[shear] = {.stiffness = 5.0 / 6 * G * h / w.span, .cap = Q, .cap_reverse = Q};
     def.rows[rotation] = {.stiffness = layout.E * h * h * h / 12 / w.span, .cap = M, .cap_reverse = M};
+    if (!layout.yields) {
+      for (RowDef& row : def.rows) row.cap = row.cap_reverse = unlimited;
+    }
     if (w.pinned) def.rows[rotation] = RowDef::free();
-    if (layout.breaks) {
+    if (layout.yields && layout.breaks) {
       def.max_rotation = 2 * Steel::fracture_strain;  // ε_f L_p / y with L_p = h, y = h/2
       def.max_elongation = Steel::fracture_strain * h;
     }
@@ -228,9 +252,11 @@ struct Built {
 
   b2World world;
   std::optional<Structure> structure;
+  b2Body* ground = nullptr;
   std::vector<b2Body*> pieces;
-  int steps = 0;   // since the start
-  StepReport sum;  // over all steps
+  std::vector<b2Joint*> joints;  // by Layout::welds, as built
+  int steps = 0;                 // since the start
+  StepReport sum;                // over all steps
 };
 
 }  // namespace ductile::bench

@@ -1,18 +1,16 @@
 #include "ductile/simulation.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "command.h"
 #include "ductile/files.h"
 #include "ductile/picture.h"
 #include "ductile/replay.h"
+#include "progress.h"
 
 namespace ductile::tool {
 namespace {
@@ -156,28 +154,6 @@ class Pictures {
   double half_step_;
   std::size_t next_ = 0;
   std::vector<Panel> panels_;
-};
-
-/// How far a long run is, on one line of a terminal.
-class Progress {
- public:
-  void show(double share) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ || now - shown_ < std::chrono::milliseconds(200)) return;
-    shown_ = now;
-    started_ = true;
-    const auto width = static_cast<int>(40 * share);
-    fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:.0f} %", "", width, "", 40 - width, 100 * share);
-    std::fflush(stderr);
-  }
-  ~Progress() {
-    if (started_) std::fputs("\r\33[K", stderr);
-  }
-
- private:
-  const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
-  bool started_ = false;
-  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
 
 std::string table(const Simulation& simulation, const std::string& scene) {
