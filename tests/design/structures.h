@@ -73,6 +73,67 @@ inline SceneDef propped(int pieces, double load) {
   return scene;
 }
 
+/// Two columns on their feet at (0, 0) and (span, 0), and a beam whose centre line is at `height`, in four
+/// pieces cut at the columns' inner faces and in the middle; all 1 m thick. `down` in the middle of the beam,
+/// `along` at the height of its centre line.
+struct Portal {
+  double span = 20, height = 12, youngs_modulus = 210e9;
+  SceneDef scene(double down, double along) const {
+    const double under = height - 0.5;
+    SceneDef s = bending_only();
+    BodyDef left = beam(1);
+    left.name = "left";
+    left.outline = {rectangle(-0.5, 0, 0.5, under), {}};
+    BodyDef right = left;
+    right.name = "right";
+    right.outline = {rectangle(span - 0.5, 0, span + 0.5, under), {}};
+    BodyDef girder = beam(1);
+    girder.outline = {rectangle(-0.5, under, span + 0.5, under + 1), {}};
+    for (const double x : {0.5, span / 2, span - 0.5})
+      girder.cuts.push_back({Point{x, under - 1}, Point{x, under + 2}});
+    s.bodies = {
+        {.name = "floor", .type = BodyType::static_body, .outline = {rectangle(-5, -1, span + 5, 0), {}}},
+        left,
+        right,
+        girder};
+    for (BodyDef& body : s.bodies)
+      if (body.material) body.material->youngs_modulus = youngs_modulus;
+    s.joints = {{.a = "floor", .b = "left"},
+                {.a = "floor", .b = "right"},
+                {.a = "left", .b = "beam"},
+                {.a = "right", .b = "beam"}};
+    s.loads = {{.body = "beam", .at = {span / 2, height}, .force = {0, -down}},
+               {.body = "beam", .at = {-0.5, height}, .force = {along, 0}}};
+    return s;
+  }
+  /// Hinges may form at feet, column heads and in the middle of the beam only: for sway and combined
+  /// mechanisms.
+  Plan hinged_in_columns(double down, double along) const {
+    return without_yield(calibrate(scene(down, along)), {"beam/0-beam/1", "beam/2-beam/3"});
+  }
+  /// Hinges may form at the feet and in the beam: for its own mechanism.
+  Plan hinged_in_beam(double down) const {
+    return without_yield(calibrate(scene(down, 0)), {"left-beam/0", "right-beam/3"});
+  }
+  /// Both columns lean, the beam stays level: four hinges turn alike.
+  double sway(double along) const { return 4 * plastic_moment / along / (height - 0.5); }
+  /// The left half of the beam turns with the left column about its foot by θ, the right half by −θ about
+  /// the point where the lines through the left foot and the middle hinge and along the right column meet:
+  /// (span, 2 height). The right column turns by rθ.
+  double combined(double down, double along) const {
+    const double r = (height + 0.5) / (height - 0.5);
+    return plastic_moment * (4 + 2 * r) / (along * height + down * span / 2);
+  }
+  double beam_alone(double down) const { return 8 * plastic_moment / down / (span - 1); }
+
+  static Plan without_yield(Plan plan, const std::vector<std::string>& joints) {
+    for (PlannedJoint& joint : plan.joints)
+      for (const std::string& name : joints)
+        if (joint.name == name) joint.M = joint.M_reverse = unlimited;
+    return plan;
+  }
+};
+
 inline int joint_named(const Plan& plan, const std::string& name) {
   for (std::size_t i = 0; i < plan.joints.size(); ++i)
     if (plan.joints[i].name == name) return static_cast<int>(i);

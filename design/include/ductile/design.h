@@ -5,6 +5,9 @@
 // carry nothing here: a structure that no joint holds to the ground, a static or a kinematic body is loose,
 // and left out. SI units, signs as everywhere: N positive in tension, +M turns the second piece
 // counter-clockwise against the first.
+//
+// For design time: limit analysis uses GLPK, which is under the GPL-3, and so is a program that links this.
+// What a game links (section, joint, calibrate) does not need it.
 #pragma once
 
 #include <vector>
@@ -39,5 +42,18 @@ struct StaticCheck {
 /// than the stiffest by 1e6, each in proportion to its effective mass, as in the structure's solver. Throws
 /// InvalidInput where the loads move a mechanism, or nothing is held.
 StaticCheck static_check(const Plan& plan);
+
+/// What it takes to collapse.
+struct LimitAnalysis {
+  double load_factor = unlimited;  ///< on loads and gravity, or on loads alone; unlimited: they never suffice
+  std::vector<int> hinges;         ///< joints that dissipate in a collapse mechanism
+  double time = 0;                 ///< s, from when on these loads act (as in StaticCheck)
+};
+
+/// The collapse load factor of rigid-plastic joints in the geometry as drawn, by linear programming over all
+/// forces in equilibrium (lower bound theorem); with Plan::interaction within each joint's N–M–Q surface, to
+/// 1e-7 of it. Where several mechanisms collapse at the same load, the hinges are those of one. Throws
+/// InvalidInput where the loads move a mechanism, are zero, or gravity alone, held fixed, cannot be carried.
+LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity = false);
 
 }  // namespace ductile

@@ -1,0 +1,43 @@
+#include "run.h"
+
+namespace {
+using namespace ductile;
+using nlohmann::json;
+
+// 8 M_p/L = 8·100e6/10, M_p = 400e6/4.
+std::string fixed_fixed(const std::string& gravity, const std::string& loads) {
+  return R"({"gravity": )" + gravity +
+         R"(, "materials": {"steel": {"density": 8000, "E": 200e9, "fy": 400e6}},
+    "bodies": [{"name": "left", "type": "static", "outline": [[-1,-1],[0,-1],[0,2],[-1,2]]},
+               {"name": "right", "type": "static", "outline": [[10,-1],[11,-1],[11,2],[10,2]]},
+               {"name": "beam", "outline": [[0,0],[10,0],[10,1],[0,1]], "material": "steel", "split": {"pieces": 2}}],
+    "joints": [{"between": ["left","beam"]}, {"between": ["beam","right"]}], "loads": [)" +
+         loads + "]}";
+}
+const std::string load = R"({"body": "beam", "at": [5,0.5], "force": [0,-1e6]})";
+
+TEST(LimitCommand, AClampedBeamCollapsesInThreeHinges) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", fixed_fixed("[0,-10]", load));
+  const double weight = 8000 * 10 * 10, mp = 100e6, L = 10;
+  const Ran both = run("limit " + scene + " --json"),
+            loads = run("limit " + scene + " --fixed-gravity --json");
+  ASSERT_EQ(both.exit, 0) << both.err;
+  EXPECT_NEAR(both.json()["load_factor"].get<double>() / (4 * mp / (1e6 * L / 2 + weight * L / 4)), 1, 1e-6);
+  EXPECT_EQ(both.json()["hinges"], (json{"beam/0-beam/1", "left-beam/0", "beam/1-right"}));
+  EXPECT_NEAR(loads.json()["load_factor"].get<double>() / ((4 * mp - weight * L / 4) / (1e6 * L / 2)), 1,
+              1e-6);
+  const Ran table = run("limit " + scene);
+  EXPECT_NE(table.out.find("  left-beam/0\n"), std::string::npos) << table.out;
+}
+
+TEST(LimitCommand, WhatHasNoAnswerIsBadInput) {
+  const Folder folder;
+  expect_bad_input(run("limit " + folder.write("none.json", fixed_fixed("[0,0]", ""))),
+                   "nothing to multiply");
+  expect_bad_input(
+      run("limit " + folder.write("heavy.json", fixed_fixed("[0,-1e5]", load)) + " --fixed-gravity"),
+      "gravity alone");
+}
+
+}  // namespace
