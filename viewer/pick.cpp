@@ -63,6 +63,17 @@ std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point 
   return std::nullopt;
 }
 
+std::optional<std::size_t> thrown_at(const Timeline& run, Point at) {
+  const std::vector<act::Throw> thrown = run.thrown();
+  for (std::size_t i = run.frame().thrown.size(); i-- > 0;) {
+    const Pose& pose = run.frame().thrown[i];
+    const Point p = Turn(pose.angle).back(at - pose.position);
+    const double half = thrown[i].size / 2;
+    if (thrown[i].square ? std::max(std::abs(p.x), std::abs(p.y)) <= half : length(p) <= half) return i;
+  }
+  return std::nullopt;
+}
+
 Box extent(const Plan& plan) {
   Box moving, all;
   for (const Piece& piece : plan.pieces) {

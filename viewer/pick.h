@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "frame.h"
+#include "timeline.h"
 
 namespace ductile::viewer {
 
@@ -19,6 +19,9 @@ std::vector<std::size_t> joints_from(const Frame& frame, double stage);
 
 /// The last of the pieces, which is drawn on top, that covers a point.
 std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point at);
+
+/// Of what was thrown in, what covers a point: an index into Frame::thrown.
+std::optional<std::size_t> thrown_at(const Timeline& run, Point at);
 
 /// The bodies that can move, as they are at t = 0, in a box; where there are none, all of them.
 Box extent(const Plan& plan);

@@ -74,6 +74,7 @@ class Timeline {
   /// Null where the step is not kept.
   const Frame* kept(long step) const;
   long first_kept() const { return first_kept_; }
+  long last_kept() const { return first_kept_ + static_cast<long>(frames_.size()) - 1; }
   /// What was thrown in, in the order of Frame::thrown.
   std::vector<act::Throw> thrown() const;
   /// Yields and breaks of all steps seen so far.
@@ -96,7 +97,6 @@ class Timeline {
 
  private:
   bool behind() const { return simulation_->steps() < last_kept(); }
-  long last_kept() const { return first_kept_ + static_cast<long>(frames_.size()) - 1; }
   void start_again();
   void arrive();
   void keep();

@@ -33,9 +33,18 @@ Workbench::Workbench(std::vector<std::filesystem::path> scenes)
 
 void Workbench::open(const std::filesystem::path& file) {
   Opened opened = open_file(file);
-  Plan plan = calibrate(opened.scene);
-  auto run = std::make_unique<Timeline>(plan, solver());
+  Plan plan;
+  std::unique_ptr<Timeline> run;
+  try {
+    plan = calibrate(opened.scene);
+    run = std::make_unique<Timeline>(plan, solver());
+  } catch (const InvalidInput& error) {
+    auto problems = error.problems();
+    for (Problem& problem : problems) problem.place = file.string() + ":" + problem.place;
+    throw InvalidInput(std::move(problems));
+  }
   // Nothing can fail from here on.
+  ++edition_;
   run_ = std::move(run);
   before_ = std::move(plan);
   versions_ = {std::move(opened.scene)};
@@ -119,6 +128,7 @@ void Workbench::show(Plan plan, JointSolver solver, std::vector<Timeline::Entry>
   }
   selected = std::move(still);
   if (focus) focus = again(*focus);
+  ++edition_;
   run_ = std::move(run);
   owed_ = 0;
   if (stock_) start_stock();

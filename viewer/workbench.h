@@ -44,6 +44,8 @@ class Workbench {
   const Plan& plan() const { return run_->plan(); }
   /// As it was opened or saved last.
   const Plan& plan_before() const { return before_; }
+  /// Another number whenever the plan is another one.
+  int edition() const { return edition_; }
 
   // --- the run ---
   Timeline& run() { return *run_; }
@@ -87,6 +89,7 @@ class Workbench {
   std::vector<SceneDef> versions_;
   std::size_t version_ = 0, saved_ = 0;
   Plan before_;
+  int edition_ = 0;
   std::unique_ptr<Timeline> run_, stock_;
   double owed_ = 0;  // s of the scene that are to be shown
 };

@@ -1,0 +1,350 @@
+#include "desk.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "pick.h"
+#include "quantity.h"
+
+namespace ductile::viewer {
+namespace {
+
+constexpr double left_width = 238, right_width = 336, bottom_height = 68;  // px at scale 1
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+bool key(int glfw_key, bool repeat = false) { return ImGui::IsKeyPressed(glfw_key, repeat); }
+
+void place_window(const Box& box) {
+  ImGui::SetNextWindowPos(px(box.low));
+  ImGui::SetNextWindowSize(px(box.size()));
+}
+
+}  // namespace
+
+void Desk::draw(Point size, double ui) {
+  ui_ = hand_.ui_scale = ui;
+  controls_.clear();
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  rests_ = moved.x != 0 || moved.y != 0 ? 0 : rests_ + ImGui::GetIO().DeltaTime;
+  if (!ImGui::IsAnyItemActive()) edited_ = false;
+  const double left = left_width * ui, right = right_width * ui, bottom = bottom_height * ui;
+  const Box middle{{left, 0}, {std::max(size.x - right, left + 1), std::max(size.y - bottom, 1.)}};
+  camera_.screen = middle;
+  if (edition_ != bench_.edition()) adopt();
+  if (!ImGui::GetIO().WantTextInput) keys();
+  centre(middle);
+  scene({{0, 0}, {left, size.y - bottom}});
+  details({{size.x - right, 0}, {size.x, size.y - bottom}});
+  time({{0, size.y - bottom}, size});
+  if (!bench_.message.empty()) message();
+  if (helping_) help();
+}
+
+void Desk::adopt() {
+  edition_ = bench_.edition();
+  diagrams_.clear();
+  if (scene_ == bench_.file().string()) return;  // edited
+  scene_ = save_as_ = bench_.file().string();
+  camera_.show(extent(bench_.plan()));
+  hand_.suit(bench_.plan());
+}
+
+void Desk::tip(const char* name, const char* text) {
+  controls_[name] = {point(ImGui::GetItemRectMin()), point(ImGui::GetItemRectMax())};
+  constexpr double rest = 0.4;  // s
+  if (rests_ < rest || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(static_cast<float>(300 * ui_));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool Desk::button(const char* label, const char* name, const char* text) {
+  const bool pressed = ImGui::Button(label);
+  tip(name, text);
+  return pressed;
+}
+
+void Desk::seek(std::optional<long> step) {
+  if (!step) return;
+  bench_.playing = false;
+  bench_.run().seek(*step);
+}
+
+void Desk::save() {
+  try {
+    bench_.save(save_as_);
+    scene_ = save_as_;
+    bench_.message = "Saved to " + save_as_;
+  } catch (const std::exception& error) {
+    bench_.message = "Not saved.\n" + std::string(error.what());
+  }
+}
+
+// What Box2D's testbed has a key for has the same here.
+void Desk::keys() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.KeyCtrl) {
+    if (key(GLFW_KEY_S)) save();
+    if (key(GLFW_KEY_Z)) bench_.undo();
+    if (key(GLFW_KEY_Y)) bench_.redo();
+    if (key(GLFW_KEY_A)) bench_.select(joints_from(bench_.frame(), 0), false);
+    return;
+  }
+  if (key(GLFW_KEY_R)) bench_.restart();
+  if (key(GLFW_KEY_P)) bench_.playing = !bench_.playing;
+  if (key(GLFW_KEY_O, true) || key(GLFW_KEY_PERIOD, true)) bench_.step_by(1);
+  if (key(GLFW_KEY_COMMA, true)) bench_.step_by(-1);
+  if (key(GLFW_KEY_Y)) bench_.seek_first(JointEvent::yield);
+  if (key(GLFW_KEY_B)) bench_.seek_first(JointEvent::broke);
+  const Point mouse = point(io.MousePos);
+  const bool over = camera_.screen.contains(mouse) && !io.WantCaptureMouse;
+  const Point target = over ? camera_.to_world(mouse) : camera_.centre;
+  if (key(GLFW_KEY_SPACE)) hand_.throw_at(bench_, camera_, target);
+  if (key(GLFW_KEY_M)) hand_.put(bench_, target);
+  if (key(GLFW_KEY_LEFT_BRACKET)) bench_.open_neighbour(-1);
+  if (key(GLFW_KEY_RIGHT_BRACKET)) bench_.open_neighbour(1);
+  if (key(GLFW_KEY_Z, true)) camera_.zoom(1 / 1.1, camera_.screen.middle());
+  if (key(GLFW_KEY_X, true)) camera_.zoom(1.1, camera_.screen.middle());
+  const double pan = 40 * ui_;
+  if (key(GLFW_KEY_LEFT, true)) camera_.pan({pan, 0});
+  if (key(GLFW_KEY_RIGHT, true)) camera_.pan({-pan, 0});
+  if (key(GLFW_KEY_UP, true)) camera_.pan({0, pan});
+  if (key(GLFW_KEY_DOWN, true)) camera_.pan({0, -pan});
+  if (key(GLFW_KEY_HOME)) camera_.show(extent(bench_.plan()));
+  if (key(GLFW_KEY_F)) look_.forces = !look_.forces;
+  if (key(GLFW_KEY_T)) look_.moments = !look_.moments;
+  if (key(GLFW_KEY_N)) look_.numbers = static_cast<Look::Numbers>((static_cast<int>(look_.numbers) + 1) % 3);
+  if (key(GLFW_KEY_H) || key(GLFW_KEY_F1)) helping_ = !helping_;
+  if (key(GLFW_KEY_ESCAPE)) {
+    if (helping_) {
+      helping_ = false;
+    } else {
+      bench_.select({}, false);
+    }
+  }
+  if (!bench_.plan().wheels.empty()) {
+    if (key(GLFW_KEY_A)) bench_.act(act::Drive{1});
+    if (key(GLFW_KEY_S)) bench_.act(act::Drive{0});
+    if (key(GLFW_KEY_D)) bench_.act(act::Drive{-1});
+  }
+}
+
+void Desk::help() {
+  struct Row {
+    const char *keys, *what;
+  };
+  static constexpr std::array rows{
+      Row{"P", "play or pause"},
+      Row{"O  .", "one step on"},
+      Row{",", "one step back"},
+      Row{"R", "restart"},
+      Row{"Y  B", "back to the first yield, to the first break"},
+      Row{"[  ]", "previous, next scene"},
+      Row{"Z  X", "zoom out, in (or the wheel)"},
+      Row{"arrows", "move the view (or drag with the right button)"},
+      Row{"Home", "all of the scene"},
+      Row{"space", "throw a bomb at the pointer"},
+      Row{"M", "put a mass at the pointer"},
+      Row{"A  S  D", "drive on, brake, drive back"},
+      Row{"F  T  N", "forces, moments, numbers"},
+      Row{"click", "select a joint (shift: one more), or a body"},
+      Row{"drag", "drag a body; from empty ground: select in a box"},
+      Row{"ctrl+drag", "select in a box anywhere"},
+      Row{"shift+drag", "pull a bomb back and let it go"},
+      Row{"ctrl+A", "select all joints"},
+      Row{"ctrl+Z  Y  S", "undo, redo, save"},
+      Row{"Escape", "select nothing"},
+      Row{"H", "this list"},
+  };
+  const Point middle = camera_.screen.middle();
+  ImGui::SetNextWindowPos(px(middle), ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::Begin("Keys", &helping_,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const Row& row : rows) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(row.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(row.what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+// The scene, and what the pointer does to it.
+void Desk::centre(const Box& box) {
+  place_window(box);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ink::ground);
+  ImGui::Begin("scene view", nullptr,
+               fixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleColor();
+  ImGui::SetCursorScreenPos(px(box.low));
+  ImGui::InvisibleButton("canvas", px(box.size()),
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  const ImGuiIO& io = ImGui::GetIO();
+  const Point mouse = point(io.MousePos);
+  const bool over = ImGui::IsItemHovered();
+  std::optional<std::size_t> pointed;
+  if (over) {
+    if (io.MouseWheel != 0) camera_.zoom(std::pow(1.15, io.MouseWheel), mouse);
+    pointed =
+        joint_at(bench_.plan(), bench_.frame(), camera_.to_world(mouse), Hand::reach * ui_ / camera_.scale);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+      if (placing_) {
+        hand_.put(bench_, camera_.to_world(mouse));
+        placing_ = false;
+      } else {
+        hand_.press(camera_, mouse, {io.KeyShift, io.KeyCtrl});
+      }
+    }
+  }
+  if (ImGui::IsItemActive() &&
+      (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))) {
+    camera_.pan(point(io.MouseDelta));
+  }
+  if (hand_.doing() != Hand::Doing::nothing) {
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+      hand_.move(bench_, camera_, mouse);
+    } else {
+      hand_.release(bench_, camera_, mouse);
+    }
+  }
+  ImDrawList& to = *ImGui::GetWindowDrawList();
+  canvas_.draw(to, bench_, camera_, look_, hand_, ui_, pointed);
+  constexpr std::array solvers{"direct", "iterative", "stock"};
+  const std::string title =
+      fmt::format("{}{}   {:.3f} s   {} solver{}", bench_.file().filename().string(),
+                  bench_.changed() ? " (changed)" : "", bench_.frame().time,
+                  solvers[static_cast<std::size_t>(bench_.solver())], placing_ ? "   click: a mass" : "");
+  to.AddText(px(box.low + ui_ * Point{12, 10}), ink::edge, title.c_str());
+  if (pointed && hand_.doing() == Hand::Doing::nothing) {
+    const JointReading& joint = bench_.frame().joints[*pointed];
+    ImGui::BeginTooltip();
+    ImGui::TextUnformatted(bench_.plan().joints[*pointed].name.c_str());
+    if (joint.broken) {
+      ImGui::Text("broke at %.3f s", joint.broken_at);
+    } else {
+      ImGui::Text("N %s  %s\nQ %s  %s\nM %s  %s", si(joint.N, "N").c_str(), percent(joint.usage.N).c_str(),
+                  si(joint.Q, "N").c_str(), percent(joint.usage.Q).c_str(), si(joint.M, "N m").c_str(),
+                  percent(joint.usage.M).c_str());
+    }
+    ImGui::EndTooltip();
+  }
+  ImGui::End();
+}
+
+// What went wrong, or what has been done: stays until it is closed.
+void Desk::message() {
+  const double width = std::min(520 * ui_, camera_.screen.size().x - 40 * ui_);
+  ImGui::SetNextWindowPos(px({camera_.screen.middle().x, 36 * ui_}), ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSize({static_cast<float>(width), 0});
+  bool open = true;
+  ImGui::Begin("Message", &open,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  constexpr std::size_t most = 1200;  // bytes: a file full of mistakes tells its first ones
+  const std::string text =
+      bench_.message.size() > most ? bench_.message.substr(0, most) + " …" : bench_.message;
+  ImGui::TextWrapped("%s", text.c_str());
+  if (button("Close", "close message", "Closes this message.")) open = false;
+  ImGui::End();
+  if (!open) bench_.message.clear();
+}
+
+void Desk::time(const Box& box) {
+  place_window(box);
+  ImGui::Begin("time", nullptr, fixed | ImGuiWindowFlags_NoScrollbar);
+  if (button("Restart", "restart", "Back to the start, with nothing thrown in (R).")) bench_.restart();
+  ImGui::SameLine();
+  if (button("<", "back", "One step back (,).")) bench_.step_by(-1);
+  ImGui::SameLine();
+  if (button(bench_.playing ? "Pause" : "Play ", "play", "Plays or pauses (P).")) {
+    bench_.playing = !bench_.playing;
+  }
+  ImGui::SameLine();
+  if (button(">", "step", "One step on (O).")) bench_.step_by(1);
+  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  ImGui::SetNextItemWidth(static_cast<float>(110 * ui_));
+  constexpr double slowest = 0.01, fastest = 4;
+  ImGui::SliderScalar("pace", ImGuiDataType_Double, &bench_.pace, &slowest, &fastest, "%.2f x",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  tip("pace", "Seconds of the scene per second: slow motion to the left.");
+  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  ImGui::SetNextItemWidth(static_cast<float>(90 * ui_));
+  int stop = static_cast<int>(bench_.stop_at);
+  if (ImGui::Combo("stop at", &stop, "never\0yield\0break\0")) {
+    bench_.stop_at = static_cast<Workbench::StopAt>(stop);
+  }
+  tip("stop at", "Pauses by itself when a joint yields or breaks.");
+  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  if (button("First yield", "first yield", "Rewinds to the step in which the first joint yielded (Y).") &&
+      !bench_.seek_first(JointEvent::yield)) {
+    bench_.message = "Nothing has yielded so far.";
+  }
+  ImGui::SameLine();
+  if (button("First break", "first break", "Rewinds to the step in which the first joint broke (B).") &&
+      !bench_.seek_first(JointEvent::broke)) {
+    bench_.message = "Nothing has broken so far.";
+  }
+  if (bench_.run().busy() && bench_.run().progress() < 0.999) {
+    ImGui::SameLine(0, static_cast<float>(16 * ui_));
+    ImGui::TextColored({0.5f, 0.3f, 0, 1}, "simulating again: %.0f %%", 100 * bench_.run().progress());
+  }
+  ImGui::SameLine(static_cast<float>(box.size().x - 70 * ui_));
+  if (button("Keys", "keys", "What keys and pointer do (H).")) helping_ = !helping_;
+  time_slider();
+  ImGui::End();
+}
+
+// All steps seen so far, with a mark for each event.
+void Desk::time_slider() {
+  const Timeline& run = bench_.run();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float label = static_cast<float>(190 * ui_);
+  const Point low = point(corner), size{width - label, 26 * ui_};
+  ImGui::InvisibleButton("time slider", px(size));
+  const long last = std::max(1L, run.last());
+  const auto x = [&](long step) {
+    return static_cast<float>(low.x + size.x * static_cast<double>(step) / static_cast<double>(last));
+  };
+  if (ImGui::IsItemActive()) {
+    const double share = std::clamp((ImGui::GetIO().MousePos.x - low.x) / size.x, 0., 1.);
+    seek(std::lround(share * static_cast<double>(last)));
+  }
+  tip("time slider",
+      "The steps so far: click or drag to look at another. Yellow: a joint yielded; red: one broke.");
+  ImDrawList& to = *ImGui::GetWindowDrawList();
+  const Point high = low + size;
+  to.AddRectFilled(px(low), px(high), ink::ground, static_cast<float>(3 * ui_));
+  to.AddRectFilled(px(low), {x(run.cursor()), static_cast<float>(high.y)}, IM_COL32(0xd3, 0xdc, 0xe6, 255),
+                   static_cast<float>(3 * ui_));
+  float drawn[2] = {-1, -1};  // where the last mark of each kind is: thousands of them may share a pixel
+  for (const TimelineEvent& event : run.events()) {
+    const bool broke = event.event.kind == JointEvent::broke;
+    const float at = std::round(x(event.step));
+    if (drawn[broke] == at) continue;
+    drawn[broke] = at;
+    const auto top = static_cast<float>(low.y + (broke ? 1 : 8) * ui_);
+    to.AddLine({at, top}, {at, static_cast<float>(high.y)}, rgb(stage_colour(broke ? 1.9 : 1)),
+               static_cast<float>(2 * ui_));
+  }
+  to.AddRect(px(low), px(high), ink::line, static_cast<float>(3 * ui_));
+  to.AddLine({x(run.cursor()), static_cast<float>(low.y)}, {x(run.cursor()), static_cast<float>(high.y)},
+             ink::edge, static_cast<float>(3 * ui_));
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%.3f s, step %ld of %ld", bench_.frame().time, run.cursor(), run.last());
+}
+
+}  // namespace ductile::viewer

@@ -1,0 +1,73 @@
+// What is in the window: the scene in the middle, controls around it. All state of the scene is the
+// workbench's; here is how it is looked at.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "canvas.h"
+#include "diagram.h"
+#include "workbench.h"
+
+namespace ductile::viewer {
+
+class Desk {
+ public:
+  explicit Desk(Workbench& bench) : bench_(bench) {}
+
+  /// One frame, of `size` px; `ui`: pixels per pixel of a window at scale 1.
+  void draw(Point size, double ui);
+
+  const Camera& camera() const { return camera_; }
+  /// The box of every control of the last frame, px, by name.
+  const std::map<std::string, Box>& controls() const { return controls_; }
+
+ private:
+  void adopt();  // another scene or plan has come
+  void keys();
+  void centre(const Box& box);
+  void scene(const Box& box);
+  void run();
+  void show();
+  void throwing();
+  void time(const Box& box);
+  void time_slider();
+  void details(const Box& box);
+  void joint();
+  void joints();
+  void edit();
+  void material(SceneDef& scene, BodyDef& body);
+  void limits(SceneDef& scene);
+  void events();
+  void ledger();
+  void message();
+  void help();
+
+  void save();
+  void put_mass() { placing_ = true; }
+  /// Puts a changed scene on the bench where a control `changed` it; wrong values become the message.
+  void commit(bool changed, SceneDef scene);
+  /// To be called right after a control: its name, and what it does, for whoever rests the pointer on it.
+  void tip(const char* name, const char* text);
+  bool button(const char* label, const char* name, const char* text);
+  void seek(std::optional<long> step);
+
+  Workbench& bench_;
+  Camera camera_;
+  Canvas canvas_;
+  Look look_;
+  Hand hand_;
+  double ui_ = 1;
+  int edition_ = -1;
+  std::filesystem::path file_;   // of the scene that is shown
+  std::string save_as_, scene_;  // what is typed; what was opened
+  std::map<std::string, Box> controls_;
+  std::map<std::size_t, Diagram> diagrams_;  // of the joint that is in focus
+  bool edited_ = false;                      // by the control that is being dragged
+  double rests_ = 0;                         // s since the pointer moved
+  float from_share_ = 0.9f;                  // of "select from"
+  int quantity_ = 0;
+  bool placing_ = false, helping_ = false;
+};
+
+}  // namespace ductile::viewer

@@ -1,0 +1,133 @@
+// The left side of the desk: which scene, how it is run, what is drawn of it, what is thrown at it.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "desk.h"
+
+#include <imgui_stdlib.h>  // after imgui.h
+
+namespace ductile::viewer {
+namespace {
+
+std::string scene_name(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  return name.substr(0, name.find('.'));
+}
+
+bool drag(const char* label, double& value, double low, double high, const char* format) {
+  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
+                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+}
+
+}  // namespace
+
+void Desk::scene(const Box& box) {
+  ImGui::SetNextWindowPos(px(box.low));
+  ImGui::SetNextWindowSize(px(box.size()));
+  ImGui::Begin("scene", nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::TextUnformatted("Scene");
+  const auto rows = static_cast<float>(std::min<std::size_t>(7, bench_.scenes().size() + 1));
+  ImGui::BeginChild("scenes", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, true);
+  for (const std::filesystem::path& file : bench_.scenes()) {
+    const bool here = file == bench_.file();
+    if (ImGui::Selectable(scene_name(file).c_str(), here) && !here) bench_.try_open(file);
+    tip(("scene " + scene_name(file)).c_str(), "Opens this scene. [ and ] go through the list.");
+    if (here && file_ != file) ImGui::SetScrollHereY();
+    if (here) file_ = file;
+  }
+  if (bench_.scenes().empty()) ImGui::TextWrapped("Drop a file here.");
+  ImGui::EndChild();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputText("##save as", &save_as_);
+  tip("save as", "Where the scene is saved. Files dropped on the window are opened: scenes, drawings.");
+  if (button("Save", "save", "Saves the scene as it was edited to the file above (ctrl+S).")) save();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!bench_.can_undo());
+  if (button("Undo", "undo", "Takes the last edit back (ctrl+Z).")) bench_.undo();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!bench_.can_redo());
+  if (button("Redo", "redo", "Does it again (ctrl+Y).")) bench_.redo();
+  ImGui::EndDisabled();
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+  run();
+  show();
+  throwing();
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+void Desk::run() {
+  if (!ImGui::CollapsingHeader("Run", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  int solver = static_cast<int>(bench_.solver());
+  if (ImGui::Combo("solver", &solver, "direct\0iterative\0stock\0")) {
+    bench_.set_solver(static_cast<JointSolver>(solver));
+  }
+  tip("solver",
+      "What finds the joints' forces: all together, exactly; one by one as in the paper; or Box2D's own "
+      "welds, which never yield. The same run is done again up to this step.");
+  Stepping stepping = bench_.run().stepping();
+  double hz = 1 / stepping.dt;
+  bool changed = drag("steps/s", hz, 10, 2000, "%.0f");
+  tip("steps/s", fmt::format("Steps per second from here on; now dt = {:.4g} s.", stepping.dt).c_str());
+  stepping.dt = changed ? 1 / std::round(hz) : stepping.dt;
+  changed |= ImGui::SliderInt("velocity it.", &stepping.velocity_iterations, 1, 100, "%d",
+                              ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  tip("velocity iterations", "Box2D's velocity iterations from here on (8).");
+  changed |= ImGui::SliderInt("position it.", &stepping.position_iterations, 0, 100, "%d",
+                              ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  tip("position iterations", "Box2D's position iterations from here on (3).");
+  if (changed) bench_.set_stepping(stepping);
+}
+
+void Desk::show() {
+  if (!ImGui::CollapsingHeader("Show", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  ImGui::Checkbox("forces", &look_.forces);
+  tip("forces", "Draws the force on each joint's second body (F).");
+  ImGui::SameLine();
+  drag("##force scale", look_.force_scale, 0.05, 20, "%.2f x");
+  tip("force scale", "Length of the forces: at 1 what is usual in this scene is 50 pixels long.");
+  ImGui::Checkbox("moments", &look_.moments);
+  tip("moments", "Draws each joint's moment as an arc that turns the second body (T).");
+  ImGui::SameLine();
+  drag("##moment scale", look_.moment_scale, 0.05, 20, "%.2f x");
+  tip("moment scale", "Size of the moments: at 1 what is usual in this scene is 22 pixels in radius.");
+  ImGui::Checkbox("loads", &look_.loads);
+  tip("loads", "Draws the scene's loads as they are now.");
+  ImGui::SameLine();
+  ImGui::Checkbox("names", &look_.names);
+  tip("names", "Writes the joints' names beside them.");
+  int numbers = static_cast<int>(look_.numbers), as = static_cast<int>(look_.as);
+  if (ImGui::Combo("numbers", &numbers, "none\0selected\0all\0")) {
+    look_.numbers = static_cast<Look::Numbers>(numbers);
+  }
+  tip("numbers", "Writes N, Q and M beside the joints (N). What would cover another is left out.");
+  if (ImGui::Combo("as", &as, "N, N m\0% of cap\0")) look_.as = static_cast<Look::As>(as);
+  tip("as", "Numbers as they are, or as a share of what the joint can carry.");
+}
+
+void Desk::throwing() {
+  if (!ImGui::CollapsingHeader("Throw", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  drag("mass, kg", hand_.mass, 1e-3, 1e9, "%.6g");
+  tip("mass", "Of the next bomb or mass.");
+  drag("size, m", hand_.size, 1e-2, 100, "%.3g");
+  tip("size", "Diameter of a bomb, side of a mass.");
+  drag("speed, m/s", hand_.speed, 0.1, 1000, "%.3g");
+  tip("speed",
+      "Of a bomb that is thrown with the space bar; one that is pulled back goes as far as it was pulled in "
+      "a quarter of a second.");
+  if (button("Bomb", "bomb",
+             "Throws a bomb at the middle of the view; the space bar throws it at the pointer.")) {
+    hand_.throw_at(bench_, camera_, camera_.centre);
+  }
+  ImGui::SameLine();
+  if (button("Add mass", "add mass", "Then click where it is put (M: at the pointer).")) put_mass();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+  drag("grip, m/s²", hand_.strength, 1, 1e5, "%.0f");
+  tip("grip", "Greatest pull of the pointer on a body that is dragged, over its mass.");
+}
+
+}  // namespace ductile::viewer
