@@ -56,18 +56,21 @@ void Caps::fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>
                    std::span<const Overriding> overriding) {
   // Overrides that apply to several quantities, the innermost level last so that it wins.
   std::optional<double> hinge_length, damping;
+  std::optional<bool> hold;
   const JointOverrides* elastic = nullptr;
   int elastic_level = 0;
   for (std::size_t i = 0; i < overriding.size(); ++i) {
     const JointOverrides& o = *overriding[i].values;
     if (!hinge_length) hinge_length = o.hinge_length;
     if (!damping) damping = o.damping_ratio;
+    if (!hold) hold = o.hold;
     if (!elastic && o.elastic) elastic = &o, elastic_level = static_cast<int>(i);
   }
 
   // The weaker side governs each cap; compliances add up.
   Values v;
   joint.height = height;
+  joint.hold = hold.value_or(false);
   joint.hinge_length = hinge_length.value_or(height);
   double along = 0, across = 0, bending = 0, zeta = unlimited;
   for (int i = 0; i < 2; ++i) {

@@ -20,8 +20,8 @@ float checked(double value, const std::string& place, const char* name) {
 
 b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
-Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.pieces[piece].center; }
-double inertia(const Plan& plan, int piece) { return piece < 0 ? 0 : plan.pieces[piece].inertia; }
+Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.carrier(piece).center; }
+double inertia(const Plan& plan, int piece) { return piece < 0 ? 0 : plan.carrier(piece).inertia; }
 
 template <class Def>
 void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {

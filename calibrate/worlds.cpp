@@ -67,6 +67,22 @@ b2Joint* create_stock_joint(b2World& world, const Plan& plan, const PlannedJoint
 
 b2Body* body_of(const Built& built, int piece) { return piece < 0 ? built.ground : built.bodies[piece]; }
 
+void set_masses(const Plan& plan, const Built& built) {
+  std::vector<double> area(plan.pieces.size());
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    area[plan.pieces[i].part_of < 0 ? i : static_cast<std::size_t>(plan.pieces[i].part_of)] +=
+        area_of(plan.pieces[i]);
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const Piece& piece = plan.pieces[i];
+    if (piece.part_of >= 0 || !plan.is_dynamic(static_cast<int>(i))) continue;
+    // The densities only matter where a user's call makes Box2D reset the mass from the fixtures.
+    for (b2Fixture* f = built.bodies[i]->GetFixtureList(); f; f = f->GetNext())
+      f->SetDensity(static_cast<float>(piece.mass / area[i]));
+    const b2MassData mass{static_cast<float>(piece.mass), {0, 0}, static_cast<float>(piece.inertia)};
+    built.bodies[i]->SetMassData(&mass);
+  }
+}
+
 b2Body* create_ground(b2World& world, const Plan& plan) {
   const bool needed =
       std::any_of(plan.joints.begin(), plan.joints.end(), [](const PlannedJoint& j) { return j.a < 0; });
@@ -89,9 +105,11 @@ Built build_bodies(b2World& world, const Plan& plan) {
               {{"piece '" + piece.name + "'", "is a disc of radius " + to_string(piece.circle) + " m",
                 "draw it with a radius of at least 0.01 m"}});
       } else {
-        polygons.back() = shapes(piece);
+        Piece in_its_body = piece;
+        in_its_body.center = plan.carrier(static_cast<int>(polygons.size()) - 1).center;
+        polygons.back() = shapes(in_its_body);
       }
-      const bool dynamic = plan.bodies[piece.body].type == BodyType::dynamic_body;
+      const bool dynamic = piece.part_of < 0 && plan.is_dynamic(static_cast<int>(polygons.size()) - 1);
       for (const double value : {piece.mass, piece.inertia})
         if (dynamic &&
             !(value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()))
@@ -118,17 +136,22 @@ Built build_bodies(b2World& world, const Plan& plan) {
       group = body.group == 0 && is_split ? groups.next() : body.group;
       centre = is_split && body.angular_velocity != 0 ? mass_centre(plan, piece.body) : piece.center;
     }
-    b2BodyDef def;
-    def.type = body.type == BodyType::dynamic_body     ? b2_dynamicBody
-               : body.type == BodyType::kinematic_body ? b2_kinematicBody
-                                                       : b2_staticBody;
-    def.position = vector(piece.center);
-    if (body.type != BodyType::static_body) {
-      def.linearVelocity = vector(body.velocity + body.angular_velocity * left(piece.center - centre));
-      def.angularVelocity = static_cast<float>(body.angular_velocity);
+    b2Body* created = nullptr;
+    if (piece.part_of >= 0) {
+      created = built.bodies[piece.part_of];
+    } else {
+      b2BodyDef def;
+      def.type = plan.is_dynamic(static_cast<int>(i))    ? b2_dynamicBody
+                 : body.type == BodyType::kinematic_body ? b2_kinematicBody
+                                                         : b2_staticBody;
+      def.position = vector(piece.center);
+      if (def.type != b2_staticBody) {
+        def.linearVelocity = vector(body.velocity + body.angular_velocity * left(piece.center - centre));
+        def.angularVelocity = static_cast<float>(body.angular_velocity);
+      }
+      def.allowSleep = plan.sleep;
+      created = world.CreateBody(&def);
     }
-    def.allowSleep = plan.sleep;
-    b2Body* created = world.CreateBody(&def);
 
     b2FixtureDef fixture;
     fixture.filter.groupIndex = group;
@@ -143,18 +166,13 @@ Built build_bodies(b2World& world, const Plan& plan) {
     if (piece.circle > 0) {
       b2CircleShape disc;
       disc.m_radius = static_cast<float>(piece.circle);
+      disc.m_p = vector(piece.center - plan.carrier(static_cast<int>(i)).center);
       fixture.shape = &disc;
       created->CreateFixture(&fixture);
     }
-    if (body.type == BodyType::dynamic_body) {
-      // The densities only matter where a user's call makes Box2D reset the mass from the fixtures.
-      for (b2Fixture* f = created->GetFixtureList(); f; f = f->GetNext())
-        f->SetDensity(static_cast<float>(piece.mass / area_of(piece)));
-      const b2MassData mass{static_cast<float>(piece.mass), {0, 0}, static_cast<float>(piece.inertia)};
-      created->SetMassData(&mass);
-    }
     built.bodies.push_back(created);
   }
+  set_masses(plan, built);
 
   for (const Plan::Wheel& wheel : plan.wheels) {
     b2WheelJointDef def;
@@ -203,7 +221,7 @@ std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Bui
     const double factor = ramp(time - load.def.from, load.def.ramp);
     if (factor == 0) continue;
     b2Body* body = built.bodies[load.piece];
-    const b2Vec2 at = body->GetWorldPoint(vector(load.at - plan.pieces[load.piece].center));
+    const b2Vec2 at = body->GetWorldPoint(vector(load.at - plan.carrier(load.piece).center));
     const AppliedLoad now{body, at, vector(factor * load.def.force),
                           static_cast<float>(factor * load.def.moment)};
     body->ApplyForce(now.force, at, true);

@@ -51,10 +51,7 @@ Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
 
 void Equilibrium::find_loose() {
   const std::size_t n = plan_.pieces.size();
-  const auto stands = [&](std::size_t i) {
-    return i == n ||
-           plan_.bodies[static_cast<std::size_t>(plan_.pieces[i].body)].type != BodyType::dynamic_body;
-  };
+  const auto stands = [&](std::size_t i) { return i == n || !plan_.is_dynamic(static_cast<int>(i)); };
   std::vector<std::size_t> group(n + 1);  // the last one: all that stands still
   std::iota(group.begin(), group.end(), 0);
   const auto root = [&](std::size_t i) {
@@ -62,8 +59,10 @@ void Equilibrium::find_loose() {
     return i;
   };
   const auto index = [&](int piece) { return piece < 0 ? n : static_cast<std::size_t>(piece); };
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
     if (stands(i)) group[root(i)] = root(n);
+    if (plan_.pieces[i].part_of >= 0) group[root(i)] = root(index(plan_.pieces[i].part_of));
+  }
   for (const PlannedJoint& j : plan_.joints)
     if (!is_free(j, axial) || !is_free(j, shear) || !is_free(j, rotation))
       group[root(index(j.a))] = root(index(j.b));
@@ -72,8 +71,9 @@ void Equilibrium::find_loose() {
   for (std::size_t i = 0; i < n; ++i) {
     if (stands(i)) continue;
     if (root(i) == root(n)) {
-      column[i] = columns;
-      columns += 3;
+      const int carrier = plan_.pieces[i].part_of;  // comes before its parts
+      column[i] = carrier >= 0 ? column[static_cast<std::size_t>(carrier)] : columns;
+      if (carrier < 0) columns += 3;
     } else {
       loose.push_back(static_cast<int>(i));
     }
@@ -82,7 +82,7 @@ void Equilibrium::find_loose() {
 }
 
 std::array<double, 3> Equilibrium::scale(int piece) const {
-  const Piece& p = plan_.pieces[static_cast<std::size_t>(piece)];
+  const Piece& p = plan_.carrier(piece);
   const double s = 1 / std::sqrt(p.mass);
   return {s, s, 1 / std::sqrt(p.inertia)};
 }
@@ -94,7 +94,7 @@ void Equilibrium::fill() {
     if (!held[i]) continue;
     for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
       if (piece < 0 || column[static_cast<std::size_t>(piece)] < 0) continue;
-      const Point arm = j.anchor - plan_.pieces[static_cast<std::size_t>(piece)].center;
+      const Point arm = j.anchor - plan_.carrier(piece).center;
       const auto s = scale(piece);
       for (const Row row : {axial, shear, rotation}) {
         if (is_free(j, row)) continue;
@@ -105,8 +105,8 @@ void Equilibrium::fill() {
       }
     }
   }
-  const auto moving = std::count_if(column.begin(), column.end(), [](int c) { return c >= 0; });
-  B.resize(3 * static_cast<Index>(plan_.joints.size()), 3 * moving);
+  const int last = *std::max_element(column.begin(), column.end());  // −1 or the first of the last three
+  B.resize(3 * static_cast<Index>(plan_.joints.size()), last < 0 ? 0 : last + 3);
   B.setFromTriplets(entries.begin(), entries.end());
 }
 
@@ -146,10 +146,11 @@ std::vector<LoadCase> Equilibrium::cases() const {
   for (const double time : starts) {
     LoadCase& now = result.emplace_back(LoadCase{time, VectorXd::Zero(B.cols()), VectorXd::Zero(B.cols())});
     for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
-      add(now.gravity, static_cast<int>(i), plan_.pieces[i].mass * plan_.gravity, 0);
+      if (plan_.pieces[i].part_of < 0)
+        add(now.gravity, static_cast<int>(i), plan_.pieces[i].mass * plan_.gravity, 0);
     for (const Plan::Load& load : plan_.loads) {
       if (load.def.from > time || load.def.to <= time) continue;
-      const Point arm = load.at - plan_.pieces[static_cast<std::size_t>(load.piece)].center;
+      const Point arm = load.at - plan_.carrier(load.piece).center;
       add(now.loads, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
     }
   }

@@ -122,7 +122,10 @@ JointReading Simulation::read_stock(std::size_t index) const {
 
 PieceReading Simulation::piece(std::size_t index) const {
   const b2Body& body = *built_.bodies[index];
-  const b2Vec2 &p = body.GetWorldCenter(), &v = body.GetLinearVelocity();
+  const Point own = plan_.pieces[index].center, whole = plan_.carrier(static_cast<int>(index)).center;
+  const b2Vec2 p =
+      body.GetWorldPoint({static_cast<float>(own.x - whole.x), static_cast<float>(own.y - whole.y)});
+  const b2Vec2 v = body.GetLinearVelocityFromWorldPoint(p);
   return {{p.x, p.y}, body.GetAngle(), {v.x, v.y}, body.GetAngularVelocity()};
 }
 

@@ -1,8 +1,9 @@
 // A Plan in Box2D: definitions of its joints for any world, and whole worlds.
 //
-// Every piece becomes a body whose origin is the piece's centre of mass and whose angle is 0 at first, so
-// that a joint's local anchors are its anchor less the centres. Numbers that Box2D takes as floats are
-// checked: one that overflows a float or vanishes in it is refused (InvalidInput), never inf or 0.
+// Every piece becomes a body, or part of one (Piece::part_of), whose origin is its centre of mass and whose
+// angle is 0 at first, so that a joint's local anchors are its anchor less the centres. Numbers that Box2D
+// takes as floats are checked: one that overflows a float or vanishes in it is refused (InvalidInput), never
+// inf or 0.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -60,7 +61,7 @@ std::vector<b2PolygonShape> shapes(const Piece& piece);
 
 /// What a plan became in a world, which owns it all.
 struct Built {
-  std::vector<b2Body*> bodies;   ///< by Plan::pieces
+  std::vector<b2Body*> bodies;   ///< by Plan::pieces; the same for pieces of one rigid body
   b2Body* ground = nullptr;      ///< static, holds the supports; null where there are none
   std::vector<b2Joint*> joints;  ///< by Plan::joints
   std::vector<b2WheelJoint*> wheels;

@@ -40,6 +40,7 @@ struct JointOverrides {
   std::optional<double> max_rotation;   ///< rad, accumulated; unlimited: never breaks by it
   std::optional<double> max_elongation, max_compression, max_slip;  ///< m, accumulated; likewise
   std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
+  std::optional<bool> hold;  ///< keep the joint as it is where others are left out
 };
 
 /// A body as drawn, before it is split.
@@ -122,6 +123,11 @@ struct Piece {
   Point center;        ///< m, centre of mass, world axes at t = 0
   Outline outline;     ///< m, world axes at t = 0; empty for a disc
   double circle = 0;   ///< m, radius of a disc
+  /// The piece whose rigid body this one is part of, an index into Plan::pieces below its own; −1: it has one
+  /// of its own.
+  /// Mass, inertia and centre of the body are then that piece's, which is part of none itself.
+  int part_of = -1;
+  bool stands_still = false;  ///< though its body is dynamic: merged with the ground or a static body
 };
 
 /// A joint to be: everything a Box2D definition, a limit analysis or a drawing needs of it. Positive N is
@@ -142,13 +148,15 @@ struct PlannedJoint {
   double hinge_length = 0;  ///< m
   double height = 0;        ///< m, length of the interval along which the pieces touch; 0 for supports
   int governed_by = -1;     ///< index into Plan::reasons
+  bool hold = false;        ///< JointOverrides::hold
 };
 
 /// What was left out of a plan, with the error it brings and the time it saves.
 struct LeftOut {
   std::string what;
   double error = 0;       ///< relative displacement error that it brings, at most
-  double time_saved = 0;  ///< share of the step's time
+  double measured = 0;    ///< the same, as a run with and without it has shown
+  double time_saved = 0;  ///< share of the step's time, from the same run
 };
 
 /// Calibrated pieces and joints, engine-free.
@@ -172,6 +180,16 @@ struct Plan {
   };
   std::vector<Wheel> wheels;
   std::vector<LeftOut> left_out;
+
+  /// The piece that stands for the rigid body of a piece: itself unless it is part of another.
+  const Piece& carrier(int piece) const {
+    const Piece& p = pieces[static_cast<std::size_t>(piece)];
+    return p.part_of < 0 ? p : pieces[static_cast<std::size_t>(p.part_of)];
+  }
+  bool is_dynamic(int piece) const {
+    const Piece& p = pieces[static_cast<std::size_t>(piece)];
+    return !p.stands_still && bodies[static_cast<std::size_t>(p.body)].type == BodyType::dynamic_body;
+  }
 };
 
 /// A convex polygon of at most 8 vertices, counter-clockwise, relative to its piece's centre.
