@@ -71,6 +71,22 @@ bool Desk::button(const char* label, const char* name, const char* text) {
   return pressed;
 }
 
+bool Desk::choose(const char* label, const char* text, int& value, std::initializer_list<const char*> items) {
+  const int before = value;
+  const bool open = ImGui::BeginCombo(label, items.begin()[value]);
+  if (open) {
+    int i = 0;
+    for (const char* item : items) {
+      if (ImGui::Selectable(item, i == before)) value = i;
+      tip((std::string(label) + ": " + item).c_str(), text);
+      ++i;
+    }
+    ImGui::EndCombo();
+  }
+  tip(label, text);
+  return value != before;
+}
+
 void Desk::seek(std::optional<long> step) {
   if (!step) return;
   bench_.playing = false;
@@ -282,10 +298,10 @@ void Desk::time(const Box& box) {
   ImGui::SameLine(0, static_cast<float>(16 * ui_));
   ImGui::SetNextItemWidth(static_cast<float>(90 * ui_));
   int stop = static_cast<int>(bench_.stop_at);
-  if (ImGui::Combo("stop at", &stop, "never\0yield\0break\0")) {
+  if (choose("stop at", "Pauses by itself when a joint yields or breaks.", stop,
+             {"never", "yield", "break"})) {
     bench_.stop_at = static_cast<Workbench::StopAt>(stop);
   }
-  tip("stop at", "Pauses by itself when a joint yields or breaks.");
   ImGui::SameLine(0, static_cast<float>(16 * ui_));
   if (button("First yield", "first yield", "Rewinds to the step in which the first joint yielded (Y).") &&
       !bench_.seek_first(JointEvent::yield)) {

@@ -50,6 +50,8 @@ class Desk {
   /// To be called right after a control: its name, and what it does, for whoever rests the pointer on it.
   void tip(const char* name, const char* text);
   bool button(const char* label, const char* name, const char* text);
+  /// One of several.
+  bool choose(const char* label, const char* text, int& value, std::initializer_list<const char*> items);
   void seek(std::optional<long> step);
 
   Workbench& bench_;

@@ -63,12 +63,13 @@ void Desk::scene(const Box& box) {
 void Desk::run() {
   if (!ImGui::CollapsingHeader("Run", ImGuiTreeNodeFlags_DefaultOpen)) return;
   int solver = static_cast<int>(bench_.solver());
-  if (ImGui::Combo("solver", &solver, "direct\0iterative\0stock\0")) {
+  if (choose(
+          "solver",
+          "What finds the joints' forces: all together, exactly; one by one as in the paper; or Box2D's own "
+          "welds, which never yield. The same run is done again up to this step.",
+          solver, {"direct", "iterative", "stock"})) {
     bench_.set_solver(static_cast<JointSolver>(solver));
   }
-  tip("solver",
-      "What finds the joints' forces: all together, exactly; one by one as in the paper; or Box2D's own "
-      "welds, which never yield. The same run is done again up to this step.");
   Stepping stepping = bench_.run().stepping();
   double hz = 1 / stepping.dt;
   bool changed = drag("steps/s", hz, 10, 2000, "%.0f");
@@ -101,12 +102,14 @@ void Desk::show() {
   ImGui::Checkbox("names", &look_.names);
   tip("names", "Writes the joints' names beside them.");
   int numbers = static_cast<int>(look_.numbers), as = static_cast<int>(look_.as);
-  if (ImGui::Combo("numbers", &numbers, "none\0selected\0all\0")) {
+  if (choose("numbers", "Writes N, Q and M beside the joints (N). What would cover another is left out.",
+             numbers, {"none", "selected", "all"})) {
     look_.numbers = static_cast<Look::Numbers>(numbers);
   }
-  tip("numbers", "Writes N, Q and M beside the joints (N). What would cover another is left out.");
-  if (ImGui::Combo("as", &as, "N, N m\0% of cap\0")) look_.as = static_cast<Look::As>(as);
-  tip("as", "Numbers as they are, or as a share of what the joint can carry.");
+  if (choose("as", "Numbers as they are, or as a share of what the joint can carry.", as,
+             {"N, N m", "% of cap"})) {
+    look_.as = static_cast<Look::As>(as);
+  }
 }
 
 void Desk::throwing() {

@@ -235,7 +235,7 @@ ViewCost view(const ViewDef& def) {
   ViewCost result;
   std::string title;
   for (long frame = 0; !window.closed() && (!counted || frame <= def.frames); ++frame) {
-    window.begin(!counted && !bench.playing && !bench.run().busy());
+    window.begin(!counted && !def.trace && !bench.playing && !bench.run().busy());
     const ImGuiIO& io = ImGui::GetIO();
     if (counted) {
       if (frame > 0) bench.tick(bench.run().stepping().dt, 1e9);  // one step a frame

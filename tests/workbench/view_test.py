@@ -1,0 +1,344 @@
+"""The window of `ductile view` under Xvfb, with pointer, keys and dropped files.
+
+    view_test.py COMMAND SCENES [PART [slow]]      exit 77: no window can be opened here; slow: a build with sanitizers
+"""
+import json
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import xwindow  # noqa: E402
+
+COMMAND, SCENES, PART, SLOW = sys.argv[1], Path(sys.argv[2]), sys.argv[3:4], "slow" in sys.argv[4:]
+
+# The root carries 4e6 N m at rest and gives way at 3.8e6; what hangs on the tip breaks off at once.
+SCENE = {
+    "gravity": [0, -10],
+    "joint": {"elastic": "rigid"},
+    "materials": {"steel": {"density": 8000, "E": 200e9, "fy": 400e6}},
+    "bodies": [
+        {"name": "wall", "type": "static", "outline": [[-1, -1], [0, -1], [0, 2], [-1, 2]]},
+        {"name": "bar", "outline": [[0, 0], [10, 0], [10, 1], [0, 1]], "material": "steel", "split": {"pieces": 4}},
+        {"name": "tag", "outline": [[10, 0], [10.5, 0], [10.5, 1], [10, 1]], "material": "steel"}],
+    "joints": [
+        {"between": ["wall", "bar"], "moment": 3.8e6},
+        {"between": ["bar", "tag"], "moment": 1e3, "max_rotation": 0.02}]}
+JOINTS = ["bar/0-bar/1", "bar/1-bar/2", "bar/2-bar/3", "wall-bar/0", "bar/3-tag"]
+
+
+def setUpModule():
+    global screen
+    screen = xwindow.Screen(2560, 1440)
+
+
+def tearDownModule():
+    screen.close()
+
+
+def view(*args):
+    return subprocess.run([COMMAND, "view", *map(str, args)], env=screen.env, capture_output=True, text=True,
+                          timeout=120)
+
+
+class Batch(unittest.TestCase):
+    def test_every_scene_opens_and_runs_600_steps(self):
+        scenes = sorted(SCENES.glob("*.scene.json"))
+        self.assertGreater(len(scenes), 15)
+        for scene in scenes:
+            with self.subTest(scene.name):
+                run = view(scene, "--frames", 600, "--json")
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+                self.assertEqual(json.loads(run.stdout)["frames"], 600)
+
+    def test_2000_joints_are_drawn_in_4_ms(self):
+        run = view(SCENES / "frame_large.scene.json", "--frames", 60, "--select", "beam_6/10-beam_6/11", "--json")
+        self.assertLess(json.loads(run.stdout)["drawing_ms"]["median"], 40 if SLOW else 4)
+
+    def test_screenshots_have_the_size_asked_for(self):
+        for scale, size in ((1, (1280, 720)), (2, (2560, 1440))):
+            with tempfile.NamedTemporaryFile(suffix=".png") as file:
+                run = view(SCENES / "cantilever.scene.json", "--frames", 5, "--scale", scale, "--screenshot", file.name)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                png = Path(file.name).read_bytes()
+                self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+                self.assertEqual(struct.unpack(">II", png[16:24]), size)
+                self.assertGreater(len(png), 10_000, "an empty picture packs into less")
+
+    def test_bad_input_is_said_before_a_window_opens(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bad = Path(folder) / "bad.scene.json"
+            bad.write_text('{"bodies": [{"name": "x"}]}')
+            for args in ([bad], [Path(folder) / "none.json"],
+                         [SCENES / "cantilever.scene.json", "--select", "no such joint"]):
+                run = view(*args, "--frames", 1)
+                self.assertEqual((run.returncode, run.stdout), (2, ""), args)
+                self.assertIn(";", run.stderr)
+
+    def test_without_a_display_it_says_so(self):
+        run = subprocess.run([COMMAND, "view", SCENES / "cantilever.scene.json"], capture_output=True, text=True,
+                             env={**screen.env, "DISPLAY": ":no"}, timeout=20)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("display", run.stderr)
+
+
+class Window(unittest.TestCase):
+    """One window per test, small so that software draws it fast; self.state is what the last frame showed."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name)
+        for name in "a", "b":
+            (self.path / f"{name}.scene.json").write_text(json.dumps(SCENE))
+        self.process = subprocess.Popen([COMMAND, "view", self.path / "a.scene.json", "--scale", "0.5", "--trace"], env=screen.env,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.frames, self.line = 0, ""
+        self.reader = threading.Thread(target=self.read)
+        self.reader.start()
+        self.window = screen.window()
+        screen.move(2500, 1400)  # off the window
+        self.settle()
+
+    def read(self):
+        for line in self.process.stdout:
+            self.line = line
+            self.frames += 1
+
+    def tearDown(self):
+        screen.quit(self.window)
+        _, errors = self.process.stderr.read(), self.process.wait(timeout=20)
+        self.reader.join()
+        self.process.stdout.close()
+        self.process.stderr.close()
+        self.folder.cleanup()
+        self.assertEqual(errors, 0)
+
+    @property
+    def state(self):
+        return json.loads(self.line)
+
+    def settle(self, frames=2):
+        """So many frames go by: the one that is being made, and at least one that has seen all input."""
+        until = self.frames + frames
+        self.wait(lambda: self.frames >= until)
+
+    def wait(self, done, seconds=20):
+        end = time.monotonic() + seconds
+        while not done():
+            self.assertIsNone(self.process.poll(), "the window has gone")
+            self.assertLess(time.monotonic(), end, "it does not come; last: " + self.line[:2000])
+            time.sleep(0.005)
+
+    def key(self, name, *modifiers):
+        for modifier in modifiers:
+            screen.key(modifier)
+        screen.key(name)
+        self.settle()
+        for key in (name, *modifiers):
+            screen.key(key, down=False)
+        self.settle()
+
+    def drag(self, start, end, *modifiers):
+        screen.move(*start)
+        for modifier in modifiers:
+            screen.key(modifier)
+        self.settle()
+        screen.press()
+        self.settle()
+        if end != start:
+            for k in range(1, 4):
+                screen.move(*(a + (b - a) * k / 3 for a, b in zip(start, end)))
+                self.settle()
+        screen.press(down=False)
+        for modifier in modifiers:
+            screen.key(modifier, down=False)
+        self.settle(3)
+
+    def click(self, at, *modifiers):
+        self.drag(at, at, *modifiers)
+
+    def control(self, name, across=0.5):
+        """A click on a control, at a share of its width with its label."""
+        self.wait(lambda: name in self.state["controls"])
+        self.settle()  # what has just opened may still move
+        x0, y0, x1, y1 = self.state["controls"][name]
+        self.click((x0 + across * (x1 - x0), (y0 + y1) / 2))
+
+    def pause_at(self, step):
+        self.wait(lambda: self.state["step"] >= step)
+        self.key("p")
+        self.assertFalse(self.state["playing"])
+
+    def test_plays_pauses_steps_restarts(self):
+        self.pause_at(10)
+        step = self.state["step"]
+        self.settle(5)
+        self.assertEqual(self.state["step"], step)
+        self.key("o")
+        self.assertEqual(self.state["step"], step + 1)
+        self.control("back")
+        self.control("back")
+        self.assertEqual(self.state["step"], step - 1)
+        self.key("r")
+        self.assertEqual(self.state["step"], 0)
+        self.control("play")
+        self.wait(lambda: self.state["step"] > 5)
+
+    def test_selects_by_click_box_list_and_usage(self):
+        self.pause_at(30)
+        at = self.state["joints"]
+        self.click(at["bar/1-bar/2"])
+        self.assertEqual(self.state["selected"], ["bar/1-bar/2"])
+        self.click(at["bar/0-bar/1"], "Shift_L")
+        self.assertCountEqual(self.state["selected"], ["bar/0-bar/1", "bar/1-bar/2"])
+        (x0, y0), (x1, y1) = at["bar/1-bar/2"], at["bar/2-bar/3"]
+        self.drag((x0 - 5, y0 - 60), (x1 + 5, y1 + 60), "Control_L")
+        self.assertCountEqual(self.state["selected"], ["bar/1-bar/2", "bar/2-bar/3"])
+        self.control("tab joints")
+        self.control("first joint")
+        self.assertEqual(self.state["selected"], [JOINTS[0]])
+        self.control("select yielded")
+        self.assertIn("wall-bar/0", self.state["selected"])
+        self.assertNotIn("bar/2-bar/3", self.state["selected"])
+        self.control("select all")
+        self.assertCountEqual(self.state["selected"], JOINTS)
+        self.key("Escape")
+        self.assertEqual(self.state["selected"], [])
+
+    def test_rewinds_to_the_first_yield_and_break_and_by_the_list(self):
+        self.pause_at(60)
+        self.control("first break")
+        broke = self.state["step"]
+        self.assertLess(broke, 60)
+        self.key("o")
+        self.key("y")
+        first = self.state["step"]
+        self.assertLessEqual(first, broke)
+        self.control("time slider", 0.5)
+        middle = self.state["step"]
+        self.assertAlmostEqual(middle, self.state["last"] / 2, delta=2)
+        self.control("tab events")
+        self.control("first event")
+        self.assertEqual(self.state["step"], first)
+        self.assertEqual(len(self.state["selected"]), 1)
+
+    def test_solver_and_steps_are_changed_live(self):
+        self.pause_at(30)
+        step = self.state["step"]
+        self.assertEqual(self.state["solver"], 0)
+        for number, name in ((2, "stock"), (1, "iterative"), (0, "direct")):
+            self.control("solver")
+            self.control("solver: " + name)
+            self.wait(lambda: not self.state["busy"])
+            self.assertEqual((self.state["solver"], self.state["step"]), (number, step))
+            self.assertEqual(self.state["events"] == 0, name == "stock")
+        time_before = self.state["time"]
+        self.control("steps/s", 0.5)
+        dt = self.state["dt"]
+        self.assertLess(dt, 1 / 100)
+        self.key("o")
+        self.assertAlmostEqual(self.state["time"], time_before + dt, delta=1e-9)
+
+    def test_edits_and_saves(self):
+        self.pause_at(10)
+        self.click(self.state["joints"]["bar/1-bar/2"])
+        self.control("tab edit")
+        self.control("depth", 0.8)
+        self.assertTrue(self.state["changed"])
+        self.assertEqual(self.state["step"], 0)
+        self.control("undo")
+        self.assertFalse(self.state["changed"])
+        self.control("redo")
+        self.control("pieces", 0.5)
+        self.assertGreater(len(self.state["pieces"]), 10)
+        self.key("s", "Control_L")
+        self.assertFalse(self.state["changed"])
+        self.assertIn("Saved", self.state["message"])
+        saved = json.loads((self.path / "a.scene.json").read_text())
+        bar = next(body for body in saved["bodies"] if body["name"] == "bar")
+        self.assertEqual(len(self.state["pieces"]), bar["split"]["pieces"] + 2)
+        self.assertGreater(bar["depth"], 1)
+
+    def test_files_are_dropped_on_it(self):
+        self.wait(lambda: self.state["step"] > 5)
+        middle = [sum(self.state["view"][i::2]) / 2 for i in (0, 1)]
+        other = self.path / "two words.svg"
+        other.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="2000mm" height="1000mm" '
+                         'viewBox="0 0 2 1"><rect id="plank" width="2" height="0.2"/></svg>')
+        for name, text in (("bad.json", "{"), ("picture.png", "\x89PNG"),
+                           ("cross.json", '{"bodies": [{"name": "x", "outline": [[0,0],[1,1],[1,0],[0,1]]}]}')):
+            (self.path / name).write_text(text)
+            screen.drop(self.window, [self.path / name], *middle)
+            self.wait(lambda: name in self.state["message"])
+            self.settle(3)
+            self.assertEqual(self.state["file"], str(self.path / "a.scene.json"))
+            self.assertEqual(set(self.state["joints"]), set(JOINTS))
+            self.control("close message")
+            self.assertEqual(self.state["message"], "")
+        screen.drop(self.window, [str(other).replace(" ", "%20")], *middle)
+        self.wait(lambda: "plank" in " ".join(self.state["pieces"]))
+        screen.drop(self.window, [self.path / "b.scene.json"], *middle)
+        self.wait(lambda: self.state["file"] == str(self.path / "b.scene.json"))
+
+    def test_bodies_are_dragged_and_thrown(self):
+        self.pause_at(5)
+        self.control("pace", 0.6)
+        start = self.state["pieces"]["bar/3"]
+        self.key("p")
+        screen.move(*start)
+        self.settle(2)
+        screen.press()
+        self.settle(2)
+        for k in range(1, 9):
+            screen.move(start[0], start[1] - 5 * k)
+            self.settle(4)
+        self.wait(lambda: self.state["pieces"]["bar/3"][1] < start[1] - 10)  # up, against its weight
+        screen.press(down=False)
+        self.settle()
+        self.assertEqual(self.state["selected"], [])
+        self.key("space")
+        self.assertEqual(self.state["thrown"], 1)
+        self.key("m")
+        self.assertEqual(self.state["thrown"], 2)
+        x0, y0, x1, y1 = self.state["view"]
+        self.drag((x0 + 40, y0 + 60), (x0 + 20, y0 + 50), "Shift_L")
+        self.assertEqual(self.state["thrown"], 3)
+        self.control("add mass")
+        self.click((x1 - 40, y0 + 60))
+        self.assertEqual(self.state["thrown"], 4)
+        self.key("r")
+        self.assertEqual(self.state["thrown"], 0)
+
+    def test_keys_of_the_testbed_move_the_view_and_change_scenes(self):
+        self.pause_at(5)
+        scale, at = self.state["scale"], self.state["joints"]["wall-bar/0"]
+        self.key("x")
+        self.assertGreater(self.state["scale"], scale)
+        self.key("z")
+        self.assertAlmostEqual(self.state["scale"], scale, delta=1e-6 * scale)
+        self.key("Left")
+        self.assertGreater(self.state["joints"]["wall-bar/0"][0], at[0])
+        self.key("Home")
+        self.assertAlmostEqual(self.state["joints"]["wall-bar/0"][0], at[0], delta=1)
+        self.key("bracketright")
+        self.assertEqual(self.state["file"], str(self.path / "b.scene.json"))
+        self.key("bracketleft")
+        self.assertEqual(self.state["file"], str(self.path / "a.scene.json"))
+
+
+if __name__ == "__main__":
+    lacking = xwindow.missing()
+    if not lacking:
+        probe = subprocess.run([COMMAND, "view", SCENES / "cantilever.scene.json", "--frames", "0"],
+                               capture_output=True, text=True, env={"DISPLAY": ":no"})
+        if "without its window" in probe.stderr:
+            lacking = probe.stderr.strip()
+    if lacking:
+        print("skipped:", lacking)
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *PART], verbosity=2)
