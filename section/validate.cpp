@@ -499,8 +499,8 @@ void add_loops(std::vector<Loop>& loops, const Outline& outline, const Loop& lik
   }
 }
 
-/// Do holes leave nothing of the outline but slivers that rounding makes?
-bool all_holes(std::span<const Loop> loops, double tolerance) {
+/// What holes leave of the outlines, and the length of all rings.
+std::pair<double, double> area_and_length(std::span<const Loop> loops) {
   DoubleDouble area;
   double length = 0;
   for (const Loop& loop : loops) {
@@ -514,7 +514,29 @@ bool all_holes(std::span<const Loop> loops, double tolerance) {
     }
     area += abs(twice) * (loop.hole ? -0.5 : 0.5);
   }
-  return to_double(area) <= tolerance * length;
+  return {to_double(area), length};
+}
+
+/// Do holes leave nothing of the outline but slivers that rounding makes?
+bool all_holes(std::span<const Loop> loops, double tolerance) {
+  const auto [area, length] = area_and_length(loops);
+  return area <= tolerance * length;
+}
+
+/// A thickness t in a length L costs (L/t)² of the digits of a second moment; double-double has 32.
+std::vector<Problem> thin_problems(std::span<const Loop> loops) {
+  constexpr double thinnest = 1e-9;
+  double extent = 0;
+  for (const Loop& loop : loops) {
+    for (const Point p : loop.ring) {
+      const Point o = loops.front().ring.front();
+      extent = std::max({extent, std::abs(p.x - o.x), std::abs(p.y - o.y)});
+    }
+  }
+  const double area = area_and_length(loops).first;
+  if (area >= thinnest * extent * extent) return {};
+  return {{"regions", "have " + number(area) + " m2 in an extent of " + number(extent) + " m",
+           "too thin to compute with: the area must be at least 1e-9 of the extent's square"}};
 }
 
 void append(std::vector<Problem>& problems, std::vector<Problem> more) {
@@ -593,10 +615,11 @@ std::vector<Problem> validate(std::span<const Region> regions) {
       problems.push_back({place(), "has no Young's modulus although another region has one",
                           "give it for all regions or for none"});
   }
-  if (outlines_sound && regions.size() > 1) {
+  if (outlines_sound) {
     std::vector<Loop> loops;
     for (std::size_t r = 0; r < regions.size(); ++r) add_loops(loops, regions[r].outline, loop_like(r));
-    append(problems, Sweep(loops, rounding(loops)).problems());
+    if (regions.size() > 1) append(problems, Sweep(loops, rounding(loops)).problems());
+    if (problems.empty()) append(problems, thin_problems(loops));
   }
   return problems;
 }

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                          1 + 0.5 * 1e-15},
                     Good{"very small", {rectangle(1e-40, 1e-40)}, 1e-80},
                     Good{"very large", {rectangle(1e40, 1e40)}, 1e80},
-                    Good{"thinnest", {rectangle(1, 1e-40)}, 1e-40}),
+                    Good{"thinnest", {rectangle(1, 1e-9)}, 1e-9}),
     [](const auto& info) {
       std::string name = info.param.name;
       for (char& c : name)
@@ -314,6 +314,8 @@ TEST(Regions, Refused) {
        {{{rectangle(1, 1)}, negative}},
        {"regions[0].material: Young's modulus is -1 Pa"}},
       {"nan", {{{rectangle(1, 1)}, {.yield_stress = nan_value}}}, {"yield stress is nan Pa"}},
+      {"too thin", {steel({rectangle(1, 0.9e-9)})}, {"regions: have 9e-10 m2 in an extent of 1 m"}},
+      {"tiny beside huge", {steel({rectangle(1, 1)}), steel({{{5, 1}, {2, 1}, {0, 1e40}}})}, {"too thin"}},
       {"modulus on one only",
        {steel({rectangle(1, 1)}), {{rectangle(1, 1, {1, 0})}, wood}},
        {"regions[1].material: has no Young's modulus"}},

@@ -45,7 +45,8 @@ struct Region {
 std::vector<Problem> validate(const Outline& outline, const std::string& place = "outline");
 
 /// The same for a section: every region's outline and material, and regions that overlap in area; Young's
-/// modulus on all regions or on none.
+/// modulus on all regions or on none; an area below 1e-9 of the square of the extent, too thin to compute
+/// with.
 std::vector<Problem> validate(std::span<const Region> regions);
 
 /// The same for a material: stresses and moduli finite and not negative, yield stress above zero.
