@@ -64,18 +64,19 @@ ElasticPlasticJoint::~ElasticPlasticJoint() {
 // A joint whose structure is gone goes on as the weld that it was.
 void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
-  if (data.step.velocityIterations <= 0) return member_->structure->sit_out();
-  member_->structure->enlist(*member_);
+  // An island that is given no velocity iterations moves without us; what that parts is brought together when
+  // next seen.
+  leads_ = data.step.velocityIterations > 0 && member_->structure->enlist(*member_);
 }
 
 void ElasticPlasticJoint::SolveVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::SolveVelocityConstraints(data);
-  member_->structure->velocity(*member_, data);
+  if (leads_) member_->structure->velocity(data);
 }
 
 bool ElasticPlasticJoint::SolvePositionConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::SolvePositionConstraints(data);
-  member_->structure->position(*member_, data);
+  if (leads_) member_->structure->position(data);
   return true;
 }
 
@@ -107,10 +108,11 @@ b2Body* watch_world(b2World& world, Structure::Impl& structure) { return WorldWa
 Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known, SolverKind solver_kind)
     : members(std::move(enlisted_members)), kind(solver_kind) {
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
-  std::unordered_map<b2Body*, int> number;
+  std::unordered_map<b2Body*, int> number, degree;
   std::vector<b2Body*> bodies, others;
   for (const Member* m : members) {
     for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
+      ++degree[body];
       if (!number.try_emplace(body, 0).second) continue;
       (is_free(body) ? bodies : others).push_back(body);
     }
@@ -142,6 +144,9 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     mirror.left = {body->GetWorldCenter(), body->GetAngle()};
     mirror.type = body->GetType();
     read_mass(i);
+    int edges = 0;
+    for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
+    mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
     Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
     if (const auto found = known.find(body); found != known.end()) {
       Pose at = found->second.pose;
@@ -204,6 +209,11 @@ bool Component::still_fits() {
   return masses;
 }
 
+// Box2D prepends new joints to a body's list, and one of ours that goes dissolves the component.
+bool Component::only_ours(const Mirror& m) {
+  return m.body->GetContactList() == nullptr && m.body->GetJointList() == m.joints;
+}
+
 void Component::disturb() {
   at_rest_ = resting = false;
   solver.laws_changed();
@@ -213,6 +223,7 @@ void Component::disturb() {
 // same.
 bool Component::as_before(const b2SolverData& data) {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
+  alone_ = true;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     if (m.type == b2_staticBody) {
@@ -221,6 +232,7 @@ bool Component::as_before(const b2SolverData& data) {
     }
     m.island_index = island_index(m.body);
     const b2Velocity& v = data.velocities[m.island_index];
+    alone_ &= i >= solver.free_bodies() || only_ours(m);
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
                                    m.gyration * std::abs(v.w - m.taken.w)});
     if (!(change <= slack_) || !same(data.positions[m.island_index], m.left)) return false;
@@ -237,6 +249,7 @@ void Component::first_velocity(const b2SolverData& data) {
     return;
   }
   bool moved = std::exchange(parted_, false);
+  alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     SolverBody& b = solver.bodies[i];
@@ -256,6 +269,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     m.taken = m.given = data.velocities[m.island_index];
     m.lost = {};
+    alone_ &= i >= solver.free_bodies() || only_ours(m);
   }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
@@ -291,6 +305,10 @@ void Component::first_velocity(const b2SolverData& data) {
 
 void Component::next_velocity(const b2SolverData& data) {
   bool touched = false;
+  if (alone_) {
+    ++report->skipped;
+    return;
+  }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const b2Velocity& now = data.velocities[mirrors[i].island_index];
     b2Velocity& given = mirrors[i].given;
@@ -334,6 +352,7 @@ void Component::give(const b2SolverData& data) {
 }
 
 void Component::position(const b2SolverData& data) {
+  if (alone_) return write_poses(data);
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     b2Position& at = data.positions[mirrors[i].island_index];
@@ -378,12 +397,14 @@ void Component::limit_speed(const b2SolverData& data) {
     return std::min(1.0, in_floats * limit / (solver.step() * speed));
   };
   for (int pass = 0;; ++pass) {
-    double least = 1;
+    double fastest = 0, turning = 0;  // squares
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       const Vec3& v = solver.bodies[i].v;
-      least = std::min(
-          {least, share(b2_maxTranslation, std::hypot(v.x, v.y)), share(b2_maxRotation, std::abs(v.w))});
+      fastest = std::max(fastest, v.x * v.x + v.y * v.y);
+      turning = std::max(turning, v.w * v.w);
     }
+    const double least =
+        std::min(share(b2_maxTranslation, std::sqrt(fastest)), share(b2_maxRotation, std::sqrt(turning)));
     if (least == 1) return;
     const bool together = pass == 4;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -409,7 +430,7 @@ void Component::advance() {
   // Stock joints that come before ours in the list see velocities without our impulses, and take back what
   // they do about it in the iterations that follow: they need those iterations.
   bool alone = true;
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+  for (std::size_t i = 0; i < solver.free_bodies() && !alone_; ++i) {
     const SolverBody& b = solver.bodies[i];
     const Mirror& m = mirrors[i];
     const Vec3 by_others = b.v_free - into_own_frame(b.turn, m.taken.v.x, m.taken.v.y, m.taken.w);

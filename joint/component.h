@@ -60,6 +60,7 @@ struct Component {
     b2Velocity lost{};   // velocity that limit_speed() took
     float mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
+    const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
   };
@@ -97,6 +98,7 @@ struct Component {
 
  private:
   bool as_before(const b2SolverData& data);
+  static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
   void solve(const b2SolverData& data);
   void give(const b2SolverData& data);
@@ -104,6 +106,7 @@ struct Component {
 
   std::vector<Pose> goal;
   bool parted_ = false;   // bodies were moved apart while their joint was in no island
+  bool alone_ = false;    // nothing else can touch the bodies in this step: no contact, no other joint
   bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
   float slack_ = 0;       // m/s that velocities may differ by in it
 };

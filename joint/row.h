@@ -9,10 +9,6 @@
 // one step is one convex problem.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "yield_surface.h"
 
 namespace ductile {
@@ -30,28 +26,20 @@ struct RowLaw {
 /// Says that a joint flows on its yield surface.
 inline constexpr unsigned on_surface = 64;
 
-/// Impulses s(x). The result tells the piece of the law that x is on: bit i that row i is beyond its cap, bit
-/// 3 + i that it is beyond its reverse cap (each combination is linear), or on_surface.
-inline unsigned respond(const RowLaw& law, const Rows& x, Rows& s) {
-  if (law.surface != nullptr) {
-    for (unsigned i = 0; i < 3; ++i) s[i] = law.G[i] * x[i];
-    return law.surface->project(law.G, law.h, s) ? on_surface : 0;
-  }
+struct Response {
+  Rows s;          // impulses
+  unsigned piece;  // of the law that x is on: bit i: row i is beyond its cap, bit 3 + i: beyond its reverse
+                   // cap (each combination is linear), or on_surface
+};
+
+/// s(x) where it is not simply G x.
+Response respond_beyond(const RowLaw& law, const Rows& trial);
+
+inline Response respond(const RowLaw& law, const Rows& x) {
   const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
-  unsigned beyond = 0;
-  for (unsigned i = 0; i < 3; ++i) {
-    s[i] = trial[i];
-    beyond |=
-        static_cast<unsigned>(trial[i] > law.cap[i]) | static_cast<unsigned>(trial[i] < -law.cap_reverse[i]);
-  }
-  if (beyond == 0) return 0;
-  unsigned piece = 0;
-  for (unsigned i = 0; i < 3; ++i) {
-    const double held = std::min(std::max(trial[i], -law.cap_reverse[i]), law.cap[i]);
-    s[i] = held + law.after_yield[i] * (trial[i] - held);
-    piece |= (trial[i] > held ? 1u : 0u) << i | (trial[i] < held ? 8u : 0u) << i;
-  }
-  return piece;
+  const auto within = [&](unsigned i) { return trial[i] <= law.cap[i] && -trial[i] <= law.cap_reverse[i]; };
+  if (law.surface == nullptr && within(0) && within(1) && within(2)) return {trial, 0};
+  return respond_beyond(law, trial);
 }
 
 /// The rows that flow in that piece, one bit each.

@@ -13,10 +13,15 @@ constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 // Joints bend little from step to step and in all: a few terms of the series do, to the last bit.
 Turn turn_of(double angle) {
-  if (!(std::abs(angle) < 0.06)) return {std::cos(angle), std::sin(angle)};
+  constexpr auto over = [](double n) { return 1 / n; };
   const double t = angle * angle;
-  return {1 - t / 2 * (1 - t / 12 * (1 - t / 30 * (1 - t / 56 * (1 - t / 90)))),
-          angle * (1 - t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72))))};
+  if (t < 6e-5) {
+    return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30))),
+            angle * (1 - t * over(6) * (1 - t * over(20)))};
+  }
+  if (!(t < 4e-3)) return {std::cos(angle), std::sin(angle)};
+  return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30) * (1 - t * over(56) * (1 - t * over(90))))),
+          angle * (1 - t * over(6) * (1 - t * over(20) * (1 - t * over(42) * (1 - t * over(72)))))};
 }
 
 // J v
@@ -33,6 +38,22 @@ inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b
         j.au * s[0] + j.av * s[1] - s[2]};
   b += {j.axis_b.c * s[0] - j.axis_b.s * s[1], j.axis_b.s * s[0] + j.axis_b.c * s[1],
         j.bu * s[0] + j.bv * s[1] + s[2]};
+}
+
+// The three rows of one body's share of J, and of what they are multiplied by.
+struct JacobianRows {
+  Vec3 u, v, w;
+};
+
+// block += leftᵀ right, with left.w = (0, 0, ±1)
+inline void add_product(Block& block, const JacobianRows& left, const JacobianRows& right) {
+  const Vec3 rows[3] = {left.u.x * right.u + left.v.x * right.v, left.u.y * right.u + left.v.y * right.v,
+                        left.u.w * right.u + left.v.w * right.v + left.w.w * right.w};
+  for (int r = 0; r < 3; ++r) {
+    block.a[3 * r] += rows[r].x;
+    block.a[3 * r + 1] += rows[r].y;
+    block.a[3 * r + 2] += rows[r].w;
+  }
 }
 
 }  // namespace
@@ -173,10 +194,11 @@ void Solver::begin(double h) {
 void Solver::predict() {
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
-    const Vec3 v = b.v;
-    if (!flows_) b.v += b.v - b.v_last;
+    const Vec3 v = b.v, rise = b.v - b.v_last;
+    if (!flows_) b.v += 2.0 * rise - b.rise_last;
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
     b.v_last = v;
+    b.rise_last = rise;
   }
 }
 
@@ -205,16 +227,18 @@ double Solver::evaluate() {
   changed_ = 0;
   unsigned crossed = 0, any = 0;
   for (SolverJoint& j : joints) {
-    j.x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-    for (unsigned i = 0; i < 3; ++i) j.x[i] += j.law.bias[i];
-    const unsigned piece = respond(j.law, j.x, j.impulse);
+    Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    for (unsigned i = 0; i < 3; ++i) x[i] += j.law.bias[i];
+    const auto [s, piece] = respond(j.law, x);
+    add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
+    j.x = x;
+    j.impulse = s;
     if ((piece | j.piece | j.factored) != 0) {
       crossed |= (piece ^ j.piece) | (piece & on_surface);
       any |= piece;
       j.piece = static_cast<std::uint8_t>(piece);
       changed_ += std::popcount(flowing(piece) ^ j.factored);
     }
-    add_transposed(j, j.impulse, g_[z(j.a)], g_[z(j.b)]);
   }
   crossed_ = crossed != 0;
   flows_ = any != 0;
@@ -270,7 +294,6 @@ void Solver::factor_tangents() {
   holding_ = false;
   newton_ = !short_step_;
   changed_ = 0;
-  rate_ = 1e-3;
 }
 
 // H for project(): whatever holds is as stiff as κ allows, so that a push moves the bodies as one that does
@@ -305,39 +328,25 @@ void Solver::factor() {
   }
   for (const SolverJoint& j : joints) {
     const bool free_a = z(j.a) < free_, free_b = z(j.b) < free_;
-    const double rot_a = bodies[z(j.a)].inertia > 0 ? 1 : 0, rot_b = bodies[z(j.b)].inertia > 0 ? 1 : 0;
-    const double A[9] = {-j.axis_a.c, -j.axis_a.s, rot_a * j.au, j.axis_a.s, -j.axis_a.c, rot_a * j.av,
-                         0,           0,           -rot_a};
-    const double B[9] = {j.axis_b.c, j.axis_b.s, rot_b * j.bu, -j.axis_b.s, j.axis_b.c, rot_b * j.bv,
-                         0,          0,          rot_b};
-    const auto add = [&j](double* block, const double* left, const double* right) {
-      const double* d = j.slope.data();
-      for (unsigned r = 0; r < 3; ++r) {
-        for (unsigned c = 0; c < 3; ++c) {
-          for (unsigned i = 0; i < 3; ++i) block[3 * r + c] += left[3 * i + r] * d[i] * right[3 * i + c];
-        }
+    const double turns_a = bodies[z(j.a)].inertia > 0 ? 1 : 0, turns_b = bodies[z(j.b)].inertia > 0 ? 1 : 0;
+    const JacobianRows a{{-j.axis_a.c, -j.axis_a.s, turns_a * j.au},
+                         {j.axis_a.s, -j.axis_a.c, turns_a * j.av},
+                         {0, 0, -turns_a}};
+    const JacobianRows b{
+        {j.axis_b.c, j.axis_b.s, turns_b * j.bu}, {-j.axis_b.s, j.axis_b.c, turns_b * j.bv}, {0, 0, turns_b}};
+    const auto scaled = [&j](const JacobianRows& rows) {
+      JacobianRows d{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
+      if (j.piece == on_surface) {
+        d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
+        d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
+        d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
       }
-      if (j.piece != on_surface) return;
-      const double coupled[3][3] = {
-          {0, j.slope_nq, j.slope_nm}, {j.slope_nq, 0, j.slope_qm}, {j.slope_nm, j.slope_qm, 0}};
-      for (unsigned r = 0; r < 3; ++r) {
-        for (unsigned c = 0; c < 3; ++c) {
-          for (unsigned i = 0; i < 3; ++i) {
-            for (unsigned k = 0; k < 3; ++k)
-              block[3 * r + c] += left[3 * i + r] * coupled[i][k] * right[3 * k + c];
-          }
-        }
-      }
+      return d;
     };
-    if (free_a) add(ldlt_.diagonal(j.a).a, A, A);
-    if (free_b) add(ldlt_.diagonal(j.b).a, B, B);
-    if (j.block >= 0) {
-      if (j.a > j.b) {
-        add(ldlt_.block(j.block).a, A, B);
-      } else {
-        add(ldlt_.block(j.block).a, B, A);
-      }
-    }
+    const JacobianRows da = scaled(a), db = scaled(b);
+    if (free_a) add_product(ldlt_.diagonal(j.a), a, da);
+    if (free_b) add_product(ldlt_.diagonal(j.b), b, db);
+    if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
   }
   ldlt_.factor();
   factored_ = true;
@@ -370,9 +379,9 @@ bool Solver::line_search(double slope0, double slope1) {
     double slope = at_rest + t * curvature, rise = curvature;
     for (const SolverJoint& j : joints) {
       const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
-      Rows x, s;
+      Rows x;
       for (unsigned r = 0; r < 3; ++r) x[r] = j.x[r] + (t - 1) * y[r];
-      const unsigned piece = respond(j.law, x, s);
+      const auto [s, piece] = respond(j.law, x);
       for (unsigned r = 0; r < 3; ++r) {
         slope += y[r] * s[r];
         rise += y[r] * y[r] * tangent(j.law, piece, r);
@@ -426,10 +435,10 @@ bool Solver::solve(SolveReport& report) {
   for (; norm > target() && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
     // contraction.
-    const double by_rate = rate_ < 1 ? std::log(norm / target()) / (-2 * std::log(rate_)) : factor_work;
+    const double by_rate = std::ceil(std::log(norm / target()) / (-2 * std::log(rate_)));
     const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
     const bool stale = !newton_ || changed_ > 0 || short_step_;
-    if (round == newton_rounds && !smoothed) {
+    if (round >= newton_rounds && (flows_ || searched) && !smoothed) {
       // Many rows change their state against each other: find out which, the robust way, and go on from
       // there.
       report.factorisations += interior_point();
@@ -442,24 +451,26 @@ bool Solver::solve(SolveReport& report) {
       factor_tangents();
       ++report.factorisations;
       conjugate = false;
+      rate_ = std::pow(rate_, 1.1);  // in the hope that the next step's motion calls for less
     }
     std::copy_n(g_.begin(), free_, z_.begin());
     ldlt_.solve({z_.data(), free_});
-    double zg_new = 0, z_dg = 0;
-    for (std::size_t i = 0; i < free_; ++i) {
-      zg_new += dot(z_[i], g_[i]);
-      z_dg += dot(z_[i], g_[i] - g0_[i]);
+    double beta = 0;
+    if (conjugate) {
+      double z_dg = 0;
+      for (std::size_t i = 0; i < free_; ++i) z_dg += dot(z_[i], g_[i] - g0_[i]);
+      beta = std::max(0.0, z_dg / zg);
     }
-    const double beta = conjugate ? std::max(0.0, z_dg / zg) : 0;
     double slope0 = 0;
+    zg = 0;
     for (std::size_t i = 0; i < free_; ++i) {
-      d_[i] = beta * d_[i] - z_[i];
+      d_[i] = beta == 0 ? -1.0 * z_[i] : beta * d_[i] - z_[i];
       slope0 += dot(g_[i], d_[i]);
+      zg += dot(g_[i], z_[i]);
       g0_[i] = g_[i];
       v0_[i] = bodies[i].v;
       bodies[i].v += d_[i];
     }
-    zg = zg_new;
     conjugate = true;
     const bool exact = newton_ && beta == 0 && changed_ == 0 && !curved_;
     const double before = norm;
@@ -474,7 +485,7 @@ bool Solver::solve(SolveReport& report) {
       for (std::size_t i = 0; i < free_; ++i) slope1 += dot(g_[i], d_[i]);
       if (line_search(slope0, slope1)) norm = evaluate();
     }
-    rate_ = std::min(1.0, std::sqrt(norm / before));
+    if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
   }
   report.rounds += round;
   if (round == round_bound) {

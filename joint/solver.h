@@ -37,7 +37,7 @@ struct SolverBody {
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;                                   // v*: m/s and rad/s in the body's own frame
   Vec3 v;                                        // the solution; also where the next solve starts
-  Vec3 v_last;                                   // the solution of the step before
+  Vec3 v_last, rise_last;  // the solution of the step before, and how it differed from that before it
 };
 
 /// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what
@@ -121,7 +121,7 @@ class Solver {
 
   /// Prepares a step of h seconds from the current poses.
   void begin(double h);
-  /// Starts the next solve where the last two solutions point to.
+  /// Starts the next solve where the last three solutions point to: on their parabola.
   void predict();
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
@@ -137,6 +137,8 @@ class Solver {
   /// rest_tolerance: the next step is this one if nothing else touches the bodies.
   bool at_rest();
   static constexpr double rest_tolerance = 1e-7;
+  /// Whether any row was beyond its cap in the last solve.
+  bool any_flows() const { return flows_; }
   /// Root mean square of the velocity that the structure's impulses made in the last solve, m/s.
   double impulse_speed() const { return mass_ > 0 ? std::sqrt(scale_ / mass_) : 0; }
 
@@ -196,7 +198,7 @@ class Solver {
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
-  double rate_ = 1;          // contraction of the residual by the last round
+  double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
   // Of the last evaluation:

@@ -99,8 +99,10 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   }
 }
 
-void Structure::Impl::enlist(Member& member) {
-  if (!enlisting_) {
+// Joints are solved in the order in which they were initialised: the first does the work of all.
+bool Structure::Impl::enlist(Member& member) {
+  const bool first = !enlisting_;
+  if (first) {
     enlisting_ = true;
     incomplete_ = false;
     ++batch_;
@@ -113,7 +115,7 @@ void Structure::Impl::enlist(Member& member) {
   Component* component = member.component;
   if (component == nullptr) {
     incomplete_ = true;
-    return;
+    return first;
   }
   if (component->batch != batch_) {
     component->batch = batch_;
@@ -121,18 +123,10 @@ void Structure::Impl::enlist(Member& member) {
     active_.push_back(component);
   }
   ++component->enlisted;
+  return first;
 }
 
-// An island that is given no velocity iterations moves without us; what that parts is brought together when
-// next seen.
-void Structure::Impl::sit_out() {
-  enlisted_.clear();
-  active_.clear();
-}
-
-void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
-  // Joints are solved in the order in which they were initialised: the first does the work of all.
-  if (enlisted_.empty() || enlisted_.front() != &caller) return;
+void Structure::Impl::velocity(const b2SolverData& data) {
   enlisting_ = false;
   if (velocity_calls_++ == 0) {
     bool fits = !incomplete_;
@@ -151,10 +145,7 @@ void Structure::Impl::velocity(const Member& caller, const b2SolverData& data) {
   }
 }
 
-void Structure::Impl::position(const Member& caller, const b2SolverData& data) {
-  if (enlisted_.empty() || enlisted_.front() != &caller) return;
-  enlisting_ = false;
-  if (velocity_calls_ == 0) return;
+void Structure::Impl::position(const b2SolverData& data) {
   for (Component* c : active_) c->position(data);
 }
 
@@ -199,6 +190,7 @@ void Structure::Impl::form() {
 }
 
 void Structure::Impl::look_for_breaks(Component& component) {
+  if (!component.solver.any_flows()) return;
   for (Member* m : component.members) {
     SolverJoint& j = component.solver.joints[m->index];
     if (j.piece == 0 || m->broken) continue;

@@ -18,10 +18,9 @@ struct Structure::Impl {
   void world_is_gone();
 
   // The phases of an island in b2World::Step, called by its joints.
-  void enlist(Member& member);
-  void sit_out();
-  void velocity(const Member& caller, const b2SolverData& data);
-  void position(const Member& caller, const b2SolverData& data);
+  bool enlist(Member& member);  // whether it is the first
+  void velocity(const b2SolverData& data);
+  void position(const b2SolverData& data);
 
   void update();
   void shift_origin(const b2Vec2& new_origin, const Member& caller);

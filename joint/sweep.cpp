@@ -91,6 +91,7 @@ void Solver::warm_start() {
 }
 
 void Solver::sweep() {
+  flows_ = false;
   for (SolverJoint& j : joints) {
     const EffectiveMass m = effective_mass(*this, j);
     Rows r = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v), compliance{};
@@ -120,6 +121,7 @@ void Solver::sweep() {
     }
     for (unsigned i = 0; i < 3; ++i) j.impulse[i] += change[i];
     j.piece = static_cast<std::uint8_t>(piece);
+    flows_ |= piece != 0;
     j.x[0] = j.x[1] = j.x[2] = 0;
     for (unsigned i = 0; i < 3; ++i)
       j.x[i] = (piece >> i & 1u) != 0 ? 1 : (piece >> (3 + i) & 1u) != 0 ? -1 : 0;

@@ -144,6 +144,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   void wake();
 
   Member* member_;
+  bool leads_ = false;  // first joint of its island: does the work of all
 };
 
 /// How a structure finds its joints' impulses.

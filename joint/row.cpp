@@ -1,0 +1,21 @@
+#include "row.h"
+
+#include <algorithm>
+
+namespace ductile {
+
+Response respond_beyond(const RowLaw& law, const Rows& trial) {
+  Response r{trial, 0};
+  if (law.surface != nullptr) {
+    r.piece = law.surface->project(law.G, law.h, r.s) ? on_surface : 0;
+    return r;
+  }
+  for (unsigned i = 0; i < 3; ++i) {
+    const double held = std::min(std::max(trial[i], -law.cap_reverse[i]), law.cap[i]);
+    r.s[i] = held + law.after_yield[i] * (trial[i] - held);
+    r.piece |= (trial[i] > held ? 1u : 0u) << i | (trial[i] < held ? 8u : 0u) << i;
+  }
+  return r;
+}
+
+}  // namespace ductile
