@@ -110,7 +110,7 @@ std::vector<Case> cases() {
   for (const auto& [size, storeys, bays] : frames) {
     const std::string name = "joint/frame/" + size;
     const auto layout = [storeys = storeys, bays = bays] { return frame(storeys, bays); };
-    all.push_back({name + "/rest", layout});
+    all.push_back({.name = name + "/rest", .layout = layout, .settle = 30});
     all.push_back({.name = name + "/rigid_motion",
                    .layout = [=] { return layout().let_go(); },
                    .gravity = 0,

@@ -317,7 +317,7 @@ void Component::next_velocity(const b2SolverData& data) {
     SolverBody& b = solver.bodies[i];
     const Vec3 change = into_own_frame(b.turn, double{now.v.x} - given.v.x, double{now.v.y} - given.v.y,
                                        double{now.w} - given.w);
-    b.v_free += change;
+    solver.push(i, change);
     if (kind == SolverKind::iterative) b.v += change;
     given = now;
   }

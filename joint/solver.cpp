@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ductile {
 
@@ -404,14 +405,23 @@ bool Solver::line_search(double slope0, double slope1) {
   return true;
 }
 
+// ∇f = M (v − v*) + …, and v is where the last evaluation was.
+void Solver::push(std::size_t body, const Vec3& change) {
+  SolverBody& b = bodies[body];
+  b.v_free += change;
+  g_[body] -= {b.mass * change.x, b.mass * change.y, b.inertia * change.w};
+  pushed_ = true;
+}
+
 bool Solver::solve(SolveReport& report) {
   // The structure's impulses to `tolerance` of themselves, or to what rounding leaves: in a rigid row the
   // velocity's last bits are multiplied by κ.
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
+  const bool same_v = std::exchange(pushed_, false) && !coasting_;
   coasting_ = false;
-  double norm = evaluate();
-  if (norm > target() && flows_) {
+  double norm = same_v ? norm_of_gradient() : evaluate();
+  if (norm > target() && flows_ && !same_v) {
     // Start from the lower of the last solution and v*.
     const double f_last = objective();
     for (std::size_t i = 0; i < free_; ++i) v0_[i] = bodies[i].v, bodies[i].v = bodies[i].v_free;
@@ -593,8 +603,8 @@ void Solver::close_ledger(std::span<const Vec3> change) {
   }
 }
 
-// ½|x − goal|²_M + ½ Σ G (gap − gaps_)² over the rows that hold; its gradient into g_.
-double Solver::evaluate_poses(std::span<const Pose> goal) {
+// ½|x − goal|²_M; its gradient into g_.
+double Solver::pull(std::span<const Pose> goal) {
   double sum = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
@@ -603,6 +613,12 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
              b.inertia * dw};
     sum += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
   }
+  return sum;
+}
+
+// ½ Σ G (gap − gaps_)² over the rows that hold; its gradient is added to g_.
+double Solver::strain() {
+  double sum = 0;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
     locate(j);
@@ -617,7 +633,7 @@ double Solver::evaluate_poses(std::span<const Pose> goal) {
   return sum;
 }
 
-// d = −H⁻¹g of evaluate_poses(); |d|²_M.
+// d = −H⁻¹g; |d|²_M.
 double Solver::correction(std::span<Vec3> d) {
   for (std::size_t i = 0; i < free_; ++i) {
     if (bodies[i].inverse_inertia == 0) g_[i].w = 0;
@@ -632,46 +648,25 @@ double Solver::correction(std::span<Vec3> d) {
   return size;
 }
 
-bool Solver::project(std::span<const Pose> goal, bool try_goal) {
-  factor_holding();
-  for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
-  for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
-  double reach = 1;  // farthest coordinate, longest arm
-  for (std::size_t i = 0; i < free_; ++i) {
-    poses_[i] = bodies[i].pose;
-    reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
-  }
-  for (const SolverJoint& j : joints) {
-    for (const double arm : {j.ax, j.ay, j.bx, j.by}) reach = std::max(reach, std::abs(arm));
-  }
-  const double given = evaluate_poses(goal);
-  if (try_goal) {
-    // Where all of it was moved alike, the goal itself is the better start.
-    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
-    if (!(evaluate_poses(goal) <= given)) {
-      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
-      evaluate_poses(goal);
-    }
-  }
-  // Gauss–Newton. A step along the tangent misses the gaps by its square, which κ multiplies: the sum need
-  // not fall. What must fall is the step that comes next. A factor of other poses is good as long as it
-  // shortens that; where it does not, what its J and the present one differ by comes out multiplied by κ.
-  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
-  double size = correction(d_);
-  const double enough = 1e-8 * size + rounding * rounding * mass_;
+// Gauss–Newton from poses_. κ multiplies what a step along the tangent misses the gaps by: the sum need not
+// fall. What must fall is the step that comes next. A factor of other poses is good as long as it shortens
+// that; where it does not, what its J and the present one differ by comes out multiplied by κ.
+bool Solver::push_far(std::span<const Pose> goal, double enough) {
   const auto move = [&](double t) {
     for (std::size_t i = 0; i < free_; ++i) {
       place(bodies[i], poses_[i]);
       displace(bodies[i], t * d_[i]);
     }
-    evaluate_poses(goal);
+    pull(goal);
+    strain();
   };
-  bool kept = true;
+  move(0);
+  double size = correction(d_);
   bool fresh = false;  // d_ is of a factor of its own poses
-  for (int round = 0; size > enough && kept; ++round) {
-    kept = round < 20;
+  for (int round = 0; size > enough; ++round) {
+    if (round == 20) return false;
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-    for (double t = 1; kept;) {
+    for (double t = 1;;) {
       move(t);
       double next = correction(z_);
       const bool refactor = next > 0.01 * size;
@@ -687,7 +682,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
       }
       if (fresh) {
         t /= 2;
-        kept = t > 0.02;
+        if (t < 0.02) return false;
       } else {
         move(0);
         factor();
@@ -696,11 +691,63 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
       }
     }
   }
-  // The pull toward the goal has left strains of 1/κ of it: let go.
-  for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-  evaluate_poses(poses_);
-  correction(d_);
-  for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], d_[i]);
+  return true;
+}
+
+bool Solver::project(std::span<const Pose> goal, bool try_goal) {
+  factor_holding();
+  for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
+  for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
+  double reach = 1;  // farthest coordinate, longest arm
+  for (std::size_t i = 0; i < free_; ++i) {
+    poses_[i] = bodies[i].pose;
+    reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
+  }
+  for (const SolverJoint& j : joints) {
+    for (const double arm : {j.ax, j.ay, j.bx, j.by}) reach = std::max(reach, std::abs(arm));
+  }
+  const auto pull_and_strain = [&] {
+    const double pulled = pull(goal);
+    return pulled + strain();
+  };
+  double pushed = 0;
+  if (try_goal) {
+    // Where all of it was moved alike, the goal itself is the better start.
+    const double given = pull_and_strain();
+    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
+    if (!(pull_and_strain() <= given)) {
+      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
+      pull_and_strain();
+    }
+    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
+  } else {
+    pushed = pull(goal);  // nothing is strained
+  }
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
+  const double size = correction(d_);
+  if (size < 1e-6 * pushed) return true;  // it gives way by less than a thousandth of the push: it is held
+  const double enough = 1e-8 * size + rounding * rounding * mass_;
+  const auto let_go = [&] {
+    std::fill_n(g_.begin(), free_, Vec3{});
+    strain();
+    return correction(d_);
+  };
+  const auto displace_all = [&] {
+    for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], d_[i]);
+  };
+  // A small push: let go of what the pull strains, which may be all of it, and of what a step along the
+  // tangent misses the gaps by, its square.
+  bool small = !try_goal;
+  double last = size;
+  for (int round = 0; small && (round == 0 || last > enough); ++round) {
+    displace_all();
+    const double next = let_go();
+    small = next <= (round == 0 ? last : std::max(enough, 1e-3 * last));
+    last = next;
+  }
+  const bool kept = small || push_far(goal, enough);
+  if (!small) let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
+  displace_all();
   locate();
   // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no
   // energy.

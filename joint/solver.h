@@ -123,6 +123,9 @@ class Solver {
   void begin(double h);
   /// Starts the next solve where the last three solutions point to: on their parabola.
   void predict();
+  /// Something else changed a body's velocity since the last solve: v_free, in the body's own frame. All that
+  /// happens between two solves of a step is told so, or none of it.
+  void push(std::size_t body, const Vec3& change);
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
   /// Moves poses by h v, books plastic flow.
@@ -176,7 +179,9 @@ class Solver {
   int interior_point();
   static Rows relative(const SolverJoint& joint, const Vec3& a, const Vec3& b);
   double evaluate();
-  double evaluate_poses(std::span<const Pose> goal);
+  double pull(std::span<const Pose> goal);
+  double strain();
+  bool push_far(std::span<const Pose> goal, double enough);
   double correction(std::span<Vec3> d);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
@@ -201,6 +206,7 @@ class Solver {
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
+  bool pushed_ = false;  // push() has kept g_ what it is at v
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M
