@@ -273,11 +273,14 @@ void Component::first_velocity(const b2SolverData& data) {
   }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
-    // it.
+    // it. Joint by joint, the sweeps do that.
     solver.begin(data.step.dt);
-    report->bounds_hit += solver.project(goal, true) ? 0 : 1;
+    if (kind == SolverKind::direct) {
+      project(true);
+    } else {
+      solver.sweep_positions(goal);
+    }
     write_poses(data);
-    ++report->projections;
   }
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const b2Velocity& v = mirrors[i].given;
@@ -344,6 +347,13 @@ void Component::solve(const b2SolverData& data) {
   report->residual = std::max(report->residual, solved.residual);
 }
 
+void Component::project(bool try_goal) {
+  const bool kept = solver.project(goal, try_goal);
+  report->bounds_hit += kept ? 0 : 1;
+  report->parted += kept ? 0 : 1;
+  ++report->projections;
+}
+
 void Component::give(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const SolverBody& b = solver.bodies[i];
@@ -366,8 +376,7 @@ void Component::position(const b2SolverData& data) {
     solver.sweep_positions(goal);
   } else {
     for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
-    report->bounds_hit += solver.project(goal, false) ? 0 : 1;
-    ++report->projections;
+    project(false);
   }
   at_rest_ = false;
   write_poses(data);
@@ -412,12 +421,14 @@ void Component::limit_speed(const b2SolverData& data) {
       const double linear = together ? least : share(b2_maxTranslation, std::hypot(b.v.x, b.v.y));
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
-      b.v_free -= less;
-      b.v -= less;
       const b2Velocity lost = to_box2d(b.turn, less);
       mirrors[i].lost.v += lost.v;
       mirrors[i].lost.w += lost.w;
+      if (together) continue;
+      b.v_free -= less;
+      b.v -= less;
     }
+    if (together) solver.slow_down(least);
     if (together) return give(data);
     solve(data);
   }

@@ -101,6 +101,7 @@ struct Component {
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
   void solve(const b2SolverData& data);
+  void project(bool try_goal);
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 

@@ -49,6 +49,9 @@ void check(const ElasticPlasticJointDef& def) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
   }
   if (!def.interaction.empty()) {
+    for (const RowDef& row : def.rows) {
+      require(!(row.hardening > 0), "an interaction curve does not harden; set hardening to 0");
+    }
     try {
       YieldSurface(def.interaction, def.rows[shear].cap);
     } catch (const std::invalid_argument& error) {

@@ -50,7 +50,8 @@ inline bool flows(unsigned piece, unsigned i) { return (flowing(piece) >> i & 1u
 
 /// ds/dx of a row in that piece; on a yield surface 0 (see YieldSurface::tangent for all of it).
 inline double tangent(const RowLaw& law, unsigned piece, unsigned i) {
-  return flows(piece, i) ? law.after_yield[i] * law.G[i] : law.G[i];
+  if (!flows(piece, i)) return law.G[i];
+  return piece == on_surface ? 0 : law.after_yield[i] * law.G[i];
 }
 
 }  // namespace ductile

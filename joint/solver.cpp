@@ -69,6 +69,7 @@ void Solver::form(std::size_t free_bodies) {
   ldlt_.analyse(static_cast<int>(free_), edges);
   for (auto* v : {&g_, &d_, &z_, &g0_, &v0_}) v->assign(bodies.size(), {});
   poses_.assign(bodies.size(), {});
+  start_.assign(bodies.size(), {});
   barrier_.assign(joints.size(), {});
   gaps_.assign(joints.size(), {});
   before.assign(bodies.size(), {});
@@ -160,6 +161,7 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   newton_ = false;
+  slowed_ = 1;
   const bool changed = h != h_ || !laws_set_;
   if (changed) factored_ = false;
   laws_set_ = true;
@@ -391,7 +393,9 @@ bool Solver::line_search(double slope0, double slope1) {
     if (std::abs(slope) <= 1e-9 * std::abs(slope0)) break;
     (slope < 0 ? low : high) = t;
     const double newton = t - slope / rise;
-    if (newton > low && newton < high) {
+    // `rise` knows nothing of yield surfaces: now and then the bracket is halved, whatever Newton says.
+    const bool halve = i % 4 == 3 && std::isfinite(high);
+    if (newton > low && newton < high && !halve) {
       t = newton;
     } else if (std::isinf(high)) {
       t *= 2;
@@ -440,7 +444,7 @@ bool Solver::solve(SolveReport& report) {
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
   bool smoothed = false;   // interior_point() was called
   double zg = 0;
-  int round = 0;
+  int round = 0, idle = 0;
   short_step_ = false;
   for (; norm > target() && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
@@ -495,6 +499,10 @@ bool Solver::solve(SolveReport& report) {
       for (std::size_t i = 0; i < free_; ++i) slope1 += dot(g_[i], d_[i]);
       if (line_search(slope0, slope1)) norm = evaluate();
     }
+    // Rounding may be worse than `floor` says (what others move is not in speed_, long arms): where round
+    // after round gains nothing, this is the minimum.
+    idle = norm > 0.999 * before && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
+    if (idle == 5) break;
     if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
   }
   report.rounds += round;
@@ -504,6 +512,15 @@ bool Solver::solve(SolveReport& report) {
   }
   report.residual = norm > 0 ? tolerance * std::sqrt(norm / target()) : 0;
   return round > 0;
+}
+
+void Solver::slow_down(double share) {
+  slowed_ = share;
+  for (std::size_t i = 0; i < free_; ++i) {
+    SolverBody& b = bodies[i];
+    b.v_free -= (1 - share) * b.v;
+    b.v = share * b.v;
+  }
 }
 
 // The safe way out of a solve that did not end: the structure exerts nothing for a step. What its gaps do
@@ -537,7 +554,10 @@ void Solver::flow(SolverJoint& j) const {
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
     const double s = j.impulse[i];
-    const double increment = j.gap[i] - j.neutral[i] - elastic(j, i);
+    // On a yield surface a row may hold still under a great force while others flow: what turning bodies part
+    // along their tangents must not count as its work. In velocities the work of the three is never negative.
+    const double increment = j.piece == on_surface ? slowed_ * h_ * (j.x[i] - s / j.law.G[i])
+                                                   : j.gap[i] - j.neutral[i] - elastic(j, i);
     if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     j.plastic[i] += increment;
@@ -666,7 +686,8 @@ bool Solver::push_far(std::span<const Pose> goal, double enough) {
   for (int round = 0; size > enough; ++round) {
     if (round == 20) return false;
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-    for (double t = 1;;) {
+    const double whole = 1 / largest_turn();
+    for (double t = whole;;) {
       move(t);
       double next = correction(z_);
       const bool refactor = next > 0.01 * size;
@@ -682,7 +703,7 @@ bool Solver::push_far(std::span<const Pose> goal, double enough) {
       }
       if (fresh) {
         t /= 2;
-        if (t < 0.02) return false;
+        if (t < 0.02 * whole) return false;
       } else {
         move(0);
         factor();
@@ -694,13 +715,20 @@ bool Solver::push_far(std::span<const Pose> goal, double enough) {
   return true;
 }
 
+// Of d_, rad, at least 1: beyond that the tangent says nothing.
+double Solver::largest_turn() const {
+  double turn = 1;
+  for (std::size_t i = 0; i < free_; ++i) turn = std::max(turn, std::abs(d_[i].w));
+  return turn;
+}
+
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   factor_holding();
   for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
   double reach = 1;  // farthest coordinate, longest arm
   for (std::size_t i = 0; i < free_; ++i) {
-    poses_[i] = bodies[i].pose;
+    start_[i] = poses_[i] = bodies[i].pose;
     reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
   }
   for (const SolverJoint& j : joints) {
@@ -710,7 +738,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     const double pulled = pull(goal);
     return pulled + strain();
   };
-  double pushed = 0;
+  double distance = 0;  // |goal|²_M / 2 where nothing is strained
   if (try_goal) {
     // Where all of it was moved alike, the goal itself is the better start.
     const double given = pull_and_strain();
@@ -721,43 +749,63 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     }
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
   } else {
-    pushed = pull(goal);  // nothing is strained
+    distance = pull(goal);
   }
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
   const double size = correction(d_);
-  if (size < 1e-6 * pushed) return true;  // it gives way by less than a thousandth of the push: it is held
+  if (size < 1e-6 * distance) return true;  // it gives way by less than a thousandth: the structure holds it
   const double enough = 1e-8 * size + rounding * rounding * mass_;
   const auto let_go = [&] {
     std::fill_n(g_.begin(), free_, Vec3{});
     strain();
     return correction(d_);
   };
-  const auto displace_all = [&] {
-    for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], d_[i]);
+  const auto displace_all = [&](double t) {
+    for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], t * d_[i]);
   };
   // A small push: let go of what the pull strains, which may be all of it, and of what a step along the
   // tangent misses the gaps by, its square.
   bool small = !try_goal;
   double last = size;
   for (int round = 0; small && (round == 0 || last > enough); ++round) {
-    displace_all();
+    displace_all(1);
     const double next = let_go();
     small = next <= (round == 0 ? last : std::max(enough, 1e-3 * last));
     last = next;
   }
-  const bool kept = small || push_far(goal, enough);
-  if (!small) let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
-  displace_all();
+  bool kept = small || push_far(goal, enough);
+  // Where the nearest is not found (a joint that turns far under the pull), what keeps the gaps will do, from
+  // where the bodies were.
+  if (!kept) {
+    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], start_[i]);
+  }
+  for (int round = 0; !kept && round < 20; ++round) {
+    let_go();
+    factor();
+    last = let_go();
+    const double turn = largest_turn();
+    displace_all(1 / turn);
+    kept = turn == 1 && last <= enough;
+  }
+  if (kept) {
+    if (!small) let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
+    displace_all(1);
+  } else {
+    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
+  }
   locate();
-  // Rows that flow, and gaps that could not be kept, take their new place as neutral: a push stores no
-  // energy.
+  // Rows that flow, and gaps that could not be kept (supports that were moved apart), take their new place as
+  // neutral: a push stores no energy.
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
-      if (kept && !free && !flows(j.piece, i)) continue;
-      j.neutral[i] += j.gap[i] - gaps_[k][i];
-      if (!free) j.plastic[i] += j.gap[i] - gaps_[k][i];
+      const double change = j.gap[i] - gaps_[k][i];
+      const bool closed =
+          kept && j.m_eff[i] * change * change <= 1e-6 * size + rounding * rounding * j.m_eff[i];
+      if (closed && !free && !flows(j.piece, i)) continue;
+      j.neutral[i] += change;
+      if (!free) j.plastic[i] += change;
     }
   }
   return kept;
@@ -794,7 +842,7 @@ Rows Solver::force(const SolverJoint& j) const {
 std::size_t Solver::bytes() const {
   return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
          (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity() + v0_.capacity()) * sizeof(Vec3) +
-         poses_.capacity() * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
+         (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }
 

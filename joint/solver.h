@@ -128,12 +128,14 @@ class Solver {
   void push(std::size_t body, const Vec3& change);
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
+  /// After solve(): all velocities, to a share of them.
+  void slow_down(double share);
   /// Moves poses by h v, books plastic flow.
   void advance();
   /// Moves the bodies toward poses that something else pushed them to, in such a way that no joint is
   /// strained by it: least ½|x − goal|²_M with the gaps of all rows that hold kept. With `try_goal` the goal
   /// itself is tried first: right where all of it may have been moved alike. False where gaps could not be
-  /// kept.
+  /// kept: then the bodies stay where they were pushed to.
   bool project(std::span<const Pose> goal, bool try_goal);
 
   /// Whether nothing flows and what the last solution still moves changes no force by more than
@@ -182,6 +184,7 @@ class Solver {
   double pull(std::span<const Pose> goal);
   double strain();
   bool push_far(std::span<const Pose> goal, double enough);
+  double largest_turn() const;
   double correction(std::span<Vec3> d);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
@@ -207,6 +210,7 @@ class Solver {
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
   bool pushed_ = false;  // push() has kept g_ what it is at v
+  double slowed_ = 1;    // share of the solution that the bodies move with
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M
@@ -222,7 +226,7 @@ class Solver {
     bool bounded[2];
   };
   std::vector<std::array<Barrier, 3>> barrier_;
-  std::vector<Pose> poses_;
+  std::vector<Pose> poses_, start_;
   std::vector<Rows> gaps_;
   std::vector<SolverJoint> opened_;  // J of the step whose ledger is open, and the frames it is in
   std::vector<Turn> turns_;

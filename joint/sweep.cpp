@@ -4,6 +4,8 @@
 // step. Rigid rows are kept together by position correction, as in b2WeldJoint.
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "solver.h"
 
@@ -144,8 +146,14 @@ void Solver::sweep_positions(std::span<const Pose> at) {
     }
     if (held == 0) continue;
     const Rows correction = solve_block(m.k, {}, error, held, {});
-    if (z(j.a) < free_) displace(bodies[z(j.a)], -1.0 * m.a.response(correction));
-    if (z(j.b) < free_) displace(bodies[z(j.b)], -1.0 * m.b.response(correction));
+    // As far as Box2D corrects at once: beyond, the tangent says nothing, and pieces on long arms are flung
+    // away.
+    const Vec3 a = m.a.response(correction), b = m.b.response(correction);
+    const double reach = std::max(std::hypot(a.x, a.y), std::hypot(b.x, b.y)) / 0.2;
+    const double turn = std::max(std::abs(a.w), std::abs(b.w)) / (8.0 / 180 * std::numbers::pi);
+    const double share = 1 / std::max({1.0, reach, turn});
+    if (z(j.a) < free_) displace(bodies[z(j.a)], -share * a);
+    if (z(j.b) < free_) displace(bodies[z(j.b)], -share * b);
   }
   locate();
 }

@@ -80,6 +80,14 @@ YieldSurface::Point YieldSurface::nearest(const Rows& G, double h, const Rows& t
   const double q_trial = trial[1] / (shear_ * h), q_metric = G[1] / (shear_ * h * shear_ * h);
   const std::size_t count = facets_.size();
   std::size_t f = steepest(trial[0], trial[2]);
+  if (G[0] == 0 || G[2] == 0) {
+    // A free row carries nothing: the other stays on its ray, within one facet.
+    const double n = G[0] > 0 ? facets_[f].n / h : 0, m = G[2] > 0 ? facets_[f].m / h : 0;
+    double w = n * trial[0] + m * trial[2], q = q_trial;
+    Point p{{}, onto_ellipse(w, q, n * n * G[0] + m * m * G[2], q_metric), false, f};
+    p.s = {n != 0 ? w / n : 0, std::isinf(shear_) ? trial[1] : q * shear_ * h, m != 0 ? w / m : 0};
+    return p;
+  }
   // Bisection over the facets: each says on which side of it the nearest point lies.
   std::size_t low = f + count - count / 2,
               high = f + count + count / 2;  // all + count, so that nothing is negative
@@ -146,14 +154,16 @@ Coupling YieldSurface::tangent(const Rows& G, double h, const Rows& trial) const
   }
   const double n = facets_[p.facet].n / h, m = facets_[p.facet].m / h;
   const double w = n * p.s[0] + m * p.s[2];
-  // P of the (N, M) block: (G⁻¹ + μ a aᵀ)⁻¹ = G − μ G a aᵀ G / (1 + μ aᵀ G a)
-  const double an = n * G[0], am = m * G[2], c = n * an + m * am, shrink = p.mu / (1 + p.mu * c);
-  const double pnn = G[0] - shrink * an * an, pmm = G[2] - shrink * am * am, pnm = -shrink * an * am;
+  // P of the (N, M) block: (G⁻¹ + μ a aᵀ)⁻¹ = G − μ G a aᵀ G / (1 + μ aᵀ G a), written without differences:
+  // far outside the surface μ aᵀ G a is all there is.
+  const double an = n * G[0], am = m * G[2], cn = n * an, cm = m * am, shrink = 1 / (1 + p.mu * (cn + cm));
+  const double pnn = G[0] * (1 + p.mu * cm) * shrink, pmm = G[2] * (1 + p.mu * cn) * shrink,
+               pnm = -p.mu * an * am * shrink;
   const double inverse_q = std::isinf(shear_) ? 0 : 1 / (shear_ * h);
   const double pqq = 1 / (1 / G[1] + p.mu * inverse_q * inverse_q);
-  const double gn = n * w, gm = m * w, gq = q * inverse_q;  // ∇φ
-  const double vn = pnn * gn + pnm * gm, vm = pnm * gn + pmm * gm, vq = pqq * gq;
-  const double bottom = gn * vn + gm * vm + gq * vq;
+  const double gq = q * inverse_q;  // ∇φ = (w n, gq, w m)
+  const double vn = w * an * shrink, vm = w * am * shrink, vq = pqq * gq;
+  const double bottom = w * w * (cn + cm) * shrink + gq * vq;
   return {.nn = pnn - vn * vn / bottom,
           .qq = pqq - vq * vq / bottom,
           .mm = pmm - vm * vm / bottom,

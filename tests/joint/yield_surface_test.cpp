@@ -31,29 +31,70 @@ class Projection : public testing::TestWithParam<double> {};
 
 // The nearest point of a convex body is the one from which everything else in it lies behind the plane
 // through it.
-TEST_P(Projection, IsTheNearestPointInTheMetric) {
-  const double shear = GetParam();
-  const YieldSurface surface(rectangle(2, 3, 12), shear);
+void expect_nearest(const YieldSurface& surface, double spread, double far) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 2000; ++trial) {
-    const Rows G{std::exp(2 * normal(random)), std::exp(2 * normal(random)), std::exp(2 * normal(random))};
+    const Rows G{std::exp(spread * normal(random)), std::exp(spread * normal(random)),
+                 std::exp(spread * normal(random))};
     const double h = 0.1;
-    const Rows from{normal(random), normal(random), normal(random)};
+    const Rows from{far * normal(random), far * normal(random), far * normal(random)};
     Rows s = from;
     if (!surface.project(G, h, s)) {
       EXPECT_EQ(s, from);
       continue;
     }
-    EXPECT_NEAR(surface.usage({s[0] / h, s[1] / h, s[2] / h}), 1, 1e-12);
+    EXPECT_NEAR(surface.usage({s[0] / h, s[1] / h, s[2] / h}), 1, 1e-11);
     for (int other = 0; other < 50; ++other) {
       Rows inside{normal(random), normal(random), normal(random)};
       const double usage = surface.usage({inside[0] / h, inside[1] / h, inside[2] / h});
       for (double& value : inside) value /= std::max(usage, 1e-9);
-      double behind = 0;  // (from − s)ᵀ G⁻¹ (inside − s) ≤ 0
-      for (unsigned i = 0; i < 3; ++i) behind += (from[i] - s[i]) * (inside[i] - s[i]) / G[i];
-      EXPECT_LE(behind, 1e-12 * distance(G, from, s) + 1e-14);
+      double behind = 0, size = 0;  // (from − s)ᵀ G⁻¹ (inside − s) ≤ 0
+      for (unsigned i = 0; i < 3; ++i) {
+        const double term = (from[i] - s[i]) * (inside[i] - s[i]) / G[i];
+        behind += term;
+        size += (std::abs(from[i]) + std::abs(s[i])) * (std::abs(inside[i]) + std::abs(s[i])) / G[i];
+      }
+      EXPECT_LE(behind, 1e-12 * distance(G, from, s) + 1e-14 * size);
     }
+  }
+}
+
+TEST_P(Projection, IsTheNearestPointInTheMetric) {
+  expect_nearest(YieldSurface(rectangle(2, 3, 12), GetParam()), 2, 1);
+}
+
+// From far beyond, in metrics that see the surface as a needle.
+TEST_P(Projection, IsTheNearestPointOfFewFacets) {
+  const std::vector<AxialMoment> kite{{2, 0}, {0.6, 3}, {-2, 0}, {0.4, -3}},
+      triangle{{1, -1}, {0, 2}, {-1, -1}}, sliver{{3, 3}, {-0.1, 0.2}, {-3, -3}, {0.2, -0.1}};
+  for (const auto& polygon : {kite, triangle, sliver, rectangle(2, 3, 3)}) {
+    for (const double spread : {2, 8}) {
+      for (const double far : {1.0, 1e3, 1e6}) expect_nearest(YieldSurface(polygon, GetParam()), spread, far);
+    }
+  }
+}
+
+// A pin in a yield surface, and a roller: what a free row leaves to the others.
+TEST_P(Projection, OfAFreeRowStaysOnItsRay) {
+  const double h = 0.1, shear = GetParam();
+  const YieldSurface surface(std::vector<AxialMoment>{{2, 0}, {0.6, 3}, {-2, 0}, {0.4, -3}}, shear);
+  // Through the origin its sides are at N = ±2 and, on the line from (0.6, 3) to (−2, 0), at M = 6/2.6.
+  for (const double far : {1.0, 1e6, 1e13}) {
+    Rows s{0, 0, far};
+    ASSERT_TRUE(surface.project({0, 3, 5}, h, s));
+    EXPECT_NEAR(s[2], 6 / 2.6 * h, 1e-12);
+    s = {-far, 0, 0};
+    ASSERT_TRUE(surface.project({4, 3, 0}, h, s));
+    EXPECT_NEAR(s[0], -2 * h, 1e-12);
+    if (std::isinf(shear)) continue;
+    s = {0, -far, far};
+    ASSERT_TRUE(surface.project({0, 1e-3, 1e13}, h, s));
+    EXPECT_NEAR(surface.usage({s[0] / h, s[1] / h, s[2] / h}), 1, 1e-12);
+    EXPECT_EQ(s[0], 0);
+    s = {0, far, 0};
+    ASSERT_TRUE(surface.project({0, 2, 0}, h, s));
+    EXPECT_NEAR(s[1], shear * h, 1e-12);
   }
 }
 

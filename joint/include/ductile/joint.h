@@ -44,7 +44,8 @@ struct RowDef {
       0;  ///< ζ ≥ 0: c = 2ζ√(k·m_eff), m_eff the row's effective mass; no effect when rigid
   double cap = unlimited;  ///< F⁺ ≥ 0, N or N m: tension, left shear, counter-clockwise moment; 0: free
   double cap_reverse = unlimited;  ///< F⁻ ≥ 0, as a positive number
-  double hardening = 0;            ///< stiffness after yield, N/m or N m/rad; ≥ 0, below `stiffness`
+  double hardening = 0;            ///< stiffness after yield, N/m or N m/rad; ≥ 0, below `stiffness`;
+                                   ///< 0 with an interaction curve
 
   /// A row that carries nothing: a pin is rotation = free(), a roller axial = free().
   static constexpr RowDef free() { return {.cap = 0, .cap_reverse = 0}; }
@@ -186,7 +187,8 @@ struct StepReport {
   int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
   int factorisations = 0;
   int projections = 0;  ///< pushes by contacts that were spread through the structure
-  int bounds_hit = 0;   ///< solves that did not end in time and coasted; 0 in every scene that we know of
+  int bounds_hit = 0;   ///< solves and pushes that did not end in time; 0 in every scene that we know of
+  int parted = 0;       ///< of them, pushes that no pose could follow: the joints' neutral positions did
   double residual = 0;  ///< largest relative residual of a solve
 };
 

@@ -1,0 +1,518 @@
+// A game that does as it likes: the input is a program of operations on a world and its structure. Whatever
+// it is, nothing becomes NaN, no solve ends at its bound, and where nobody puts energy in, none appears.
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ductile/joint.h"
+#include "fuzz.h"
+
+namespace ductile {
+namespace {
+
+/// The program, byte by byte; zeros when it is over.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), end_(data + size) {}
+  bool over() const { return data_ == end_; }
+  unsigned next() { return over() ? 0 : *data_++; }
+  bool flag() { return (next() & 1u) != 0; }
+  int below(int n) { return static_cast<int>(next()) % n; }
+  /// From −1 to 1, 0 among them.
+  double share() { return (static_cast<double>(next()) - 128) / 128; }
+  /// 10^low … 10^high
+  double scale(double low, double high) { return std::pow(10, low + (high - low) * next() / 255.0); }
+
+ private:
+  const std::uint8_t *data_, *end_;
+};
+
+class Game : b2DestructionListener {
+ public:
+  explicit Game(const std::uint8_t* data, std::size_t size) : in_(data, size) {
+    const unsigned setup = in_.next();
+    // Judged: no gravity, no contacts, nothing that moves by itself. Then energy cannot grow.
+    judged_ = (setup & 1u) != 0;
+    if (!judged_) {
+      const float gravities[] = {10, 10, 0, 1e4f};
+      world_->SetGravity({0, -gravities[setup >> 1 & 3u]});
+    }
+    world_->SetAllowSleeping((setup & 8u) != 0);
+    world_->SetContinuousPhysics((setup & 16u) == 0);
+    def_.keep_ledger = true;
+    if ((setup & 32u) != 0 && !judged_) {
+      def_.solver = SolverKind::iterative;
+      world_->SetGravity({0, -10});
+    }
+    const double sizes[] = {1, 1, 0.05, 50}, places[] = {0, 0, 1e3, 1e5};
+    size_ = sizes[setup >> 6];
+    place_ = places[in_.below(4)];
+    world_->SetDestructionListener(this);
+    make_structure();
+  }
+
+  void play() {
+    for (int operations = 0; !in_.over() && operations < 200; ++operations) operate();
+    step();
+    step();
+    if (in_.flag()) world_.reset();
+  }
+
+ private:
+  void SayGoodbye(b2Joint* joint) override { std::erase(stock_, joint); }
+  void SayGoodbye(b2Fixture*) override {}
+
+  void make_structure() {
+    structure_.emplace(*world_, def_);
+    structure_->on_event([this](const JointEvent& event) { happened(event); });
+    structure_->may_break([this](const ElasticPlasticJoint& joint) {
+      require(joint.capacity_used() > 1, "only what is exceeded may break");
+      return !veto_;
+    });
+  }
+
+  b2Body* body() {
+    return bodies_.empty() ? nullptr : bodies_[static_cast<std::size_t>(in_.below(64)) % bodies_.size()];
+  }
+  ElasticPlasticJoint* joint() {
+    const auto all = structure_->joints();
+    return all.empty() ? nullptr : all[static_cast<std::size_t>(in_.below(64)) % all.size()];
+  }
+
+  void operate() {
+    const double before = kinetic();
+    switch (in_.below(24)) {
+      case 0:
+        make_body();
+        break;
+      case 1:
+      case 2:
+        if (body()) make_joint(body(), body());
+        break;
+      case 3:
+        make_chain(1 + in_.below(8));
+        break;
+      case 4:
+      case 5:
+      case 6:
+      case 7:
+        for (int n = 1 + in_.below(16); n > 0; --n) step();
+        return;
+      case 8:
+        change_type(body());
+        break;
+      case 9:
+        if (b2Body* b = body()) b->SetEnabled(!b->IsEnabled());
+        break;
+      case 10:
+        move(body());
+        break;
+      case 11:
+        if (b2Body* b = body()) {
+          const double fast = in_.scale(-3, 3) * size_;
+          b->SetLinearVelocity(vec(fast * in_.share(), fast * in_.share()));
+          b->SetAngularVelocity(static_cast<float>(in_.scale(-3, 2) * in_.share()));
+        }
+        break;
+      case 12:
+        world_->ShiftOrigin(vec(place_ * in_.share(), size_ * 100 * in_.share()));
+        break;
+      case 13:
+        if (b2Body* b = body()) {
+          std::erase(bodies_, b);
+          world_->DestroyBody(b);
+        }
+        break;
+      case 14:
+        if (ElasticPlasticJoint* j = joint()) world_->DestroyJoint(j);
+        break;
+      case 15:
+        change_fixtures(body());
+        break;
+      case 16:
+        if (ElasticPlasticJoint* j = joint()) change_joint(*j);
+        break;
+      case 17:
+        make_stock_joint();
+        break;
+      case 18:
+        change_mass(body());
+        break;
+      case 19:
+        structure_.reset();
+        if (judged_) forgive();
+        make_structure();
+        break;
+      case 20:
+        adopt_welds();
+        break;
+      case 21:
+        if (b2Body* b = body(); b && !judged_) {
+          b->ApplyForceToCenter(vec(in_.share() * in_.scale(0, 8), in_.share() * in_.scale(0, 8)), true);
+          b->ApplyTorque(static_cast<float>(in_.share() * in_.scale(0, 8)), true);
+        }
+        break;
+      case 22:
+        mischief_ = in_.below(8);
+        veto_ = in_.flag();
+        break;
+      default:
+        if (b2Body* b = body()) {
+          b->SetAwake(in_.flag());
+          b->SetBullet(in_.flag());
+          world_->SetSubStepping(in_.flag());
+          world_->SetWarmStarting(in_.flag());
+        }
+        break;
+    }
+    if (judged_) stop_drives();
+    budget_ += std::max(0.0, kinetic() - before);
+  }
+
+  /// What moves and cannot be slowed down would drive what hangs on it.
+  void stop_drives() {
+    for (b2Body* b : bodies_) {
+      if (!holds(*b)) continue;
+      b->SetAngularVelocity(0);
+      if (b->GetType() != b2_dynamicBody || b->GetMass() == 0) b->SetLinearVelocity({0, 0});
+    }
+  }
+
+  static b2Vec2 vec(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+  b2Body* make_body(const b2Vec2* at = nullptr) {
+    if (bodies_.size() >= 24) return nullptr;
+    b2BodyDef def;
+    const b2BodyType types[] = {b2_dynamicBody, b2_dynamicBody, b2_dynamicBody, b2_staticBody,
+                                b2_kinematicBody};
+    def.type = types[in_.below(5)];
+    def.position = at ? *at : vec(place_ + 8 * size_ * in_.share(), 8 * size_ * in_.share());
+    def.angle = static_cast<float>(in_.share() * 2 * std::numbers::pi);
+    const unsigned how = in_.next();
+    def.fixedRotation = (how & 7u) == 7;
+    def.bullet = (how & 8u) != 0;
+    def.enabled = (how & 0xf0u) != 0xf0;
+    if (def.type == b2_kinematicBody && !judged_) {
+      def.linearVelocity = vec(size_ * 4 * in_.share(), size_ * 4 * in_.share());
+      def.angularVelocity = static_cast<float>(in_.share());
+    }
+    b2Body* b = world_->CreateBody(&def);
+    bodies_.push_back(b);
+    const double wide = size_ * in_.scale(-0.5, 0.5), high = size_ * in_.scale(-0.5, 0.5);
+    add_fixture(b, wide, high);
+    set_mass(b, some_mass(), wide, high);
+    return b;
+  }
+
+  void add_fixture(b2Body* b, double wide, double high) {
+    if (size_ < 0.1) return;  // Box2D's polygons cannot be so small
+    b2PolygonShape box;
+    box.SetAsBox(static_cast<float>(wide / 2), static_cast<float>(high / 2));
+    b2CircleShape disc;
+    disc.m_radius = static_cast<float>(wide / 2);
+    b2FixtureDef def;
+    def.shape = in_.flag() ? static_cast<const b2Shape*>(&disc) : &box;
+    def.density = in_.flag() ? 1 : 0;
+    def.friction = in_.flag() ? 0.6f : 0;
+    def.filter.groupIndex = judged_ || in_.flag() ? -1 : 0;
+    b->CreateFixture(&def);
+  }
+
+  /// Joint by joint only pieces that are about as heavy as each other hold together.
+  double some_mass() { return iterative() ? in_.scale(2, 3) : in_.scale(0, 6); }
+  bool iterative() const { return def_.solver == SolverKind::iterative; }
+
+  void set_mass(b2Body* b, double mass, double wide, double high) {
+    const double inertia = mass * (wide * wide + high * high) / 12;
+    const double x = wide * in_.share() / 4, y = high * in_.share() / 4;
+    const b2MassData data{static_cast<float>(mass), vec(x, y),
+                          static_cast<float>(inertia + mass * (x * x + y * y))};
+    b->SetMassData(&data);
+  }
+
+  RowDef row(double strong, double stiff) {
+    RowDef row;
+    const unsigned how = in_.next();
+    if ((how & 3u) == 0) return row;
+    if ((how & 3u) == 1) return RowDef::free();
+    if ((how & 4u) != 0) row.stiffness = stiff * in_.scale(-8, 8);
+    if ((how & 8u) != 0) row.damping_ratio = in_.scale(-3, 2);
+    if ((how & 16u) != 0) row.cap = strong * in_.scale(-6, 3);
+    row.cap_reverse = (how & 32u) != 0 ? strong * in_.scale(-6, 3) : row.cap;
+    if ((how & 0xc0u) == 0xc0) {
+      row.hardening = (std::isinf(row.stiffness) ? stiff : row.stiffness) * in_.scale(-8, -0.1);
+    }
+    return row;
+  }
+
+  void make_joint(b2Body* a, b2Body* b) {
+    if (a == b || structure_->joints().size() >= 40) return;
+    ElasticPlasticJointDef def;
+    const double out = in_.flag() ? 0.5 : 3;
+    const b2Vec2 between = 0.5f * (a->GetWorldCenter() + b->GetWorldCenter());
+    def.Initialize(a, b, between + vec(out * size_ * in_.share(), out * size_ * in_.share()),
+                   vec(in_.share() + 1.01, in_.share()));
+    // As strong as to carry so many kilograms over its length.
+    const double strong = 1e5, stiff = 1e9;
+    def.rows[axial] = row(strong, stiff);
+    def.rows[shear] = row(strong, stiff);
+    def.rows[rotation] = row(strong * size_, stiff * size_ * size_);
+    const unsigned how = in_.next();
+    if ((how & 1u) != 0) def.max_rotation = in_.scale(-3, 1);
+    if ((how & 2u) != 0) def.max_elongation = def.max_compression = size_ * in_.scale(-3, 1);
+    if ((how & 4u) != 0) def.max_slip = size_ * in_.scale(-3, 1);
+    if ((how & 8u) != 0) def.break_group = 1 + in_.below(3);
+    if ((how & 48u) == 16) def.axisFollow = 0;
+    if ((how & 48u) == 32) def.axisFollow = 1;
+    def.collideConnected = (how & 64u) != 0;
+    if ((how & 128u) != 0) {
+      const double N = strong * in_.scale(-3, 2), M = N * size_ * in_.scale(-1, 1);
+      // A struck surface of few facets, seen as a needle, can need more rounds than there are.
+      curved_ = true;
+      def.interaction = {{N, 0}, {0.3 * N, M}, {-N, 0}, {0.2 * N, -M}};
+    }
+    try {
+      structure_->create_joint(def);
+    } catch (const std::invalid_argument&) {
+      require(!def.interaction.empty() || def.rows[0].hardening > 0 || def.rows[1].hardening > 0 ||
+                  def.rows[2].hardening > 0,
+              "a joint that is right is taken");
+    }
+  }
+
+  void make_chain(int pieces) {
+    b2Body* last = body();
+    for (int i = 0; i < pieces; ++i) {
+      const b2Vec2 at = last ? last->GetWorldCenter() + vec(size_, 0) : vec(place_, 0);
+      b2Body* next = make_body(&at);
+      if (!next) return;
+      if (last) make_joint(last, next);
+      last = next;
+    }
+  }
+
+  void change_type(b2Body* b) {
+    if (!b) return;
+    const b2BodyType types[] = {b2_staticBody, b2_kinematicBody, b2_dynamicBody};
+    const b2BodyType type = types[in_.below(3)];
+    b->SetType(type);
+    if (type == b2_dynamicBody) set_mass(b, some_mass(), size_, size_);
+  }
+
+  void move(b2Body* b) {
+    if (!b) return;
+    moved_ |= holds(*b);
+    const double far = in_.scale(-4, 0) * size_;
+    b->SetTransform(b->GetPosition() + vec(far * in_.share(), far * in_.share()),
+                    b->GetAngle() + static_cast<float>(in_.share() * in_.scale(-4, 0.5)));
+  }
+
+  void change_fixtures(b2Body* b) {
+    if (!b) return;
+    if (in_.flag() && b->GetFixtureList()) {
+      b->DestroyFixture(b->GetFixtureList());
+    } else {
+      int count = 0;
+      for (const b2Fixture* f = b->GetFixtureList(); f; f = f->GetNext()) ++count;
+      if (count < 3) add_fixture(b, size_ * in_.scale(-0.5, 0.5), size_ * in_.scale(-0.5, 0.5));
+    }
+  }
+
+  void change_mass(b2Body* b) {
+    if (!b) return;
+    switch (in_.below(3)) {
+      case 0:
+        b->SetFixedRotation(!b->IsFixedRotation());
+        break;
+      case 1:
+        b->ResetMassData();
+        break;
+      default:
+        set_mass(b, some_mass(), size_, size_);
+        break;
+    }
+  }
+
+  void change_joint(ElasticPlasticJoint& j) {
+    const Row which = static_cast<Row>(in_.below(3));
+    switch (in_.below(3)) {
+      case 0:
+        j.set_caps(which, in_.scale(-3, 9), in_.scale(-3, 9));
+        break;
+      case 1:
+        j.set_stiffness(which, in_.flag() ? rigid : in_.scale(0, 15), in_.scale(-3, 2));
+        break;
+      default:
+        j.set_limits(in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1));
+        break;
+    }
+  }
+
+  void make_stock_joint() {
+    b2Body *a = body(), *b = body();
+    if (judged_ || !a || !b || a == b || stock_.size() >= 8) return;
+    const b2Vec2 at = b->GetWorldCenter();
+    b2RevoluteJointDef pin;
+    pin.Initialize(a, b, at);
+    b2DistanceJointDef rope;
+    rope.Initialize(a, b, a->GetWorldCenter(), at);
+    b2WeldJointDef weld;
+    weld.Initialize(a, b, at);
+    b2MouseJointDef mouse;
+    mouse.bodyA = a, mouse.bodyB = b, mouse.target = at + vec(size_, size_);
+    mouse.maxForce = 1e5f, mouse.stiffness = 1e4f, mouse.damping = 1e3f;
+    const b2JointDef* defs[] = {&pin, &rope, &weld, &mouse};
+    const int kind = in_.below(4);
+    if (kind == 3 && b->GetType() != b2_dynamicBody) return;
+    stock_.push_back(world_->CreateJoint(defs[kind]));
+  }
+
+  void adopt_welds() {
+    for (std::size_t i = stock_.size(); i-- > 0;) {
+      if (stock_[i]->GetType() != e_weldJoint) continue;
+      ElasticPlasticJointDef def;
+      def.rows[rotation].cap = def.rows[rotation].cap_reverse = in_.scale(0, 8);
+      structure_->adopt(static_cast<b2WeldJoint*>(stock_[i]), def);
+      stock_.erase(stock_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+
+  void happened(const JointEvent& event) {
+    require(event.joint != nullptr, "an event is about a joint");
+    require_finite({event.force, event.energy}, "event");
+    b2Body *a = event.joint->GetBodyA(), *b = event.joint->GetBodyB();
+    switch (mischief_) {
+      case 1:
+        world_->DestroyJoint(event.joint);
+        break;
+      case 2:
+        std::erase(bodies_, b);
+        world_->DestroyBody(b);
+        break;
+      case 3:
+        for (b2Body* each : std::exchange(bodies_, {})) world_->DestroyBody(each);
+        break;
+      case 4:
+        make_joint(a, b);
+        break;
+      case 5:
+        event.joint->set_caps(rotation, unlimited, unlimited);
+        break;
+      case 6:
+        a->SetType(b2_staticBody);
+        break;
+      default:
+        break;
+    }
+  }
+
+  void step() {
+    if (++steps_ > 400) return;
+    const float lengths[] = {1.0f / 60,  1.0f / 60,   1.0f / 60,   1.0f / 15,
+                             1.0f / 240, 1.0f / 1000, 1.0f / 5000, 0};
+    const unsigned how = in_.next();
+    const float dt = lengths[how & 7u];
+    const int velocity = (how & 0x38u) == 0x38 ? 0 : 8, position = (how & 0xc0u) == 0xc0 ? 0 : 3;
+    world_->Step(dt, velocity, position);
+    // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
+    const StepReport& report = structure_->report();
+    require(report.bounds_hit == report.parted || curved_ || impossible(), "solves end in time");
+    for (const b2Body* b : bodies_) {
+      require_finite({b->GetPosition().x, b->GetPosition().y, b->GetAngle(), b->GetLinearVelocity().x,
+                      b->GetLinearVelocity().y, b->GetAngularVelocity()},
+                     "body");
+    }
+    for (const ElasticPlasticJoint* j : structure_->joints()) {
+      for (const Row which : {axial, shear, rotation}) {
+        require_finite({j->force(which), j->elastic(which), j->plastic(which)}, "row");
+      }
+      require_finite({j->accumulated_rotation(), j->slip(), j->dissipated(), j->elastic_energy(), j->axis().x,
+                      j->GetReactionForce(60).x, j->GetReactionTorque(60)},
+                     "joint");
+      require(j->dissipated() >= 0, "plastic work is never negative");
+    }
+    structure_->update();
+    const JointEnergy e = structure_->energy();
+    require_finite({e.elastic, e.dissipated, e.damping, e.numerical, e.clamped}, "ledger");
+    if (!judged_) return;
+    const double now = kinetic() + e.elastic;
+    most_ = std::max(most_, budget_);
+    double mass = 0, turn = 0;
+    for (const b2Body* b : bodies_) {
+      mass += b->GetMass();
+      turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
+    }
+    // What rounding leaves of a push, 1e-5 sizes a second; and what turning bodies part along their tangents
+    // in a step and take back in the next.
+    const double rounding = 1e-7 * most_ + mass * size_ * size_ * 1e-10;
+    const double allowed = budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding;
+    turn_ = turn;
+    require(now <= allowed, "no energy from nowhere");
+    budget_ = std::min(budget_, now);
+  }
+
+  /// Welds of a structure that is gone are Box2D's, whose energy is not ours to judge.
+  void forgive() {
+    std::vector<b2Joint*> welds;
+    for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) welds.push_back(j);
+    for (b2Joint* j : welds) world_->DestroyJoint(j);
+    stock_.clear();
+    budget_ = kinetic();
+  }
+
+  /// Not the structure's to move.
+  static bool holds(const b2Body& b) {
+    return b.GetType() != b2_dynamicBody || b.GetMass() == 0 || b.IsFixedRotation();
+  }
+
+  /// What is held at several places that part cannot keep together.
+  bool impossible() const {
+    int held = 0;
+    bool moving = moved_;
+    for (const b2Body* b : bodies_) {
+      if (b->GetJointList() == nullptr || !holds(*b)) continue;
+      ++held;
+      moving |= b->GetType() == b2_kinematicBody &&
+                (b->GetLinearVelocity().LengthSquared() > 0 || b->GetAngularVelocity() != 0);
+    }
+    return held > 1 && moving;
+  }
+
+  double kinetic() const {
+    double sum = 0;
+    for (const b2Body* b : bodies_) {
+      if (b->GetType() != b2_dynamicBody || !b->IsEnabled()) continue;
+      const double inertia =
+          double{b->GetInertia()} - double{b->GetMass()} * b->GetLocalCenter().LengthSquared();
+      sum += (double{b->GetMass()} * b->GetLinearVelocity().LengthSquared() +
+              inertia * b->GetAngularVelocity() * b->GetAngularVelocity()) /
+             2;
+    }
+    return sum;
+  }
+
+  Bytes in_;
+  bool judged_ = false, veto_ = false;
+  bool curved_ = false;  // some joint has a yield surface
+  bool moved_ = false;   // a body that holds others, by hand
+  int mischief_ = 0, steps_ = 0;
+  double size_ = 1, place_ = 0;
+  double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
+  double turn_ = 0;               // rad in the last step, at most
+  StructureDef def_;
+  std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});
+  std::vector<b2Body*> bodies_;
+  std::vector<b2Joint*> stock_;
+  std::optional<Structure> structure_;  // goes before the world, where play() does not turn that around
+};
+
+}  // namespace
+}  // namespace ductile
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ductile::Game(data, size).play();
+  return 0;
+}
