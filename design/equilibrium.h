@@ -36,6 +36,8 @@ class Equilibrium {
   void add(Eigen::VectorXd& f, int piece, Point force, double moment) const;
   std::vector<LoadCase> cases() const;
 
+  bool is_mechanism() const { return qr_.rank() < B.cols(); }
+
   /// Stiffness of every row (0: free), rigid ones replaced.
   const Eigen::VectorXd& stiffness() const { return k_; }
 

@@ -56,4 +56,29 @@ struct LimitAnalysis {
 /// InvalidInput where the loads move a mechanism, are zero, or gravity alone, held fixed, cannot be carried.
 LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity = false);
 
+/// How much may be left out.
+struct LeaveOut {
+  double tolerance = 0.01;  ///< displacement error that may be, over the size of the structure (its diagonal)
+  double impact = 0;        ///< J that may hit a structure beside what is loose in the scene
+  double seconds = 5;       ///< of the runs that confirm it
+  Stepping stepping = {};
+};
+
+/// A plan that does without what its scene does not need, and what to run it with.
+struct LeanPlan {
+  Plan plan;  ///< with Plan::left_out
+  JointSolver solver = JointSolver::direct;
+  LeftOut all;  ///< the whole against the plan as it was
+};
+
+/// Merges pieces whose joints nothing in the scene can bring to yield, makes rows rigid whose elasticity is
+/// not seen, drops caps that are not reached, and the structure's solver where each joint is alone.
+///
+/// What nothing can bring to yield is bounded by elastic theory: static forces of all loads, their swing as
+/// they come and go, and the energy of what is loose around. Where a structure as a whole stays below yield,
+/// so is the error that is promised; elsewhere it is an estimate. Every item is run with and without, and
+/// kept only where the run shows no more than was promised. Joints with PlannedJoint::hold stay as they are.
+/// Throws InvalidInput as static_check() does.
+LeanPlan leave_out(const Plan& plan, const LeaveOut& options = {});
+
 }  // namespace ductile

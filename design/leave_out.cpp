@@ -1,0 +1,292 @@
+// What a plan can do without: chosen from bounds, confirmed by running it with and without.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "around.h"
+#include "compare.h"
+#include "ductile/design.h"
+#include "merge.h"
+#include "plane.h"
+#include "response.h"
+#include "yield.h"
+
+namespace ductile {
+namespace {
+
+constexpr double resolution = 1e-6;  // of a structure's size: what Box2D's floats tell
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::string joints(std::size_t n) { return std::to_string(n) + (n == 1 ? " joint" : " joints"); }
+
+// Null where all stands still.
+std::unique_ptr<Response> response_of(const Plan& plan, double impact) {
+  const bool any = std::any_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& j) {
+    return (j.a >= 0 && plan.is_dynamic(j.a)) || plan.is_dynamic(j.b);
+  });
+  return any ? std::make_unique<Response>(plan, impact) : nullptr;
+}
+
+class Leaner {
+ public:
+  Leaner(const Plan& plan, const LeaveOut& options)
+      : options_(options),
+        impact_(options.impact + energy_around(plan, Equilibrium(plan).loose)),
+        plan_(plan),
+        full_(plan, impact_),
+        quiet_(index(full_.structures()), true),
+        lean_{.plan = plan} {
+    measure_structures();
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) judge(static_cast<int>(i));
+    budget_ = options.tolerance;
+  }
+
+  LeanPlan run() {
+    merge_where_nothing_yields();
+    merge_where_little_bends();
+    make_rigid();
+    drop_caps();
+    drop_solver();
+    if (!lean_.plan.left_out.empty()) {
+      const Comparison all = compared(plan_, JointSolver::direct, lean_.plan, lean_.solver);
+      lean_.all = {.what = "all",
+                   .error = options_.tolerance - budget_,
+                   .measured = all.error,
+                   .time_saved = all.time_saved};
+    }
+    return std::move(lean_);
+  }
+
+ private:
+  // --- what the bounds say of the plan as it is ---
+
+  void measure_structures() {
+    std::vector<Point> low(quiet_.size(), {unlimited, unlimited}),
+        high(quiet_.size(), {-unlimited, -unlimited});
+    for (std::size_t i = 0; i < plan_.pieces.size(); ++i) {
+      if (full_.structure()[i] < 0) continue;
+      const std::size_t s = index(full_.structure()[i]);
+      const Piece& piece = plan_.pieces[i];
+      const auto add = [&](Point p) {
+        low[s] = {std::min(low[s].x, p.x), std::min(low[s].y, p.y)};
+        high[s] = {std::max(high[s].x, p.x), std::max(high[s].y, p.y)};
+      };
+      for (const Point& p : piece.outline.outer) add(p);
+      add(piece.center - Point{piece.circle, piece.circle});
+      add(piece.center + Point{piece.circle, piece.circle});
+    }
+    for (std::size_t s = 0; s < quiet_.size(); ++s) size_.push_back(length(high[s] - low[s]));
+  }
+
+  int structure_of(const PlannedJoint& joint) const {
+    for (const int piece : {joint.a, joint.b})
+      if (piece >= 0 && full_.structure()[index(piece)] >= 0) return full_.structure()[index(piece)];
+    return -1;
+  }
+
+  // Its usage and the displacement that its elasticity may bring, both at the bound of its forces.
+  void judge(int i) {
+    const PlannedJoint& joint = plan_.joints[index(i)];
+    const Yield yield(plan_, joint);
+    const int s = structure_of(joint);
+    double used = 0, bends = 0;
+    bool whole = true;
+    if (s >= 0) {
+      std::array<double, 3> force{};
+      for (const Row row : {axial, shear, rotation}) {
+        if (yield.is_free(row)) {
+          whole = false;
+          continue;
+        }
+        force[row] = full_.force(3 * i + row);
+        bends +=
+            force[row] / full_.statics().stiffness()[3 * i + row] * (row == rotation ? size_[index(s)] : 1);
+      }
+      for (const double n : {-1., 1.})
+        for (const double m : {-1., 1.})
+          used = std::max(used, yield.usage({n * force[0], force[1], m * force[2]}));
+      // What swings in a mechanism is bounded by nothing here.
+      if (!(used < 1) || (!whole && full_.statics().is_mechanism())) quiet_[index(s)] = false;
+    }
+    const auto is_driven = [&](int piece) {
+      return piece >= 0 &&
+             plan_.bodies[index(plan_.pieces[index(piece)].body)].type == BodyType::kinematic_body;
+    };
+    const bool may_go = s >= 0 && used < 1 && !joint.hold && !is_driven(joint.a) && !is_driven(joint.b);
+    judged_.push_back({s, used, bends, may_go, may_go && whole});
+  }
+
+  // --- trying a leaner plan ---
+
+  // By structure: how far a piece may be from where it is in `plan`, over the structure's size.
+  std::vector<double> promises(const Response& now, const Plan& leaner) const {
+    const auto then = response_of(leaner, impact_);
+    std::vector<double> result(quiet_.size());
+    for (std::size_t i = 0; i < plan_.pieces.size(); ++i) {
+      const int s = full_.structure()[i];
+      if (s < 0) continue;
+      const double apart = now.apart(then.get(), static_cast<int>(i), plan_.pieces[i].center);
+      result[index(s)] = std::max(result[index(s)], apart / size_[index(s)]);
+    }
+    return result;
+  }
+
+  Comparison compared(const Plan& a, JointSolver with, const Plan& b, JointSolver instead) const {
+    return compare(a, with, b, instead, options_.seconds, options_.stepping, full_.structure(), size_);
+  }
+
+  // Takes what keeps its promise.
+  void offer(Plan leaner, JointSolver solver, double promise, const std::string& what) {
+    promise = std::max(promise, resolution);
+    if (promise > budget_) return;
+    const Comparison run = compared(lean_.plan, lean_.solver, leaner, solver);
+    if (run.error > promise) return;
+    leaner.left_out.push_back({what, promise, run.error, run.time_saved});
+    lean_.plan = std::move(leaner);
+    lean_.solver = solver;
+    budget_ -= promise;
+  }
+
+  std::vector<int> by_bending(bool in_quiet) const {
+    std::vector<int> result;
+    for (std::size_t i = 0; i < judged_.size(); ++i)
+      if (judged_[i].may_merge && quiet_[index(judged_[i].structure)] == in_quiet)
+        result.push_back(static_cast<int>(i));
+    std::stable_sort(result.begin(), result.end(),
+                     [&](int i, int j) { return judged_[index(i)].bends < judged_[index(j)].bends; });
+    return result;
+  }
+
+  void offer_merged(const Plan& leaner, double promise) {
+    const std::size_t gone = lean_.plan.joints.size() - leaner.joints.size();
+    if (gone > 0)
+      offer(leaner, lean_.solver, promise, joints(gone) + " merged with the pieces at both sides");
+  }
+
+  // --- what can be left out ---
+
+  // Where nothing yields the bound of the difference is rigorous. Of each structure as many joints as keep
+  // within the budget, those that bend least first: found by bisection.
+  void merge_where_nothing_yields() {
+    const std::vector<int> order = by_bending(true);
+    std::vector<std::size_t> good(quiet_.size()), bad(quiet_.size());  // counts: known to do; known not to
+    for (const int i : order) ++bad[index(judged_[index(i)].structure)];
+    std::vector<std::size_t> next = bad;
+    for (std::size_t& b : bad) ++b;
+    const auto with = [&](const std::vector<std::size_t>& count) {
+      std::vector<std::size_t> taken(quiet_.size());
+      std::vector<int> fused;
+      for (const int i : order)
+        if (const std::size_t s = index(judged_[index(i)].structure); taken[s]++ < count[s])
+          fused.push_back(i);
+      return merged(plan_, fused);
+    };
+    double promise = 0;
+    while (next != good) {
+      const std::vector<double> promised = promises(full_, with(next));
+      for (std::size_t s = 0; s < quiet_.size(); ++s) {
+        if (next[s] == good[s]) continue;
+        (promised[s] <= budget_ ? good : bad)[s] = next[s];
+        if (promised[s] <= budget_) promise = std::max(promise, promised[s]);
+        next[s] = bad[s] - good[s] > 1 ? good[s] + (bad[s] - good[s]) / 2 : good[s];
+      }
+    }
+    offer_merged(with(good), promise);
+  }
+
+  // Elsewhere a joint that by itself stays elastic is merged where all that it may bend is within the budget;
+  // what yields beside it is not in that bound, so it is the run that decides.
+  void merge_where_little_bends() {
+    std::vector<double> sum(quiet_.size());
+    std::vector<int> fused;
+    for (const int i : by_bending(false)) {
+      const Judged& j = judged_[index(i)];
+      const double more = j.bends / size_[index(j.structure)];
+      if (sum[index(j.structure)] + more > budget_ / 2) continue;
+      sum[index(j.structure)] += more;
+      fused.push_back(i);
+    }
+    if (fused.empty()) return;
+    std::vector<int> still_there;
+    for (const int i : fused)
+      if (const int now = find(plan_.joints[index(i)].name); now >= 0) still_there.push_back(now);
+    offer_merged(merged(lean_.plan, still_there), *std::max_element(sum.begin(), sum.end()));
+  }
+
+  // Stretch and shear of what is left in structures where nothing yields.
+  void make_rigid() {
+    Plan leaner = lean_.plan;
+    std::size_t rows = 0;
+    for (PlannedJoint& joint : leaner.joints) {
+      const Judged& j = judged_of(joint);
+      if (!j.may_go || !quiet_[index(j.structure)]) continue;
+      rows += (joint.stiffness.N < unlimited) + (joint.stiffness.Q < unlimited);
+      joint.stiffness.N = joint.stiffness.Q = unlimited;
+    }
+    if (rows == 0) return;
+    const std::vector<double> promised = promises(*response_of(lean_.plan, impact_), leaner);
+    offer(std::move(leaner), lean_.solver, *std::max_element(promised.begin(), promised.end()),
+          std::to_string(rows) + " rows rigid that would stretch or shear");
+  }
+
+  // Caps that cannot be reached, and with them the N–M–Q surface and the counting towards a break.
+  void drop_caps() {
+    Plan leaner = lean_.plan;
+    std::size_t count = 0;
+    for (PlannedJoint& joint : leaner.joints) {
+      if (!judged_of(joint).may_go) continue;
+      ++count;
+      for (double* cap : {&joint.N, &joint.Nc, &joint.Q, &joint.M, &joint.M_reverse})
+        if (*cap > 0) *cap = unlimited;
+      joint.max_rotation = joint.max_elongation = joint.max_compression = joint.max_slip = unlimited;
+    }
+    if (count > 0)
+      offer(std::move(leaner), lean_.solver, 0, joints(count) + " without caps, and never to break");
+  }
+
+  // A joint alone is solved as well by Box2D's own iterations: no bound says how well, the run does.
+  void drop_solver() {
+    std::vector<int> count(quiet_.size());
+    for (const PlannedJoint& joint : lean_.plan.joints)
+      if (const int s = structure_of(joint); s >= 0) ++count[index(s)];
+    const bool alone = std::all_of(count.begin(), count.end(), [](int n) { return n <= 1; });
+    if (alone && !lean_.plan.joints.empty())
+      offer(lean_.plan, JointSolver::iterative, budget_, "structure solver: each joint is alone");
+  }
+
+  int find(const std::string& joint) const {
+    const auto& all = lean_.plan.joints;
+    const auto it =
+        std::find_if(all.begin(), all.end(), [&](const PlannedJoint& j) { return j.name == joint; });
+    return it == all.end() ? -1 : static_cast<int>(it - all.begin());
+  }
+
+  struct Judged {
+    int structure;
+    double usage;    // bound; yields at 1
+    double bends;    // m: what its elasticity moves the farthest point of its structure by, at most
+    bool may_go;     // it does not yield, and nobody holds it
+    bool may_merge;  // and no row of it is free
+  };
+  const Judged& judged_of(const PlannedJoint& joint) const {
+    const auto it = std::find_if(plan_.joints.begin(), plan_.joints.end(),
+                                 [&](const PlannedJoint& j) { return j.name == joint.name; });
+    return judged_[static_cast<std::size_t>(it - plan_.joints.begin())];
+  }
+
+  const LeaveOut& options_;
+  double impact_;  // J
+  const Plan& plan_;
+  Response full_;
+  std::vector<bool> quiet_;     // structures in which nothing can yield
+  std::vector<double> size_;    // m, of structures
+  std::vector<Judged> judged_;  // by Plan::joints
+  double budget_ = 0;
+  LeanPlan lean_;
+};
+
+}  // namespace
+
+LeanPlan leave_out(const Plan& plan, const LeaveOut& options) { return Leaner(plan, options).run(); }
+
+}  // namespace ductile

@@ -1,0 +1,139 @@
+#include "response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "plane.h"
+
+namespace ductile {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Response::Response(const Plan& plan, double impact) : plan_(plan), statics_(plan) {
+  find_structures();
+  leverage_ = VectorXd::Constant(statics_.B.rows(), -1);
+  double energy = impact;  // a structure that is thrown is not bounded
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    if (statics_.column[i] < 0 || plan.pieces[i].part_of >= 0) continue;
+    const BodyDef& body = plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)];
+    if (body.velocity != Point{} || body.angular_velocity != 0) energy = unlimited;
+  }
+  swing_.assign(swing_.size(), std::sqrt(2 * energy));
+
+  VectorXd gravity = VectorXd::Zero(statics_.B.cols());
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    if (plan.pieces[i].part_of < 0)
+      statics_.add(gravity, static_cast<int>(i), plan.pieces[i].mass * plan.gravity, 0);
+  add(gravity, plan.gravity_ramp, false);
+  for (const Plan::Load& load : plan.loads) {
+    VectorXd f = VectorXd::Zero(statics_.B.cols());
+    const Point arm = load.at - plan.carrier(load.piece).center;
+    statics_.add(f, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
+    add(f, load.def.ramp, load.def.to < unlimited);
+  }
+}
+
+void Response::find_structures() {
+  const std::size_t n = plan_.pieces.size();
+  std::vector<std::size_t> group(n);
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  const auto moves = [&](int piece) {
+    return piece >= 0 && statics_.column[static_cast<std::size_t>(piece)] >= 0;
+  };
+  for (const PlannedJoint& j : plan_.joints)
+    if (moves(j.a) && moves(j.b))
+      group[root(static_cast<std::size_t>(j.b))] = root(static_cast<std::size_t>(j.a));
+  for (std::size_t i = 0; i < n; ++i)
+    if (moves(static_cast<int>(i)) && plan_.pieces[i].part_of >= 0)
+      group[root(i)] = root(static_cast<std::size_t>(plan_.pieces[i].part_of));
+  structure_.assign(n, -1);
+  of_column_.assign(static_cast<std::size_t>(statics_.B.cols()), -1);
+  std::vector<int> number(n, -1);
+  int count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!moves(static_cast<int>(i))) continue;
+    int& own = number[root(i)];
+    if (own < 0) own = count++;
+    structure_[i] = own;
+    for (int c = 0; c < 3; ++c) of_column_[static_cast<std::size_t>(statics_.column[i] + c)] = own;
+  }
+  swing_.resize(static_cast<std::size_t>(count));
+}
+
+void Response::add(const VectorXd& load, double ramp, bool ends) {
+  const VectorXd f = statics_.balanced(load);
+  Answer& answer = answers_.emplace_back(Answer{statics_.motions(f), statics_.forces(f)});
+  std::vector<double> work(swing_.size()), square(swing_.size());  // xᵀ K x = f·x, and xᵀ M x
+  for (Index c = 0; c < f.size(); ++c) {
+    const auto s = static_cast<std::size_t>(of_column_[static_cast<std::size_t>(c)]);
+    work[s] += f[c] * answer.motion[c];
+    square[s] += answer.motion[c] * answer.motion[c];
+  }
+  for (std::size_t s = 0; s < swing_.size(); ++s) {
+    const double at_once = std::sqrt(std::max(0.0, work[s]));
+    const double slowly = ramp > 0 ? 2 * std::sqrt(square[s]) / ramp : unlimited;
+    swing_[s] += std::min(at_once, slowly) + (ends ? at_once : 0);
+  }
+}
+
+double Response::rest(int row) const {
+  double low = 0, high = 0;  // loads act or do not
+  for (const Answer& answer : answers_) {
+    const double value = answer.forces[row];
+    (value < 0 ? low : high) += value;
+  }
+  return std::max(-low, high);
+}
+
+double Response::force(int row) const {
+  const PlannedJoint& joint = plan_.joints[static_cast<std::size_t>(row / 3)];
+  int structure = -1;
+  for (const int piece : {joint.a, joint.b})
+    if (piece >= 0 && structure_[static_cast<std::size_t>(piece)] >= 0)
+      structure = structure_[static_cast<std::size_t>(piece)];
+  const double k = statics_.stiffness()[row];
+  if (structure < 0 || k == 0) return 0;
+  double& h = leverage_[row];
+  if (h < 0) {
+    const VectorXd b = statics_.B.row(row).transpose();
+    h = std::clamp(k * b.dot(statics_.motions(b)), 0.0, 1.0);
+  }
+  return rest(row) + swing_[static_cast<std::size_t>(structure)] * std::sqrt(k * h);
+}
+
+VectorXd Response::functional(int piece, Point at, bool along_y) const {
+  VectorXd c = VectorXd::Zero(statics_.B.cols());
+  const Point arm = at - plan_.carrier(piece).center;
+  statics_.add(c, piece, along_y ? Point{0, 1} : Point{1, 0}, along_y ? arm.x : -arm.y);
+  return c;
+}
+
+double Response::swing(const VectorXd& c, int piece) const {
+  const int s = structure_[static_cast<std::size_t>(piece)];
+  return s < 0 ? 0
+               : swing_[static_cast<std::size_t>(s)] * std::sqrt(std::max(0.0, c.dot(statics_.motions(c))));
+}
+
+double Response::apart(const Response* lean, int piece, Point at) const {
+  double square = 0;
+  for (const bool along_y : {false, true}) {
+    const VectorXd c = functional(piece, at, along_y);
+    const VectorXd d = lean ? lean->functional(piece, at, along_y) : VectorXd();
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      const double value = c.dot(answers_[i].motion) - (lean ? d.dot(lean->answers_[i].motion) : 0);
+      (value < 0 ? low : high) += value;
+    }
+    const double most = std::max(-low, high) + swing(c, piece) + (lean ? lean->swing(d, piece) : 0);
+    square += most * most;
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace ductile

@@ -1,0 +1,57 @@
+// Bounds of what a plan's structures may ever have to carry, as long as nothing yields.
+//
+// With K = Bᵀ k B and unknowns scaled so that M = 1 (equilibrium.h), a structure at rest to which a load f is
+// applied swings about its static answer x_s = K⁻¹ f, and energy bounds the swing y = x − x_s, whatever its
+// modes: ½ yᵀKy + ½ ẏᵀẏ never grows. Applied at once it starts with a² = x_sᵀ K x_s; over a ramp T with two
+// jumps of the velocity by x_s/T, so with a ≤ 2‖x_s‖/T, whichever is less. Taken off at once: the first
+// again. Impacts add the kinetic energy of what is around: a² = 2E. All add up, and by Cauchy and Schwarz a
+// linear functional c of the motion is within c·x_s ± a √(cᵀ K⁻¹ c).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "equilibrium.h"
+
+namespace ductile {
+
+class Response {
+ public:
+  /// `impact`: J that contacts may bring into each structure. Throws InvalidInput as Equilibrium does.
+  Response(const Plan& plan, double impact);
+
+  /// Of a row, 3·joint + row: the largest |force| that statics and swing give.
+  double force(int row) const;
+  /// Static part of it alone.
+  double rest(int row) const;
+
+  /// Structures hang together by joints between moving pieces; −1: stands still or is loose.
+  const std::vector<int>& structure() const { return structure_; }
+  int structures() const { return static_cast<int>(swing_.size()); }
+
+  /// How far apart a point may be in this plan and in a leaner one of the same pieces (null: where
+  /// none of them moves), m.
+  double apart(const Response* lean, int piece, Point at) const;
+
+  const Equilibrium& statics() const { return statics_; }
+
+ private:
+  struct Answer {  // to one load at its full value
+    Eigen::VectorXd motion, forces;
+  };
+  void find_structures();
+  void add(const Eigen::VectorXd& f, double ramp, bool ends);
+  /// The displacement of a point along x or y, as a functional of the motion.
+  Eigen::VectorXd functional(int piece, Point at, bool along_y) const;
+  double swing(const Eigen::VectorXd& functional, int piece) const;
+
+  const Plan& plan_;
+  Equilibrium statics_;
+  std::vector<int> structure_;        // of pieces
+  std::vector<int> of_column_;        // structure of each column of B
+  std::vector<Answer> answers_;       // gravity, then the loads
+  std::vector<double> swing_;         // a of each structure, √J
+  mutable Eigen::VectorXd leverage_;  // of rows: k B K⁻¹ Bᵀ, between 0 and 1; negative: not yet known
+};
+
+}  // namespace ductile
