@@ -4,7 +4,9 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <unordered_map>
 
+#include "automatic.h"
 #include "caps.h"
 #include "moments.h"
 #include "plane.h"
@@ -27,6 +29,9 @@ struct Placement {
       : at(body.at), cosine(std::cos(body.angle)), sine(std::sin(body.angle)) {}
   Point turned(Point p) const { return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y}; }
   Point operator()(Point p) const { return at + turned(p); }
+  Point back(Point p) const {
+    return {cosine * (p.x - at.x) + sine * (p.y - at.y), cosine * (p.y - at.y) - sine * (p.x - at.x)};
+  }
   void place(Ring& ring) const {
     for (Point& p : ring) p = (*this)(p);
   }
@@ -80,6 +85,8 @@ class Check {
     finite(s.gravity, "scene", "gravity");
     at_least_zero(s.gravity_ramp, "scene", "gravity_ramp");
     overrides(s.joint, "scene");
+    if (!(s.target_error > 0 && s.target_error < 1))
+      add("scene", "the target error is " + to_string(s.target_error), "give a share between 0 and 1");
     std::set<std::string_view> names;
     for (const BodyDef& b : s.bodies) {
       if (!names.insert(b.name).second)
@@ -294,9 +301,13 @@ class Planner {
       add_disc(index);
       return;
     }
-    std::vector<Cut> cuts = cuts_of(body);
     try {
-      add_pieces(index, splitter_.split(body.outline, cuts, body_place(body)), cuts);
+      if (body.automatic) {
+        add_automatic_pieces(index);
+      } else {
+        const std::vector<Cut> cuts = cuts_of(body);
+        add_pieces(index, splitter_.split(body.outline, cuts, body_place(body)), cuts, {});
+      }
     } catch (const InvalidInput& e) {
       problems_.insert(problems_.end(), e.problems().begin(), e.problems().end());
     }
@@ -316,6 +327,65 @@ class Planner {
     }
   }
 
+  void add_automatic_pieces(int index) {
+    const BodyDef& body = plan_.bodies[index];
+    const std::vector<Hold> holds = holds_of(body);
+    AutomaticSplit split =
+        split_automatically(splitter_, body.outline, scene_.target_error, holds, body_place(body));
+    const Placement place(body);
+    for (AutomaticSplit::End& end : split.ends) {
+      end.at = place(end.at);
+      end.outward = place.turned(end.outward);
+    }
+    ends_[index] = std::move(split.ends);
+    plan_.split_errors.push_back(
+        {index, split.error,
+         split.error <= scene_.target_error
+             ? "target error"
+             : "the shape: more pieces would be below 0.02 m, slivers, or too many"});
+    add_pieces(index, std::move(split.parts), split.cuts, split.lengths);
+  }
+
+  // Where supports and other bodies hold a body, in its outline's coordinates.
+  std::vector<Hold> holds_of(const BodyDef& body) const {
+    const auto is_it = [&](const std::string& name) { return name == body.name; };
+    const auto joined = std::count_if(scene_.joints.begin(), scene_.joints.end(),
+                                      [&](const JointBetweenDef&j) { return is_it(j.a) || is_it(j.b); }),
+               supported = std::count_if(scene_.supports.begin(), scene_.supports.end(),
+                                         [&](const SupportDef&s) { return is_it(s.body); });
+    std::vector<Hold> holds;
+    if (joined + supported == 0) return holds;
+    const Placement place(body);
+    for (const SupportDef& s : scene_.supports)
+      if (is_it(s.body)) holds.push_back({place.back(s.at), s.fix_angle});
+    const Outline own = in_world(body);
+    for (const JointBetweenDef& j : scene_.joints) {
+      if (!is_it(j.a) && !is_it(j.b)) continue;
+      const std::string& other_name = is_it(j.a) ? j.b : j.a;
+      const auto other = std::find_if(scene_.bodies.begin(), scene_.bodies.end(),
+                                      [&](const BodyDef& b) { return b.name == other_name; });
+      if (other->circle > 0) continue;
+      const double size = std::min(box_of(body.outline).diagonal(), box_of(other->outline).diagonal());
+      for (const Contact& c : touching(own, in_world(*other), j.gap > 0 ? j.gap : 1e-6 * size))
+        holds.push_back({place.back(middle(c.from, c.to)), j.overrides.moment != 0.0});
+    }
+    return holds;
+  }
+
+  // As split() would make it, of one piece.
+  static Outline in_world(const BodyDef& body) {
+    Outline outline = body.outline;
+    const Placement place(body);
+    const auto put = [&](Ring& ring, bool clockwise) {
+      if (ring.front() == ring.back()) ring.pop_back();
+      if ((doubled_area(ring) < 0) != clockwise) std::reverse(ring.begin(), ring.end());
+      place.place(ring);
+    };
+    put(outline.outer, false);
+    for (Ring& hole : outline.holes) put(hole, true);
+    return outline;
+  }
+
   // The cuts of a body, in its outline's coordinates.
   static std::vector<Cut> cuts_of(const BodyDef& body) {
     std::vector<Cut> cuts;
@@ -333,7 +403,8 @@ class Planner {
     return cuts;
   }
 
-  void add_pieces(int index, Split parts, const std::vector<Cut>& cuts) {
+  // `lengths`: ℓ of the joints by cut, where it is known.
+  void add_pieces(int index, Split parts, const std::vector<Cut>& cuts, std::span<const double> lengths) {
     const BodyDef& body = plan_.bodies[index];
     const Placement place(body);
     const Strip& strip = strips_.back();
@@ -359,7 +430,7 @@ class Planner {
       for (Ring& hole : outline.holes) place.place(hole);
       piece.outline = std::move(outline);
     }
-    add_joints(index, parts.intervals, rank, first, place);
+    add_joints(index, parts.intervals, lengths, rank, first, place);
   }
 
   // Pieces by their projection on the line of the split, then across it; where the split has no line, by
@@ -384,8 +455,8 @@ class Planner {
 
   // --- joints ---
 
-  void add_joints(int index, std::vector<Interval>& intervals, const std::vector<int>& rank, int first,
-                  const Placement& place) {
+  void add_joints(int index, std::vector<Interval>& intervals, std::span<const double> lengths,
+                  const std::vector<int>& rank, int first, const Placement& place) {
     for (Interval& i : intervals) {
       i.left = rank[i.left];
       i.right = rank[i.right];
@@ -403,13 +474,14 @@ class Planner {
     for (std::size_t k = 0, repeat = 0; k < intervals.size(); ++k) {
       const Interval& i = intervals[k];
       repeat = k > 0 && intervals[k - 1].left == i.left && intervals[k - 1].right == i.right ? repeat + 1 : 0;
-      add_joint(first + i.left, first + i.right, place(i.from), place(i.to), repeat, overriding);
+      add_joint(first + i.left, first + i.right, place(i.from), place(i.to), repeat, overriding,
+                lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]);
     }
   }
 
-  // Along an interval that has piece a on its left and piece b on its right.
+  // Along an interval that has piece a on its left and piece b on its right; `reach` is ℓ where it is known.
   void add_joint(int a, int b, Point from, Point to, std::size_t repeat,
-                 std::span<const Overriding> overriding) {
+                 std::span<const Overriding> overriding, double reach = 0) {
     PlannedJoint& joint = plan_.joints.emplace_back();
     joint.a = a;
     joint.b = b;
@@ -418,7 +490,7 @@ class Planner {
     if (repeat > 0) joint.name += '#' + std::to_string(repeat);
     joint.anchor = middle(from, to);
     joint.axis = right(unit(to - from));
-    const double height = length(to - from);
+    const double height = joint.height = length(to - from);
     const bool inside = plan_.pieces[a].body == plan_.pieces[b].body;
     std::array<Side, 2> sides{side(a, joint, -joint.axis, inside), side(b, joint, joint.axis, inside)};
     for (const Side& s : sides) {
@@ -431,7 +503,7 @@ class Planner {
       if (inside) break;
     }
     if (inside) {  // one section, and both pieces give
-      sides[0].reach += sides[1].reach;
+      sides[0].reach = reach > 0 ? reach : sides[0].reach + sides[1].reach;
       sides[1].strip = nullptr;
     }
     caps_.fill_in(joint, height, sides, overriding);
@@ -446,6 +518,10 @@ class Planner {
     if (body.type == BodyType::dynamic_body)
       for (const Point& p : piece.outline.outer)
         result.reach = std::max(result.reach, dot(p - joint.anchor, outward) / 2);
+    if (const auto ends = ends_.find(piece.body); !inside && result.reach > 0 && ends != ends_.end())
+      for (const AutomaticSplit::End& end : ends->second)  // a bent piece is longer than it reaches
+        if (length(end.at - joint.anchor) < joint.height && dot(end.outward, outward) < -0.7)
+          result.reach = end.half;
     if (!inside && !body.profile.empty()) result.reversed = dot(joint.axis, strip_direction(body)) < 0;
     return result;
   }
@@ -552,8 +628,9 @@ class Planner {
 
   const SceneDef& scene_;
   Plan plan_;
-  std::vector<Strip> strips_;     // of plan_.bodies
-  std::vector<int> first_piece_;  // of plan_.bodies
+  std::vector<Strip> strips_;                                       // of plan_.bodies
+  std::vector<int> first_piece_;                                    // of plan_.bodies
+  std::unordered_map<int, std::vector<AutomaticSplit::End>> ends_;  // of bodies split automatically
   Splitter splitter_;
   std::vector<Problem> problems_;
   Caps caps_{plan_.reasons, problems_};

@@ -12,4 +12,10 @@ namespace ductile {
 /// makes the best it can, and always ends.
 std::vector<Ring> convex_parts(const Outline& outline, int most_vertices);
 
+/// The convex hull, counter-clockwise, without collinear vertices.
+Ring hull(std::vector<Point> points);
+
+/// The least width of a convex, counter-clockwise ring over all directions, m.
+double least_width(const Ring& convex);
+
 }  // namespace ductile

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex.h"
 #include "ductile/box2d.h"
 #include "plane.h"
 
@@ -44,35 +45,6 @@ void list_what_no_stock_joint_does(std::vector<std::string>& lost, const Planned
 }
 
 // --- polygons ---
-
-Ring hull(std::vector<Point> points) {  // Andrew's monotone chain
-  std::sort(points.begin(), points.end(),
-            [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  Ring result;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = result.size();
-    for (const Point& p : points) {
-      while (result.size() >= start + 2 && orientation(result[result.size() - 2], result.back(), p) <= 0)
-        result.pop_back();
-      result.push_back(p);
-    }
-    result.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return result;
-}
-
-// The least width of a convex ring, over all directions.
-double width(const Ring& ring) {
-  double least = unlimited;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point p = ring[i], u = unit(ring[(i + 1) % ring.size()] - p);
-    double farthest = 0;
-    for (const Point& q : ring) farthest = std::max(farthest, cross(u, q - p));
-    least = std::min(least, farthest);
-  }
-  return least;
-}
 
 // What b2PolygonShape::Set does well with: no vertices that it would weld (b2_linearSlop/2), and none so
 // nearly in line with their neighbours that its hull could stumble over the rounding of floats.
@@ -250,7 +222,7 @@ std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j,
 std::optional<b2PolygonShape> polygon_shape(const std::vector<Point>& points) {
   if (points.size() < 3) return std::nullopt;
   const Ring ring = without_detail(hull(points));
-  if (ring.size() < 3 || ring.size() > b2_maxPolygonVertices || width(ring) < b2_linearSlop)
+  if (ring.size() < 3 || ring.size() > b2_maxPolygonVertices || least_width(ring) < b2_linearSlop)
     return std::nullopt;
   b2Vec2 vertices[b2_maxPolygonVertices];
   std::transform(ring.begin(), ring.end(), vertices, vector);
@@ -260,7 +232,7 @@ std::optional<b2PolygonShape> polygon_shape(const std::vector<Point>& points) {
 }
 
 std::vector<b2PolygonShape> shapes(const Piece& piece) {
-  const double w = piece.outline.outer.empty() ? 0 : width(hull(piece.outline.outer));
+  const double w = piece.outline.outer.empty() ? 0 : least_width(hull(piece.outline.outer));
   std::vector<b2PolygonShape> result;
   for (const Convex& part : convex_parts(piece))
     if (const auto shape = polygon_shape(part)) result.push_back(*shape);

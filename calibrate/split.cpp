@@ -1,6 +1,7 @@
 #include "split.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
@@ -17,24 +18,31 @@ namespace {
 // the two halves of a chord cancel, the areas of the pieces always add up to that of the outline.
 class PlanarMap {
  public:
-  Split run(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
+  Split run(const Outline& outline, std::span<const Cut> cuts, const std::string& place,
+            std::vector<int>* useless) {
     start(outline, cuts, place);
+    useless_.clear();
     for (std::size_t first = 0, last; first < cuts_.size(); first = last) {
       for (last = first + 1; last < cuts_.size() && follows(first, last); ++last) {
       }
       meet(first, last);
     }
     find_chords();
+    if (useless && !useless_.empty()) return list(*useless);
     same_.resize(points_.size());
     std::iota(same_.begin(), same_.end(), 0);
     for (const auto& [a, b] : touching_) unite(a, b);
     sort(edge_crossings_);
+    refuse_double_cuts();
+    if (useless && !useless_.empty()) return list(*useless);
+    refuse_problems();
     find_chord_crossings();
     sort(chord_crossings_);
     link_edges();
     link_chords();
-    refuse_problems();
+    if (!useless) refuse_problems();
     Split result = trace();
+    if (useless && !useless_.empty()) return list(*useless);
     refuse_problems();
     return result;
   }
@@ -163,6 +171,19 @@ class PlanarMap {
       }
       if (chords_.size() == before) problem(index, "misses the outline", "let it run from side to side");
     }
+  }
+
+  void refuse_double_cuts() {
+    std::vector<std::array<int, 3>> ends;  // of chords, and their cuts
+    for (const Line& c : chords_) {
+      const auto [low, high] = std::minmax({same(c.from), same(c.to)});
+      ends.push_back({low, high, c.cut});
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 1; i < ends.size(); ++i)
+      if (ends[i][0] == ends[i - 1][0] && ends[i][1] == ends[i - 1][1] && ends[i][2] != ends[i - 1][2])
+        problem(ends[i][2], "cuts where cut " + std::to_string(ends[i - 1][2]) + " does",
+                "leave one of the two out");
   }
 
   // The point of an edge at which a cut crosses it.
@@ -372,6 +393,13 @@ class PlanarMap {
   double tolerance() const { return 1e-9 * size_; }
   void problem(int cut, std::string what, std::string remedy) {
     problems_.push_back({*place_ + ", cut " + std::to_string(cut), std::move(what), std::move(remedy)});
+    useless_.push_back(cut);
+  }
+  Split list(std::vector<int>& useless) {
+    std::sort(useless_.begin(), useless_.end());
+    useless_.erase(std::unique(useless_.begin(), useless_.end()), useless_.end());
+    useless = useless_;
+    return {};
   }
   void refuse_problems() {
     if (!problems_.empty()) throw InvalidInput(std::move(problems_));
@@ -380,6 +408,7 @@ class PlanarMap {
   std::span<const Cut> cuts_;
   const std::string* place_ = nullptr;
   std::vector<Problem> problems_;
+  std::vector<int> useless_;  // the cuts that they are about
   double size_ = 0;
   std::vector<Point>
       points_;  // the rings' vertices, then where cuts cross edges, then where they cross each other
@@ -404,8 +433,9 @@ struct Splitter::Workspace {
 Splitter::Splitter() : workspace_(std::make_unique<Workspace>()) {}
 Splitter::~Splitter() = default;
 
-Split Splitter::split(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
-  return workspace_->map.run(outline, cuts, place);
+Split Splitter::split(const Outline& outline, std::span<const Cut> cuts, const std::string& place,
+                      std::vector<int>* useless) {
+  return workspace_->map.run(outline, cuts, place, useless);
 }
 
 int locate(const Ring& ring, Point point) {

@@ -37,8 +37,10 @@ class Splitter {
   /// Vertices within 1e-9 of the outline's size of a cut lie on it. Two neighbours share the very coordinates
   /// of their interval, so that the areas of the pieces add up to the outline's but for the rounding of the
   /// new points. Throws InvalidInput, whose problems begin with `place`, where a cut misses the outline, ends
-  /// inside it, or does not separate anything.
-  Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place);
+  /// inside it, or does not separate anything; with `useless`, such cuts are listed there instead, and the
+  /// result is empty.
+  Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place,
+              std::vector<int>* useless = nullptr);
 
  private:
   struct Workspace;

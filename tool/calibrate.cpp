@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::string scene, to, out;
   std::vector<std::string> pictures;
-  double target_error = 0;
+  std::optional<double> target_error;
   bool json = false;
 };
 
@@ -103,6 +103,13 @@ std::string table(const Plan& plan, const std::string& scene) {
                         shown(joint.M_reverse), shown(joint.max_rotation), joint.governed_by + 1);
   }
   text += '\n';
+  for (const SplitError& split : plan.split_errors) {
+    const auto pieces = std::count_if(plan.pieces.begin(), plan.pieces.end(),
+                                      [&](const Piece& piece) { return piece.body == split.body; });
+    text += fmt::format("{}: {} pieces, displacement error {:.2g} %, governed by {}\n",
+                        plan.bodies[static_cast<std::size_t>(split.body)].name, pieces, 100 * split.error,
+                        split.governed_by);
+  }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
     text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
   for (const LeftOut& item : plan.left_out) {
@@ -132,8 +139,7 @@ std::string definitions_of(const Plan& plan, const Options& options) {
 }
 
 std::string run(const Options& options) {
-  if (options.target_error > 0) throw NotYet("--target-error");
-  const Plan plan = plan_of(options.scene);
+  const Plan plan = plan_of(options.scene, options.target_error);
   const std::string definitions = in_file(options.scene, [&] { return definitions_of(plan, options); });
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
@@ -154,8 +160,11 @@ void add_calibrate(CLI::App& app, std::string& output) {
   command->add_option("SCENE", options->scene, "scene file")->required();
   command->add_option("--to", options->to, "print definitions: json, box2d, cpp or rube")
       ->check(CLI::IsMember({"json", "box2d", "cpp", "rube"}));
-  command->add_option("--target-error", options->target_error, "relative displacement error that may be")
-      ->check(finite(0, true));
+  command
+      ->add_option("--target-error", options->target_error,
+                   "relative displacement error of automatic splits (0.01)")
+      ->check(finite(0, true))
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--out", options->out,
                       "write the definitions to this file (json if --to is not given)");
   add_picture(command, options->pictures, "draw pieces, cuts and joints by plastic moment");

@@ -10,11 +10,9 @@
 
 namespace ductile::tool {
 
-Plan plan_of(const std::string& scene_file) {
-  const SceneDef scene = read_scene(scene_file);
-  for (const BodyDef& body : scene.bodies) {
-    if (body.automatic) throw NotYet(R"("split": "auto")");
-  }
+Plan plan_of(const std::string& scene_file, std::optional<double> target_error) {
+  SceneDef scene = read_scene(scene_file);
+  if (target_error) scene.target_error = *target_error;
   return in_file(scene_file, [&] { return calibrate(scene); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -28,8 +29,9 @@ struct NotYet : std::runtime_error {
   explicit NotYet(const std::string& what) : std::runtime_error(what + " is not there yet") {}
 };
 
-/// The plan of a scene file; what is wrong with the scene is said of that file.
-Plan plan_of(const std::string& scene_file);
+/// The plan of a scene file, with another target error for its automatic splits if one is given; what is
+/// wrong with the scene is said of that file.
+Plan plan_of(const std::string& scene_file, std::optional<double> target_error = std::nullopt);
 
 /// Runs `work`; what is wrong with its input is reported as being in `file`.
 template <class Work>

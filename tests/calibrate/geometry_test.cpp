@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
-#include <random>
 
 #include "convex.h"
 #include "ductile/box2d.h"
 #include "moments.h"
 #include "plane.h"
+#include "random_outlines.h"
 #include "scenes.h"
 #include "split.h"
 
@@ -162,85 +161,12 @@ TEST(ConvexParts, FewForPlainShapes) {
   EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
 }
 
-// --- random outlines ---
-
-using Random = std::mt19937_64;
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-// A ring around a point, star-shaped from it.
-Ring star(Random& random, Point centre, double inner, double outer, int n) {
-  std::vector<double> angles;
-  for (int i = 0; i < n; ++i) angles.push_back((i + uniform(random, 0.05, 0.95)) * 2 * std::numbers::pi / n);
-  Ring ring;
-  for (const double a : angles) {
-    const double r = uniform(random, inner, outer);
-    ring.push_back({centre.x + r * std::cos(a), centre.y + r * std::sin(a)});
-  }
-  if (random() % 2) std::reverse(ring.begin(), ring.end());
-  return ring;
-}
-
-// Stars with star-shaped holes, some stretched to slivers, on coarse grids (so that much is collinear), far
-// from the origin, large or small.
-Outline random_outline(Random& random) {
-  const int n = 3 + static_cast<int>(random() % 40);
-  Outline outline{star(random, {}, 0.5, random() % 2 ? 0.6 : 3, std::max(n, 12)), {}};
-  const int holes = static_cast<int>(random() % 5);
-  for (int i = 0; i < holes; ++i) {
-    const Point c{-0.3 + 0.15 * i, uniform(random, -0.1, 0.1)};
-    outline.holes.push_back(star(random, c, 0.02, 0.07, 3 + static_cast<int>(random() % 12)));
-  }
-  const double stretch = random() % 3 ? 1 : std::pow(10, uniform(random, -3, 0)),
-               angle = uniform(random, 0, 7);
-  const double size = std::pow(10, uniform(random, -1, 3));
-  const Point at =
-      random() % 3 ? Point{} : Point{uniform(random, -1e3, 1e3) * size, uniform(random, -1e3, 1e3) * size};
-  const auto place = [&](Ring& ring) {
-    for (Point& p : ring) {
-      const Point q{size * p.x, size * stretch * p.y};
-      p = at + std::cos(angle) * q + std::sin(angle) * left(q);
-    }
-  };
-  place(outline.outer);
-  for (Ring& hole : outline.holes) place(hole);
-  return outline;
-}
-
-std::vector<Cut> random_cuts(Random& random, const Outline& outline) {
-  // Through pairs of points of the outline (vertices, so that cuts meet them exactly, or middles),
-  // lengthened.
-  std::vector<Point> points = outline.outer;
-  for (const Ring& hole : outline.holes) points.insert(points.end(), hole.begin(), hole.end());
-  std::vector<Cut> cuts;
-  const int n = static_cast<int>(random() % 6);
-  const Point along = points[random() % points.size()] - points[random() % points.size()];
-  for (int i = 0; i < n; ++i) {
-    const Point p = middle(points[random() % points.size()], points[random() % points.size()]);
-    Point d =
-        random() % 2 ? left(along) : points[random() % points.size()] - points[random() % points.size()];
-    if (!(length(d) > 0)) continue;
-    Point low = points[0], high = low;
-    for (const Point& q : points)
-      low = {std::min(low.x, q.x), std::min(low.y, q.y)},
-      high = {std::max(high.x, q.x), std::max(high.y, q.y)};
-    d = 2 * length(high - low) * unit(d);
-    cuts.push_back({p - d, p + d});
-  }
-  return cuts;
-}
-
-int rounds(int few) {
-  const char* text = std::getenv("DUCTILE_ROUNDS");
-  return text ? std::atoi(text) : few;
-}
-
 TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
   for (int seed = 0, n = rounds(3000); seed < n && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
     const Outline outline = random_outline(random);
+    if (!validate(outline).empty()) continue;
     std::vector<Cut> cuts = random_cuts(random, outline);
     const AreaMoments whole = moments(outline);
     Split s;
@@ -277,6 +203,45 @@ TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
       }
     }
   }
+}
+
+// Whatever Box2D takes whole, it takes in the pieces that it is split into, and they are as much.
+TEST(Fuzz, AutomaticPiecesAreForBox2D) {
+  int split = 0;
+  for (int seed = 0, n = rounds(3000); seed < n && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const Outline outline = random_outline(random);
+    if (!validate(outline).empty()) continue;
+    BodyDef body{.outline = outline, .material = test_steel};
+    const Piece whole = calibrate(body).pieces[0];
+    body.automatic = true;
+    SceneDef scene;
+    scene.target_error = std::pow(10, uniform(random, -3, -0.5));
+    scene.bodies = {body};
+    const Plan plan = calibrate(scene);
+    split += plan.pieces.size() > 1;
+    double mass = 0;
+    bool taken = true;
+    try {
+      shapes(whole);
+    } catch (const InvalidInput&) {
+      taken = false;
+    }
+    for (const Piece& piece : plan.pieces) {
+      mass += piece.mass;
+      EXPECT_GT(piece.inertia, 0);
+      if (!taken) continue;
+      for (const b2PolygonShape& shape : shapes(piece)) EXPECT_TRUE(shape.Validate());
+    }
+    double coordinate = 0;
+    for (const Point& p : outline.outer) coordinate = std::max(coordinate, length(p));
+    const double rounding = 2.2e-16 * coordinate * length(outline.outer[0] - whole.center) *
+                            static_cast<double>(plan.pieces.size());
+    EXPECT_NEAR(mass, whole.mass, 1e-12 * whole.mass + rounding * 7800);
+    for (const PlannedJoint& joint : plan.joints) EXPECT_GT(joint.stiffness.M, 0);
+  }
+  EXPECT_GT(split, rounds(3000) / 4);
 }
 
 }  // namespace

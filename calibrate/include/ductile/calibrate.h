@@ -59,7 +59,7 @@ struct BodyDef {
                                  ///< `cuts`, in the outline's own coordinates
   std::vector<std::array<Point, 2>>
       cuts;                     ///< explicit cuts instead: segments that leave the outline at both ends
-  bool automatic = false;       ///< split: number and place of the cuts from the target error
+  bool automatic = false;       ///< split: number and place of the cuts from SceneDef::target_error
   JointOverrides joint;         ///< for the joints inside this body
   Point at;                     ///< m: where the outline's origin is placed
   double angle = 0;             ///< rad
@@ -103,10 +103,11 @@ struct WheelDef {
 
 struct SceneDef {
   Point gravity{0, -9.81};
-  double gravity_ramp = 0;   ///< s over which gravity grows linearly
-  bool sleep = false;        ///< may Box2D put bodies to sleep
-  bool interaction = false;  ///< N–M–Q yield surface instead of independent caps
-  JointOverrides joint;      ///< for all joints
+  double gravity_ramp = 0;     ///< s over which gravity grows linearly
+  bool sleep = false;          ///< may Box2D put bodies to sleep
+  bool interaction = false;    ///< N–M–Q yield surface instead of independent caps
+  JointOverrides joint;        ///< for all joints
+  double target_error = 0.01;  ///< relative displacement error that automatic splits may bring, in (0, 1)
   std::vector<BodyDef> bodies;
   std::vector<JointBetweenDef> joints;
   std::vector<SupportDef> supports;
@@ -151,6 +152,13 @@ struct PlannedJoint {
   bool hold = false;        ///< JointOverrides::hold
 };
 
+/// What an automatic split came to.
+struct SplitError {
+  int body = 0;             ///< index into Plan::bodies
+  double error = 0;         ///< estimated relative displacement error under the body's own weight
+  std::string governed_by;  ///< "target error", or what kept it from being reached
+};
+
 /// What was left out of a plan, with the error it brings and the time it saves.
 struct LeftOut {
   std::string what;
@@ -164,9 +172,10 @@ struct Plan {
   Point gravity;
   double gravity_ramp = 0;
   bool sleep = false, interaction = false;
-  std::vector<BodyDef> bodies;       ///< as given
-  std::vector<Piece> pieces;         ///< in the order of the bodies, then along the split
-  std::vector<PlannedJoint> joints;  ///< inside bodies, between bodies, supports
+  std::vector<BodyDef> bodies;           ///< as given
+  std::vector<Piece> pieces;             ///< in the order of the bodies, then along the split
+  std::vector<PlannedJoint> joints;      ///< inside bodies, between bodies, supports
+  std::vector<SplitError> split_errors;  ///< of the bodies that are split automatically
   std::vector<std::string> reasons;  ///< which input set each value: "N, Nc, Q: section of beam; M: joint; …"
   struct Load {
     int piece = 0;

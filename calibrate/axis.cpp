@@ -1,0 +1,465 @@
+#include "axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "moments.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+// A branch that reaches no farther than so many of its widths is a corner (of 37° or more) or a bump.
+constexpr double stub = 1.5;
+// A hole with a diagonal above this many times area/perimeter of the outer ring (half the width of a strip)
+// parts the strip in two; below, it only lightens it.
+constexpr double parting = 3.5;
+// Sine of the least angle between a chord and the sides of its strip.
+constexpr double least_sine = 0.7;
+// From one station to the next, half a width on, a strip does not widen more than this.
+constexpr double widening = 1.35;
+
+double perimeter(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) sum += length(ring[(i + 1) % ring.size()] - ring[i]);
+  return sum;
+}
+
+double diagonal(const Ring& ring) {
+  Point low = ring.front(), high = low;
+  for (const Point& p : ring) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return length(high - low);
+}
+
+Outline without_small_holes(const Outline& outline) {
+  const double most = parting * std::abs(doubled_area(outline.outer)) / 2 / perimeter(outline.outer);
+  Outline result{outline.outer, {}};
+  for (const Ring& hole : outline.holes)
+    if (diagonal(hole) > most) result.holes.push_back(hole);
+  return result;
+}
+
+Point middle(const Chord& c) { return middle(c.left, c.right); }
+double width(const Chord& c) { return length(c.left - c.right); }
+Point ahead(const Chord& c) { return unit(right(c.left - c.right)); }
+Point direction(Point v) { return length(v) > 0 ? unit(v) : Point{}; }
+
+}  // namespace
+
+// The triangles as a graph, less the branches that have been taken away.
+struct Axis::Graph {
+  std::vector<int> first;                  // half-edge, by triangle
+  std::vector<int> degree;                 // neighbours left
+  std::vector<bool> alive;                 // by half-edge: its triangle and the one beyond are both there
+  std::vector<std::vector<Point>> beyond;  // by triangle: the farthest corners of branches taken away
+  std::vector<int> node;                   // by triangle
+};
+
+struct Axis::Walk {
+  int triangle, edge;  // where it ends; the boundary's half-edge, arrived or lost
+  double distance;
+};
+constexpr int arrived = -1, lost = -2;  // lost: between triangles that rounding has turned over
+
+Axis::Axis(const Outline& outline) : triangulation_(triangulate(without_small_holes(outline))) {
+  add_feet(triangulation_);
+  const std::vector<HalfEdge>& edges = triangulation_.edges;
+  const std::vector<Point>& points = triangulation_.points;
+  const int n = static_cast<int>(edges.size());
+  Graph g;
+  triangle_.assign(edges.size(), -1);
+  for (int e = 0; e < n; ++e) {
+    if (triangle_[e] >= 0) continue;
+    for (const int own : {e, edges[e].next, edges[e].previous})
+      triangle_[own] = static_cast<int>(g.first.size());
+    g.first.push_back(e);
+  }
+  g.degree.assign(g.first.size(), 0);
+  g.alive.assign(edges.size(), false);
+  g.beyond.resize(g.first.size());
+  g.node.assign(g.first.size(), -1);
+  for (int e = 0; e < n; ++e)
+    if (edges[e].twin >= 0) {
+      g.alive[e] = true;
+      ++g.degree[triangle_[e]];
+    }
+
+  const auto of = [&](int t) {
+    return std::array{g.first[t], edges[g.first[t]].next, edges[g.first[t]].previous};
+  };
+  // The half-edge by which the graph goes on from where e leads; −1 at ends and nodes.
+  const auto onward = [&](int e) {
+    const int t = triangle_[edges[e].twin];
+    if (g.degree[t] == 2)
+      for (const int next : of(t))
+        if (g.alive[next] && next != edges[e].twin) return next;
+    return -1;
+  };
+
+  // Takes away all branches that are corners or bumps, then those that have become one by that.
+  std::vector<int> ends, branch, gone;
+  for (int t = 0; t < std::ssize(g.first); ++t)
+    if (g.degree[t] == 1) ends.push_back(t);
+  while (!ends.empty()) {
+    gone.clear();
+    for (const int end : ends) {
+      branch.clear();
+      for (const int e : of(end))
+        if (g.alive[e]) branch.push_back(e);
+      if (branch.size() != 1) continue;
+      for (int e = onward(branch[0]); e >= 0; e = onward(e)) branch.push_back(e);
+      const int gate = branch.back();
+      if (g.degree[triangle_[edges[gate].twin]] < 3) continue;
+      const Point p = points[edges[gate].from], along = points[edges[edges[gate].next].from] - p;
+      double reach = 0;
+      for (const int e : branch) {
+        for (const int corner : of(triangle_[e]))
+          reach = std::max(reach, cross(along, points[edges[corner].from] - p));
+        for (const Point& q : g.beyond[triangle_[e]]) reach = std::max(reach, cross(along, q - p));
+      }
+      if (reach < stub * dot(along, along)) gone.insert(gone.end(), branch.begin(), branch.end());
+    }
+    ends.clear();
+    for (const int e : gone) {
+      const int from = triangle_[e], to = triangle_[edges[e].twin];
+      g.alive[e] = g.alive[edges[e].twin] = false;
+      --g.degree[from];
+      if (--g.degree[to] == 1) ends.push_back(to);
+      for (const int corner : of(from)) g.beyond[to].push_back(points[edges[corner].from]);
+      g.beyond[to].insert(g.beyond[to].end(), g.beyond[from].begin(), g.beyond[from].end());
+      g.beyond[from].clear();
+    }
+    std::erase_if(ends, [&](int t) { return g.degree[t] != 1; });
+  }
+
+  first_ = g.first;
+  for (int t = 0; t < std::ssize(g.first); ++t)
+    if (g.degree[t] > 2) {
+      g.node[t] = static_cast<int>(nodes.size());
+      const auto [a, b, c] = of(t);
+      nodes.push_back((1.0 / 3) * (points[edges[a].from] + points[edges[b].from] + points[edges[c].from]));
+    }
+  for (const bool at_ends : {true, false})  // first what ends, then what closes
+    for (int t = 0; t < std::ssize(g.first); ++t) {
+      if (g.degree[t] == 0 || (g.degree[t] != 2) != at_ends) continue;
+      for (const int start : of(t)) {
+        if (!g.alive[start]) continue;
+        std::vector<int> way;
+        for (int e = start; e >= 0;) {
+          way.push_back(e);
+          const int next = onward(e);
+          g.alive[e] = g.alive[edges[e].twin] = false;
+          e = next >= 0 && g.alive[next] ? next : -1;
+        }
+        add_member(way, t, triangle_[edges[way.back()].twin], g);
+      }
+    }
+  measure();
+}
+
+// Along half-edges that it crosses, from triangle to triangle.
+void Axis::add_member(const std::vector<int>& way, int first, int last, const Graph& g) {
+  const std::vector<HalfEdge>& edges = triangulation_.edges;
+  const auto middle_of = [&](int e) {
+    return middle(triangulation_.points[edges[e].from], triangulation_.points[edges[edges[e].next].from]);
+  };
+  Member m;
+  m.from = g.node[first];
+  m.to = g.node[last];
+  m.closed = first == last && m.from < 0;
+  std::vector<Step> rough;
+  for (const int e : way) rough.push_back({middle_of(e), triangle_[edges[e].twin]});
+  if (m.closed) {
+    rough.push_back(rough.front());
+  } else if (way.size() == 1) {  // two triangles: from the middles of the edges that lie across
+    const auto end = [&](int e) {
+      const Point along = points_to(e);
+      const bool next = std::abs(dot(direction(points_to(edges[e].next)), direction(along))) <
+                        std::abs(dot(direction(points_to(edges[e].previous)), direction(along)));
+      return middle_of(next ? edges[e].next : edges[e].previous);
+    };
+    rough = {{end(way[0]), first}, {middle_of(way[0]), last}, {end(edges[way[0]].twin), last}};
+  }
+  const double apart = find_stations(m, rough);
+  if (m.stations.empty()) return;
+  drop_wide_ends(m);
+  extend(m, apart);
+  members.push_back(std::move(m));
+}
+
+Point Axis::points_to(int e) const {
+  return triangulation_.points[triangulation_.edges[triangulation_.edges[e].next].from] -
+         triangulation_.points[triangulation_.edges[e].from];
+}
+
+// Chords across a rough line, half a width apart, then again across the line of their middles. Returns how
+// far they are apart.
+double Axis::find_stations(Member& m, const std::vector<Step>& rough) const {
+  double extent = 0;
+  for (std::size_t i = 1; i < rough.size(); ++i) extent += length(rough[i].at - rough[i - 1].at);
+  struct Guess {
+    Step step;
+    Point along;
+    std::optional<Member::Station> found;
+  };
+  const auto guesses = [&](int n) {
+    std::vector<Guess> result;
+    double passed = 0;
+    std::size_t leg = 1;
+    for (int i = 0; i < n; ++i) {
+      const double s = extent * (i + 0.5) / n;
+      while (leg + 1 < rough.size() && passed + length(rough[leg].at - rough[leg - 1].at) < s) {
+        passed += length(rough[leg].at - rough[leg - 1].at);
+        ++leg;
+      }
+      const Point along = direction(rough[leg].at - rough[leg - 1].at);
+      Guess g{{rough[leg - 1].at + (s - passed) * along, rough[leg - 1].triangle}, along, std::nullopt};
+      g.found = chord_at(g.step, along);
+      if (g.found && length(middle(g.found->chord) - g.step.at) > 0.75 * width(g.found->chord))
+        g.found.reset();
+      result.push_back(g);
+    }
+    return result;
+  };
+  std::vector<double> widths;
+  if (extent > 0)
+    for (const Guess& g : guesses(8))
+      if (g.found) widths.push_back(width(g.found->chord));
+  if (widths.empty()) return 0;
+  const auto half = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), half, widths.end());
+  const int n = static_cast<int>(std::clamp(std::ceil(2 * extent / *half), 8.0, 256.0));
+
+  const std::vector<Guess> list = guesses(n);
+  for (int i = 0; i < n; ++i) {
+    const Guess& g = list[i];
+    if (!g.found) continue;
+    const Guess *last = i > 0      ? &list[i - 1]
+                        : m.closed ? &list[n - 1]
+                                   : nullptr,
+                *next = i + 1 < n  ? &list[i + 1]
+                        : m.closed ? &list[0]
+                                   : nullptr;
+    const Point along = last && next && last->found && next->found
+                            ? direction(middle(next->found->chord) - middle(last->found->chord))
+                            : ahead(g.found->chord);
+    if (dot(along, g.along) <= 0) continue;
+    auto found = chord_at({middle(g.found->chord), g.found->triangle}, along);
+    if (!found || width(found->chord) > 3 * *half) continue;
+    if (!m.stations.empty()) {
+      const Member::Station& before = m.stations.back();
+      if (!is_after(*found, before)) continue;
+      found->follows =
+          length(middle(found->chord) - middle(before.chord)) < 2.2 * extent / n && follows(*found, before);
+    }
+    m.stations.push_back(*found);
+  }
+  return extent / n;
+}
+
+// A node widens and turns what it touches: the last stations before it are those like the ones before.
+void Axis::drop_wide_ends(Member& m) const {
+  const auto wide = [](auto begin, auto end) {
+    auto cut = begin;
+    for (auto i = begin; i != end && i + 1 != end && i - begin < 4; ++i)
+      if (width(i->chord) > widening * width((i + 1)->chord) ||
+          dot(ahead(i->chord), ahead((i + 1)->chord)) < 0.75)
+        cut = i + 1;
+    return cut - begin;
+  };
+  std::vector<Member::Station>& all = m.stations;
+  if (m.to >= 0) all.resize(all.size() - static_cast<std::size_t>(wide(all.rbegin(), all.rend())));
+  if (m.from >= 0) all.erase(all.begin(), all.begin() + wide(all.begin(), all.end()));
+}
+
+// Further stations where none follows: before and after corners, nodes and ends, as far as chords go.
+void Axis::extend(Member& m, double apart) const {
+  std::vector<Member::Station> result;
+  const std::size_t n = m.stations.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Member::Station station = m.stations[i];
+    const bool starts = i == 0 ? !m.closed : !station.follows;
+    if (starts) {
+      std::vector<Member::Station> before =
+          march(station, -1, apart, i > 0 ? &m.stations[i - 1] : nullptr, m.from);
+      // What both sides of a gap reach is the side's that came first.
+      while (!before.empty() && !result.empty() && !is_after(before.back(), result.back())) before.pop_back();
+      if (!before.empty()) {
+        station.follows = true;
+        std::reverse(before.begin(), before.end());
+        for (Member::Station& s : before) s.follows = &s != before.data();
+        result.insert(result.end(), before.begin(), before.end());
+      }
+    }
+    result.push_back(station);
+    const bool stops = i + 1 < n ? !m.stations[i + 1].follows : !m.closed;
+    if (stops)
+      for (Member::Station& s : march(station, 1, apart, i + 1 < n ? &m.stations[i + 1] : nullptr, m.to)) {
+        s.follows = true;
+        result.push_back(s);
+      }
+  }
+  m.stations = std::move(result);
+}
+
+// Step by step from a station, sign −1: backwards, up to the next station where there is one, or a node.
+std::vector<Member::Station> Axis::march(Member::Station from, double sign, double apart,
+                                         const Member::Station* up_to, int node) const {
+  std::vector<Member::Station> result;
+  for (double step = apart; step > apart / 64;) {
+    const Point base = middle(from.chord), along = ahead(from.chord);
+    const Walk way = walk(from.triangle, base, sign * along, step);
+    auto found =
+        way.edge == arrived ? chord_at({base + sign * step * along, way.triangle}, along) : std::nullopt;
+    const auto in_order = [&](const Member::Station& a, const Member::Station& b) {
+      return sign > 0 ? is_after(a, b) : is_after(b, a);
+    };
+    if (found && in_order(*found, from) && follows(*found, from, sign) &&
+        (!up_to || in_order(*up_to, *found)) &&
+        (up_to || node < 0 || sign * dot(nodes[node] - middle(found->chord), ahead(found->chord)) > 0) &&
+        result.size() < 64) {
+      from = *found;
+      result.push_back(from);
+      if (step < apart) step /= 2;
+    } else {
+      step /= 2;
+    }
+  }
+  return result;
+}
+
+bool Axis::is_after(const Member::Station& a, const Member::Station& b) {
+  const Point step = middle(a.chord) - middle(b.chord);
+  return dot(step, ahead(a.chord)) > 0 && dot(step, ahead(b.chord)) > 0;
+}
+
+// Is a part of the same strip as b, with both its sides beyond it (sign −1: before it)?
+bool Axis::follows(const Member::Station& a, const Member::Station& b, double sign) {
+  const double ratio = width(a.chord) / width(b.chord);
+  const Point on = sign * ahead(b.chord);
+  return ratio < widening && ratio > 1 / widening && dot(a.chord.left - b.chord.left, on) > 0 &&
+         dot(a.chord.right - b.chord.right, on) > 0;
+}
+
+// Where members begin and end, and how long they are.
+void Axis::measure() {
+  // A node is in the middle of the faces of its members.
+  std::vector<Point> sum(nodes.size());
+  std::vector<int> count(nodes.size());
+  const auto add = [&](int node, const Member::Station& face) {
+    if (node < 0) return;
+    sum[node] = sum[node] + middle(face.chord);
+    ++count[node];
+  };
+  for (const Member& m : members) {
+    add(m.from, m.stations.front());
+    add(m.to, m.stations.back());
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (count[i] > 1) nodes[i] = (1.0 / count[i]) * sum[i];
+
+  const auto beyond = [&](const Member::Station& s, double sign) {
+    const Point at = middle(s.chord), on = sign * ahead(s.chord);
+    return at + walk(s.triangle, at, on, std::numeric_limits<double>::infinity()).distance * on;
+  };
+  for (Member& m : members) {
+    m.start = m.from >= 0 ? nodes[m.from]
+              : m.closed  ? middle(m.stations.front().chord)
+                          : beyond(m.stations.front(), -1);
+    m.end = m.to >= 0 ? nodes[m.to] : m.closed ? m.start : beyond(m.stations.back(), 1);
+    Point at = m.start;
+    for (Member::Station& s : m.stations) {
+      m.length += length(middle(s.chord) - at);
+      s.s = m.length;
+      at = middle(s.chord);
+    }
+    m.length += length(m.end - at);
+  }
+}
+
+Member::Station Axis::at(const Member& m, double s) const {
+  const auto after = std::lower_bound(m.stations.begin(), m.stations.end(), s,
+                                      [](const Member::Station& x, double value) { return x.s < value; });
+  if (after == m.stations.end()) return m.stations.back();
+  if (after == m.stations.begin()) return m.stations.front();
+  const Member::Station &a = *(after - 1), &b = *after, &nearest = s - a.s < b.s - s ? a : b;
+  if (!b.follows) return nearest;
+  const double share = (s - a.s) / (b.s - a.s);
+  const Point from = middle(a.chord), along = middle(b.chord) - from;
+  const Walk way = walk(a.triangle, from, direction(along), share * length(along));
+  if (way.edge != arrived) return nearest;
+  auto found = chord_at({from + share * along, way.triangle}, direction(along));
+  const double most = 1.5 * std::max(width(a.chord), width(b.chord));
+  if (!found || width(found->chord) > most) return nearest;
+  found->s = std::clamp(a.s + dot(middle(found->chord) - from, direction(along)), a.s, b.s);
+  return *found;
+}
+
+// The chord through a point in a triangle, along being about the strip's direction there.
+std::optional<Member::Station> Axis::chord_at(Step start, Point along) const {
+  const auto [at, triangle] = start;
+  const std::vector<HalfEdge>& edges = triangulation_.edges;
+  const auto side = [&](const Walk& w) {
+    return direction(triangulation_.points[edges[edges[w.edge].next].from] -
+                     triangulation_.points[edges[w.edge].from]);
+  };
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  Point u = along;
+  for (int turn = 0;; ++turn) {
+    const Walk l = walk(triangle, at, left(u), everything), r = walk(triangle, at, right(u), everything);
+    if (l.edge < 0 || r.edge < 0) return std::nullopt;
+    // The material lies left of both sides: they run forward on the right and backward on the left.
+    const Point both = side(r) - side(l);
+    if (length(both) < 1) return std::nullopt;
+    const Point better = unit(both);
+    if (turn < 3 && dot(better, along) > 0.6 && std::abs(cross(better, u)) > 1e-9) {
+      u = better;
+      continue;
+    }
+    if (dot(better, u) < 0.95) return std::nullopt;  // from a corner to another side
+    if (std::min(std::abs(dot(side(l), u)), std::abs(dot(side(r), u))) < least_sine) return std::nullopt;
+    Member::Station result;
+    result.chord = {at + l.distance * left(u), at + r.distance * right(u)};
+    if (!(l.distance + r.distance > 0)) return std::nullopt;
+    const double off = (l.distance - r.distance) / 2;
+    const Walk to_middle = walk(triangle, at, off > 0 ? left(u) : right(u), std::abs(off));
+    if (to_middle.edge != arrived) return std::nullopt;
+    result.triangle = to_middle.triangle;
+    return result;
+  }
+}
+
+// Straight on through triangles, as far as `most` or to the boundary.
+Axis::Walk Axis::walk(int triangle, Point from, Point direction, double most) const {
+  const std::vector<HalfEdge>& edges = triangulation_.edges;
+  const std::vector<Point>& points = triangulation_.points;
+  Walk result{triangle, arrived, most};
+  int entered = -1;
+  // The half-edge of the triangle by which the line leaves it.
+  for (std::size_t budget = edges.size(); budget > 0; --budget) {
+    int leaves = -1;
+    double distance = -1;
+    int e = entered >= 0 ? edges[entered].next : first_[result.triangle];
+    for (int k = entered >= 0 ? 2 : 3; k > 0; --k, e = edges[e].next) {
+      const Point a = points[edges[e].from] - from, b = points[edges[edges[e].next].from] - from;
+      const double right_of = cross(direction, a), left_of = cross(direction, b);
+      if (right_of > 0 || left_of < 0 || left_of - right_of <= 0) continue;
+      const double d = cross(a, b - a) / cross(direction, b - a);
+      if (leaves < 0 || d > distance) leaves = e, distance = d;
+    }
+    if (leaves < 0) return {result.triangle, lost, 0};
+    if (distance >= most) return {result.triangle, arrived, most};
+    if (edges[leaves].twin < 0) return {result.triangle, leaves, std::max(distance, 0.0)};
+    entered = edges[leaves].twin;
+    result.triangle = triangle_[entered];
+  }
+  return {result.triangle, lost, 0};
+}
+
+}  // namespace ductile

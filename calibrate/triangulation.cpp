@@ -1,0 +1,305 @@
+#include "triangulation.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "moments.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+void make_twins(std::vector<HalfEdge>& edges, int a, int b) {
+  edges[a].twin = b;
+  edges[b].twin = a;
+}
+
+// Triangles of an outline: holes are joined to the outer ring by bridges, then ears are cut off.
+class EarClipping {
+ public:
+  explicit EarClipping(const Outline& outline) {
+    const int outer = add_ring(outline.outer, false);
+    std::vector<int> holes;
+    for (const Ring& hole : outline.holes)
+      if (const int node = add_ring(hole, true); node >= 0) holes.push_back(rightmost(node));
+    if (outer < 0) return;
+    // From right to left, so that what a hole is joined to is joined already.
+    std::sort(holes.begin(), holes.end(), [&](int a, int b) { return at(a).x > at(b).x; });
+    for (const int hole : holes) bridge(outer, hole);
+    clip(outer);
+  }
+
+  std::vector<Point>& points() { return points_; }
+  std::vector<HalfEdge>& triangles() { return triangles_; }  // three half-edges each
+
+ private:
+  struct Node {
+    int point, previous, next;
+    int beyond =
+        -1;  // what is on the other side of the edge to the next node: nothing, a half-edge, or bridge −2 − i
+  };
+
+  Point at(int node) const { return points_[nodes_[node].point]; }
+  int previous(int node) const { return nodes_[node].previous; }
+  int next(int node) const { return nodes_[node].next; }
+
+  // A linked ring; returns one of its nodes, or −1.
+  int add_ring(const Ring& ring, bool clockwise) {
+    const bool reverse = (doubled_area(ring) < 0) != clockwise;
+    const int first = static_cast<int>(nodes_.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point p = ring[reverse ? ring.size() - 1 - i : i];
+      if (static_cast<int>(nodes_.size()) > first && p == points_.back()) continue;
+      const int node = static_cast<int>(nodes_.size());
+      nodes_.push_back({static_cast<int>(points_.size()), node - 1, node + 1});
+      points_.push_back(p);
+    }
+    while (static_cast<int>(nodes_.size()) > first + 1 && points_.back() == at(first)) {
+      nodes_.pop_back();
+      points_.pop_back();
+    }
+    const int last = static_cast<int>(nodes_.size()) - 1;
+    if (last < first) return -1;
+    nodes_[first].previous = last;
+    nodes_[last].next = first;
+    return first;
+  }
+
+  int rightmost(int start) const {
+    int best = start;
+    for (int node = next(start); node != start; node = next(node))
+      if (at(node).x > at(best).x || (at(node).x == at(best).x && at(node).y < at(best).y)) best = node;
+    return best;
+  }
+
+  // Joins a hole's rightmost node to a node of the outer ring that it sees (Eberly, "Triangulation by Ear
+  // Clipping", §3): the nearer end of the first edge to its right, or what lies between.
+  void bridge(int outer, int hole) {
+    const Point m = at(hole);
+    double nearest = std::numeric_limits<double>::infinity();
+    int seen = -1;
+    int node = outer;
+    do {
+      const Point p = at(node), q = at(next(node));
+      if (p.y <= m.y && m.y <= q.y && p.y < q.y && orientation(p, q, m) >= 0) {
+        const double x = std::max(m.x, p.x + (m.y - p.y) / (q.y - p.y) * (q.x - p.x));
+        if (x < nearest) {
+          nearest = x;
+          seen = q.y == m.y || (p.y != m.y && q.x > p.x) ? next(node) : node;
+        }
+      }
+      node = next(node);
+    } while (node != outer);
+    if (seen < 0) return;  // not inside: rings that rounding has pushed across each other
+
+    // A node in the triangle of m, the point hit and the edge's end hides that end; of these, the one at the
+    // least angle to the ray, then the nearest, is seen.
+    const Point hit{nearest, m.y};
+    const Point end = at(seen);
+    double least = std::numeric_limits<double>::infinity();
+    Point best = end;
+    node = outer;
+    do {
+      const Point p = at(node);
+      const bool above = end.y >= m.y;
+      const bool in = p.x >= m.x && p != m &&
+                      (above ? p.y >= m.y && orientation(m, end, p) <= 0 && orientation(hit, end, p) >= 0
+                             : p.y <= m.y && orientation(m, end, p) >= 0 && orientation(hit, end, p) <= 0);
+      if ((in || p == end || p == m) && sees(node, m)) {
+        const double slope = p == m ? -1 : std::abs(p.y - m.y) / (p.x - m.x);
+        if (slope < least || (slope == least && length(p - m) < length(best - m))) {
+          least = slope;
+          best = p;
+          seen = node;
+        }
+      }
+      node = next(node);
+    } while (node != outer);
+
+    const int seen2 = static_cast<int>(nodes_.size()), hole2 = seen2 + 1;
+    const int bridge = -2 - static_cast<int>(bridges_.size());
+    bridges_.push_back(-1);
+    nodes_.push_back({nodes_[seen].point, hole2, next(seen), nodes_[seen].beyond});
+    nodes_.push_back({nodes_[hole].point, previous(hole), seen2, bridge});
+    nodes_[seen].beyond = bridge;
+    nodes_[next(seen)].previous = seen2;
+    nodes_[previous(hole)].next = hole2;
+    nodes_[seen].next = hole;
+    nodes_[hole].previous = seen;
+  }
+
+  // Does the wedge of material at a node open towards a point? Straight on counts, so does the node itself.
+  bool sees(int node, Point target) const {
+    const Point p = at(node), before = at(previous(node)), after = at(next(node));
+    if (p == target) return true;
+    if (orientation(before, p, after) <= 0)
+      return !(orientation(p, before, target) > 0 && orientation(after, p, target) > 0);
+    const int side = orientation(before, p, target);
+    return orientation(p, after, target) > 0 && (side > 0 || (side == 0 && dot(p - before, target - p) > 0));
+  }
+
+  void clip(int start) {
+    int node = start, tried = 0;
+    for (int left = count(start); left > 3;) {
+      const int side = orientation(at(previous(node)), at(node), at(next(node)));
+      // A vertex in the middle of a straight edge of the outline is not needed; between triangles it is, so
+      // that they stay neighbours.
+      const bool idle = side == 0 && nodes_[previous(node)].beyond == -1 && nodes_[node].beyond == -1;
+      if (idle || (side > 0 && is_ear(node)) || tried > left) {
+        nodes_[previous(node)].beyond = side > 0 ? add_triangle(node) : -1;
+        nodes_[previous(node)].next = next(node);
+        nodes_[next(node)].previous = previous(node);
+        --left;
+        tried = 0;
+        node = next(next(node));  // every other, which fans less
+      } else {
+        ++tried;
+        node = next(node);
+      }
+      start = node;
+    }
+    if (orientation(at(previous(start)), at(start), at(next(start))) > 0)
+      attach(add_triangle(start), nodes_[next(start)].beyond);
+  }
+
+  int count(int start) const {
+    int n = 1;
+    for (int node = next(start); node != start; node = next(node)) ++n;
+    return n;
+  }
+
+  // The triangle of a node and its neighbours; returns its half-edge back from the next to the previous.
+  int add_triangle(int node) {
+    const int before = previous(node), e = static_cast<int>(triangles_.size());
+    triangles_.push_back({nodes_[before].point, e + 1, e + 2, -1});
+    triangles_.push_back({nodes_[node].point, e + 2, e, -1});
+    triangles_.push_back({nodes_[next(node)].point, e, e + 1, -1});
+    attach(e, nodes_[before].beyond);
+    attach(e + 1, nodes_[node].beyond);
+    return e + 2;
+  }
+
+  void attach(int edge, int beyond) {
+    if (beyond >= 0) {
+      make_twins(triangles_, edge, beyond);
+    } else if (beyond < -1) {  // a bridge: its first side waits for the second
+      int& other = bridges_[-2 - beyond];
+      if (other >= 0)
+        make_twins(triangles_, edge, other);
+      else
+        other = edge;
+    }
+  }
+
+  // No other corner of what is left lies in the triangle, and its third side runs inside.
+  bool is_ear(int node) const {
+    const int before = previous(node), after = next(node);
+    const Point a = at(before), b = at(node), c = at(after);
+    if (!sees(before, c) || !sees(after, a)) return false;
+    for (int other = next(after); other != before; other = next(other)) {
+      const Point p = at(other);
+      if (p == a || p == b || p == c) continue;
+      if (orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0) return false;
+    }
+    return true;
+  }
+
+  std::vector<Point> points_;
+  std::vector<Node> nodes_;
+  std::vector<int> bridges_;
+  std::vector<HalfEdge> triangles_;
+};
+
+// Makes the fattest triangles that these vertices allow.
+class Delaunay {
+ public:
+  explicit Delaunay(Triangulation& triangulation)
+      : points_(triangulation.points), edges_(triangulation.edges) {}
+
+  // Lawson's flips; their number is bounded in case rounding makes them go in circles.
+  void run() {
+    std::vector<int> suspects;
+    for (int e = 0; e < size(); ++e)
+      if (e < edges_[e].twin) suspects.push_back(e);
+    for (int budget = 20 * size(); !suspects.empty() && budget > 0; --budget) {
+      const int e = suspects.back(), f = edges_[e].twin;
+      suspects.pop_back();
+      if (f < 0) continue;
+      const int a = from(e), b = from(f), c = from(edges_[e].previous), d = from(edges_[f].previous);
+      if (!in_circle(a, b, c, d) || turn(d, b, c) <= 0 || turn(c, a, d) <= 0) continue;
+      // a→b becomes d→c: triangles c a d and d b c.
+      const int bc = edges_[e].next, ca = edges_[e].previous, ad = edges_[f].next, db = edges_[f].previous;
+      edges_[e].from = d;
+      edges_[f].from = c;
+      link(e, ca, ad);
+      link(f, db, bc);
+      for (const int outer : {bc, ca, ad, db})
+        if (edges_[outer].twin >= 0) suspects.push_back(outer);
+    }
+  }
+
+ private:
+  int size() const { return static_cast<int>(edges_.size()); }
+  int from(int e) const { return edges_[e].from; }
+  int turn(int a, int b, int c) const { return orientation(points_[a], points_[b], points_[c]); }
+  // Makes a triangle of three half-edges.
+  void link(int a, int b, int c) {
+    edges_[a].next = edges_[c].previous = b;
+    edges_[b].next = edges_[a].previous = c;
+    edges_[c].next = edges_[b].previous = a;
+  }
+
+  // Is d inside the circle through a, b, c (counter-clockwise)?
+  bool in_circle(int a, int b, int c, int d) const {
+    const Point p = points_[a] - points_[d], q = points_[b] - points_[d], r = points_[c] - points_[d];
+    const double one = dot(p, p) * cross(q, r), two = dot(q, q) * cross(r, p),
+                 three = dot(r, r) * cross(p, q);
+    return one + two + three > 1e-12 * (std::abs(one) + std::abs(two) + std::abs(three));
+  }
+
+  const std::vector<Point>& points_;
+  std::vector<HalfEdge>& edges_;
+};
+
+}  // namespace
+
+Triangulation triangulate(const Outline& outline) {
+  EarClipping ears(outline);
+  Triangulation result{std::move(ears.points()), std::move(ears.triangles())};
+  Delaunay(result).run();
+  return result;
+}
+
+void add_feet(Triangulation& triangulation) {
+  std::vector<HalfEdge>& edges = triangulation.edges;
+  std::vector<Point>& points = triangulation.points;
+  for (int pass = 0; pass < 3; ++pass) {
+    const std::size_t before = edges.size();
+    for (int e = 0; e < static_cast<int>(before); ++e) {
+      if (edges[e].twin >= 0) continue;
+      const int next = edges[e].next, previous = edges[e].previous;
+      const Point a = points[edges[e].from], along = points[edges[next].from] - a,
+                  apex = points[edges[previous].from];
+      const double ll = dot(along, along), s = dot(apex - a, along) / ll;
+      const double least = 0.25 * cross(along, apex - a) / ll;  // a quarter of the height from either end
+      if (!(s > least && s < 1 - least)) continue;
+      const Point foot = a + s * along;
+      if (foot == a || foot == points[edges[next].from]) continue;
+      // a→b, b→v, v→a becomes a→f, f→v, v→a and f→b, b→v, v→f.
+      const int f = static_cast<int>(points.size()), v = edges[previous].from;
+      const int fv = static_cast<int>(edges.size()), fb = fv + 1, vf = fv + 2;
+      points.push_back(foot);
+      edges.push_back({f, previous, e, vf});
+      edges.push_back({f, next, vf, -1});
+      edges.push_back({v, fb, next, fv});
+      edges[e].next = fv;
+      edges[previous].previous = fv;
+      edges[next].next = vf;
+      edges[next].previous = fb;
+    }
+    if (edges.size() == before) return;
+    Delaunay(triangulation).run();
+  }
+}
+
+}  // namespace ductile

@@ -1,0 +1,198 @@
+// "split": "auto": where cuts are put, and that the error that was asked for is kept.
+#include <Eigen/Dense>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+
+#include "axis.h"
+#include "convex.h"
+#include "ductile/box2d.h"
+#include "moments.h"
+#include "plane.h"
+#include "scenes.h"
+#include "split.h"
+
+namespace {
+using namespace ductile;
+
+constexpr double E = 210e9, density = 7800, g = 9.81, kappa_G = 5.0 / 6 * E / 2.6;
+
+// Small displacements at rest under the pieces' weight: one linear system over all pieces, from the joints'
+// stiffnesses alone.
+class Statics {
+ public:
+  explicit Statics(const Plan& plan) : plan_(plan) {
+    const auto n = static_cast<Eigen::Index>(3 * plan.pieces.size());
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
+    double stiffest = 0;
+    for (const PlannedJoint& j : plan.joints)
+      for (const double k : {j.stiffness.N, j.stiffness.Q})
+        if (k < unlimited) stiffest = std::max(stiffest, k);
+    for (const PlannedJoint& j : plan.joints) {
+      const double k[3] = {j.stiffness.N, j.stiffness.Q, j.stiffness.M}, cap[3] = {j.N, j.Q, j.M};
+      for (int row = 0; row < 3; ++row) {
+        if (cap[row] == 0) continue;
+        Eigen::VectorXd J = Eigen::VectorXd::Zero(n);
+        for (const auto& [piece, sign] : {std::pair(j.a, -1.0), std::pair(j.b, 1.0)}) {
+          if (piece < 0) continue;
+          const Point r = j.anchor - plan.pieces[static_cast<std::size_t>(piece)].center;
+          const Point d = row == 0 ? j.axis : left(j.axis);
+          if (row < 2)
+            J.segment<3>(3 * piece) += sign * Eigen::Vector3d(d.x, d.y, cross(r, d));
+          else
+            J(3 * piece + 2) += sign;
+        }
+        K += std::min(k[row], 1e4 * stiffest) * J * J.transpose();
+      }
+    }
+    for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(3 * i);
+      if (plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)].type == BodyType::static_body) {
+        K.middleRows(at, 3).setZero();
+        K.middleCols(at, 3).setZero();
+        K.diagonal().segment(at, 3).setOnes();
+      } else {
+        f(at + 1) = -plan.pieces[i].mass * g;
+      }
+    }
+    u_ = K.ldlt().solve(f);
+  }
+
+  // Of the point of a body that is at `at`, inside or on a vertex.
+  Point displacement(int body, Point at) const {
+    std::size_t under = 0;
+    for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
+      if (plan_.pieces[i].body == body && locate(plan_.pieces[i].outline.outer, at) >= 0) under = i;
+    const Eigen::Vector3d u = u_.segment<3>(static_cast<Eigen::Index>(3 * under));
+    const Point r = at - plan_.pieces[under].center;
+    return {u(0) - u(2) * r.y, u(1) + u(2) * r.x};
+  }
+
+ private:
+  const Plan& plan_;
+  Eigen::VectorXd u_;
+};
+
+// A strip around a centreline, which starts at the origin towards +x.
+Outline ribbon(int n, const std::function<Point(double)>& centre,
+               const std::function<double(double)>& width) {
+  Ring ring, back;
+  for (int i = 0; i <= n; ++i) {
+    const double t = static_cast<double>(i) / n, d = 1e-6;
+    const Point u = unit(centre(std::min(1.0, t + d)) - centre(std::max(0.0, t - d)));
+    ring.push_back(centre(t) + width(t) / 2 * right(u));
+    back.push_back(centre(t) + width(t) / 2 * left(u));
+  }
+  ring.insert(ring.end(), back.rbegin(), back.rend());
+  ring.front().x = ring.back().x = 0;
+  return {ring, {}};
+}
+
+SceneDef clamped(const Outline& outline, double target) {
+  SceneDef scene;
+  scene.target_error = target;
+  double low = 0, high = 0;
+  for (const Point& p : outline.outer) {
+    if (std::abs(p.x) > 1e-12) continue;
+    low = std::min(low, p.y);
+    high = std::max(high, p.y);
+  }
+  scene.bodies = {
+      {.name = "wall", .type = BodyType::static_body, .outline = {rectangle(-1, low - 1, 0, high + 1), {}}},
+      {.name = "beam", .outline = outline, .material = test_steel, .automatic = true}};
+  scene.joints = {{.a = "wall", .b = "beam"}};
+  return scene;
+}
+
+struct Shape {
+  const char* name;
+  Outline outline;
+  Point tip;
+};
+
+std::vector<Shape> shapes_to_split() {
+  constexpr double pi = std::numbers::pi;
+  const auto one = [](double) { return 1.0; };
+  return {
+      {"straight", {rectangle(0, -0.5, 20, 0.5), {}}, {20, 0.5}},
+      {"tapered", {{{0, -0.5}, {10, -0.1}, {10, 0.1}, {0, 0.5}}, {}}, {10, 0.1}},
+      {"widening", {{{0, -0.2}, {10, -0.5}, {10, 0.5}, {0, 0.2}}, {}}, {10, 0.5}},
+      {"ring sector",
+       ribbon(
+           60,
+           [](double t) {
+             return Point{5 * std::sin(2 * t), 5 * std::cos(2 * t) - 5};
+           },
+           one),
+       {4.51 * std::sin(1.999), 4.51 * std::cos(1.999) - 5}},
+      {"S",
+       ribbon(
+           80,
+           [](double t) {
+             return Point{12 * t, 1.5 - 1.5 * std::cos(2 * pi * t)};
+           },
+           [](double) { return 0.6; }),
+       {11.99, 0.29}},
+      {"C",
+       {{{0, -0.5}, {8, -0.5}, {8, 5.5}, {2, 5.5}, {2, 4.5}, {7, 4.5}, {7, 0.5}, {0, 0.5}}, {}},
+       {2, 5.5}},
+      {"L", {{{0, -0.5}, {8, -0.5}, {8, 6}, {7, 6}, {7, 0.5}, {0, 0.5}}, {}}, {7, 6}},
+      {"with holes",
+       {rectangle(0, -0.5, 20, 0.5),
+        {rectangle(4, -0.1, 4.3, 0.1), rectangle(9.4, -0.1, 9.8, 0.1), rectangle(15, -0.2, 15.3, 0.2)}},
+       {20, 0.5}},
+  };
+}
+
+// The tip's sag under the body's own weight: of the automatic split against one a hundred times as exact
+// (errors fall as 1/n²). For the straight beam that is checked against the closed form below.
+TEST(Automatic, ErrorIsBelowTheTarget) {
+  std::printf("%-12s %8s %8s %10s %10s\n", "shape", "target", "pieces", "estimated", "measured");
+  for (const Shape& shape : shapes_to_split()) {
+    const Plan exact = calibrate(clamped(shape.outline, 1e-4));
+    const Point reference = Statics(exact).displacement(1, shape.tip);
+    for (const double target : {0.1, 0.03, 0.01}) {
+      const Plan plan = calibrate(clamped(shape.outline, target));
+      const SplitError& split = plan.split_errors.at(0);
+      const double measured =
+          length(Statics(plan).displacement(1, shape.tip) - reference) / length(reference);
+      std::printf("%-12s %8g %8zu %10.5f %10.5f\n", shape.name, target, plan.pieces.size() - 1, split.error,
+                  measured);
+      EXPECT_LE(measured, target) << shape.name << ' ' << target;
+      EXPECT_EQ(split.governed_by == "target error", split.error <= target);
+    }
+  }
+}
+
+// q L⁴/8EI + q L²/2κGA, and between walls q L⁴/384EI + q L²/8κGA (Timoshenko).
+TEST(Automatic, ClosedFormsOfAStraightBeam) {
+  const double L = 20, q = density * g, EI = E / 12;
+  for (const double target : {0.1, 0.01, 0.001}) {
+    SceneDef scene = clamped({rectangle(0, -0.5, L, 0.5), {}}, target);
+    Plan plan = calibrate(scene);
+    double sag = -Statics(plan).displacement(1, {L, 0.5}).y,
+           exact = q * L * L * (L * L / 8 / EI + 0.5 / kappa_G);
+    EXPECT_LE(std::abs(sag / exact - 1), target);
+    EXPECT_LE(plan.pieces.size() - 1,
+              std::ceil(1 / std::sqrt(0.9 * target)));  // and not with more than it takes
+
+    scene.bodies.push_back(
+        {.name = "wall2", .type = BodyType::static_body, .outline = {rectangle(L, -1, L + 1, 1), {}}});
+    scene.joints.push_back({.a = "beam", .b = "wall2"});
+    plan = calibrate(scene);
+    const Statics held(plan);
+    sag = 0;
+    for (double x = 8; x <= 12; x += 0.01) sag = std::max(sag, -held.displacement(1, {x, 0.5}).y);
+    exact = q * L * L * (L * L / 384 / EI + 1 / kappa_G / 8);
+
+    EXPECT_LE(std::abs(sag / exact - 1), target);
+    EXPECT_LE(plan.pieces.size() - 2, std::ceil(std::sqrt(8 / (0.9 * target))));
+  }
+}
+
+}  // namespace
