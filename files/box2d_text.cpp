@@ -20,6 +20,7 @@ Json json(const b2Fixture& fixture) {
               {"groupIndex", fixture.GetFilterData().groupIndex}};
   if (fixture.GetType() == b2Shape::e_circle) {
     object["circle"] = decimal(fixture.GetShape()->m_radius);
+    object["center"] = json(static_cast<const b2CircleShape&>(*fixture.GetShape()).m_p);
   } else {
     const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
     for (int i = 0; i < polygon.m_count; ++i) object["polygon"].push_back(json(polygon.m_vertices[i]));
@@ -102,10 +103,7 @@ Json frames(const char* type, const Def& def, const b2Vec2& axis = {1, 0}) {
 /// inertia I = I_a I_b/(I_a + I_b), as b2AngularStiffness has it.
 Json fields_3(const b2WeldJointDef& def, const Plan& plan, const PlannedJoint& j) {
   Json object = frames("weld", def);
-  const auto inertia = [&](int piece) {
-    return piece < 0 ? 0 : plan.pieces[static_cast<std::size_t>(piece)].inertia;
-  };
-  const double a = inertia(j.a), b = inertia(j.b), I = a > 0 && b > 0 ? a * b / (a + b) : std::max(a, b);
+  const double I = reduced_inertia(plan, j);
   const bool soft = j.stiffness.M < unlimited && I > 0;
   object["linearHertz"] = 0;
   object["angularHertz"] = soft ? std::sqrt(j.stiffness.M / I) / (2 * std::numbers::pi) : 0;
@@ -132,9 +130,7 @@ Json fields_3(const b2MotorJointDef&, const Plan&, const PlannedJoint&) {
 }
 
 Json json(const Plan& plan, const PlannedJoint& j) {
-  const auto name = [&](int piece) {
-    return piece < 0 ? "ground" : plan.pieces[static_cast<std::size_t>(piece)].name;
-  };
+  const auto name = [&](int piece) { return piece < 0 ? "ground" : plan.carrier(piece).name; };
   Json object{{"name", j.name}, {"bodyA", name(j.a)}, {"bodyB", name(j.b)}};
   const auto put = [&](const char* role, const auto& def, const std::vector<std::string>& lost) {
     object[role] = {{"2.4", fields(def)}, {"3", fields_3(def, plan, j)}, {"lost", lost}};
@@ -152,7 +148,7 @@ Json json(const Plan& plan, const PlannedJoint& j) {
 }
 
 Json wheel(const b2WheelJoint& joint, const Plan& plan, const Plan::Wheel& wheel) {
-  const auto name = [&](int piece) { return plan.pieces[static_cast<std::size_t>(piece)].name; };
+  const auto name = [&](int piece) { return plan.carrier(piece).name; };
   b2WheelJointDef def;
   def.localAnchorA = joint.GetLocalAnchorA();
   def.localAnchorB = joint.GetLocalAnchorB();
@@ -185,8 +181,10 @@ std::string box2d_text(const Plan& plan) {
               {"joints", Json::array()},
               {"wheels", Json::array()},
               {"lost", lost_in_definitions(plan)}};
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+  for (const int piece : built.carriers) {
+    const auto i = static_cast<std::size_t>(piece);
     object["bodies"].push_back(json(*built.built.bodies[i], plan.pieces[i].name));
+  }
   if (built.built.ground) object["bodies"].push_back(json(*built.built.ground, "ground"));
   for (const PlannedJoint& j : plan.joints) object["joints"].push_back(json(plan, j));
   for (std::size_t i = 0; i < plan.wheels.size(); ++i)

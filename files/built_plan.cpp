@@ -5,6 +5,19 @@
 
 namespace ductile {
 
+BuiltPlan::BuiltPlan(const Plan& plan) : world(b2Vec2_zero), built(build_bodies(world, plan)) {
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const int whole = plan.pieces[i].part_of;
+    body_.push_back(whole < 0 ? static_cast<int>(carriers.size()) : body_[static_cast<std::size_t>(whole)]);
+    if (whole < 0) carriers.push_back(static_cast<int>(i));
+  }
+}
+
+double reduced_inertia(const Plan& plan, const PlannedJoint& j) {
+  const double a = j.a < 0 ? 0 : plan.carrier(j.a).inertia, b = j.b < 0 ? 0 : plan.carrier(j.b).inertia;
+  return a > 0 && b > 0 ? a * b / (a + b) : std::max(a, b);
+}
+
 double decimal(float value) {
   char digits[32];
   const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;

@@ -9,10 +9,22 @@ namespace ductile {
 
 /// A plan's bodies in a world of their own.
 struct BuiltPlan {
-  explicit BuiltPlan(const Plan& plan) : world(b2Vec2_zero), built(build_bodies(world, plan)) {}
+  explicit BuiltPlan(const Plan& plan);
+  /// Index of the rigid body that a piece is, or is part of; the ground (−1) comes last.
+  int body(int piece) const {
+    return piece < 0 ? static_cast<int>(carriers.size()) : body_[static_cast<std::size_t>(piece)];
+  }
+
   b2World world;
   Built built;
+  std::vector<int> carriers;  ///< the piece that stands for each rigid body
+
+ private:
+  std::vector<int> body_;  // by pieces
 };
+
+/// kg m², of the two rigid bodies of a joint, as b2AngularStiffness has it.
+double reduced_inertia(const Plan& plan, const PlannedJoint& joint);
 
 /// The shortest decimal that reads back as this float.
 double decimal(float value);

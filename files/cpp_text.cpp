@@ -36,7 +36,10 @@ std::string comment(std::string name) {
 }
 
 std::string shape(const b2Fixture& fixture) {
-  if (fixture.GetType() == b2Shape::e_circle) return "disc(" + literal(fixture.GetShape()->m_radius) + ")";
+  if (fixture.GetType() == b2Shape::e_circle) {
+    const auto& disc = static_cast<const b2CircleShape&>(*fixture.GetShape());
+    return "disc(" + literal(disc.m_radius) + ", " + literal(disc.m_p) + ")";
+  }
   const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
   std::string list;
   for (int i = 0; i < polygon.m_count; ++i) list += (i ? ", " : "") + literal(polygon.m_vertices[i]);
@@ -65,9 +68,10 @@ constexpr const char* tools = R"(
     shape.Set(vertices.begin(), static_cast<int32>(vertices.size()));
     return shape;
   };
-  [[maybe_unused]] const auto disc = [](float radius) {
+  [[maybe_unused]] const auto disc = [](float radius, b2Vec2 center) {
     b2CircleShape shape;
     shape.m_radius = radius;
+    shape.m_p = center;
     return shape;
   };
   const auto fixture = [](b2Body* of, const b2Shape& shape, float friction, float restitution, float density, int16 group) {
@@ -123,10 +127,12 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
               literal(body.GetLinearVelocity()) + ", " + literal(body.GetAngularVelocity()) + ", " +
               (body.IsSleepingAllowed() ? "true" : "false") + ")," + comment(name);
   };
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
-    const b2Body& body = *built.built.bodies[i];
-    const std::string of = "bodies[" + std::to_string(i) + "]";
-    add_body(body, std::to_string(i) + ": " + plan.pieces[i].name);
+  const auto body_at = [&](int piece) { return "bodies[" + std::to_string(built.body(piece)) + "]"; };
+  for (const int piece : built.carriers) {
+    const b2Body& body = *built.built.bodies[static_cast<std::size_t>(piece)];
+    const std::string of = body_at(piece);
+    add_body(body,
+             std::to_string(built.body(piece)) + ": " + plan.pieces[static_cast<std::size_t>(piece)].name);
     for (const b2Fixture* fixture : fixtures_of(body)) {
       const int group = fixture->GetFilterData().groupIndex;
       lowest_group = std::min(lowest_group, group);
@@ -139,9 +145,6 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
           "  mass(" + of + ", " + literal(body.GetMass()) + ", " + literal(body.GetInertia()) + ");\n";
   }
   if (built.built.ground) add_body(*built.built.ground, "ground");
-  const auto body_at = [&](int piece) {
-    return "bodies[" + std::to_string(piece < 0 ? plan.pieces.size() : static_cast<std::size_t>(piece)) + "]";
-  };
   for (std::size_t i = 0; i < plan.wheels.size(); ++i) {
     const b2WheelJoint& w = *built.built.wheels[i];
     wheels += "  {\n    b2WheelJointDef def;\n    def.bodyA = " + body_at(plan.wheels[i].chassis) +

@@ -3,6 +3,7 @@
 
 #include "ductile/files.h"
 #include "json.h"
+#include "scene_text.h"
 
 namespace ductile {
 namespace {
@@ -45,19 +46,6 @@ void put_strength(Json& object, const Material& material) {
   if (material.criterion == Criterion::von_mises) object["criterion"] = "von_mises";
 }
 
-Json json(const Material& material) {
-  const Material standard;
-  Json object;
-  object["density"] = material.density;
-  put_strength(object, material);
-  put(object, "fu", material.ultimate_stress, standard.ultimate_stress);
-  put(object, "fracture_strain", material.fracture_strain, standard.fracture_strain);
-  put(object, "damping_ratio", material.damping_ratio, standard.damping_ratio);
-  put(object, "friction", material.friction, standard.friction);
-  put(object, "restitution", material.restitution, standard.restitution);
-  return object;
-}
-
 /// Names the materials of a scene: built-in ones by their own name, others "material 1", "material 2"…
 class MaterialNames {
  public:
@@ -73,7 +61,7 @@ class MaterialNames {
   }
   Json list() const {
     Json list = Json::object();
-    for (std::size_t i = 0; i < own_.size(); ++i) list[own_name(i)] = json(own_[i]);
+    for (std::size_t i = 0; i < own_.size(); ++i) list[own_name(i)] = material_json(own_[i]);
     return list;
   }
 
@@ -104,18 +92,6 @@ void put_overrides(Json& object, const JointOverrides& overrides) {
   if (overrides.hold) object["hold"] = *overrides.hold;
 }
 
-Json json(const std::vector<Region>& regions) {
-  Json list = Json::array();
-  for (const Region& region : regions) {
-    Json object;
-    object["outer"] = json(region.outline.outer);
-    if (!region.outline.holes.empty()) object["holes"] = json(region.outline.holes);
-    put_strength(object["material"], region.material);
-    list.push_back(std::move(object));
-  }
-  return Json{{"regions", std::move(list)}};
-}
-
 Json json(const BodyDef& body, MaterialNames& names) {
   const BodyDef standard;
   Json object;
@@ -132,7 +108,7 @@ Json json(const BodyDef& body, MaterialNames& names) {
   if (body.profile.empty()) {
     put(object, "depth", body.depth, standard.depth);
   } else {
-    object["profile"] = json(body.profile);
+    object["profile"] = section_json(body.profile);
   }
   if (body.automatic) {
     object["split"] = "auto";
@@ -200,6 +176,31 @@ void put_list(Json& scene, const char* key, const std::vector<T>& list) {
 }
 
 }  // namespace
+
+Json material_json(const Material& material) {
+  const Material standard;
+  Json object;
+  object["density"] = material.density;
+  put_strength(object, material);
+  put(object, "fu", material.ultimate_stress, standard.ultimate_stress);
+  put(object, "fracture_strain", material.fracture_strain, standard.fracture_strain);
+  put(object, "damping_ratio", material.damping_ratio, standard.damping_ratio);
+  put(object, "friction", material.friction, standard.friction);
+  put(object, "restitution", material.restitution, standard.restitution);
+  return object;
+}
+
+Json section_json(const std::vector<Region>& regions) {
+  Json list = Json::array();
+  for (const Region& region : regions) {
+    Json object;
+    object["outer"] = json(region.outline.outer);
+    if (!region.outline.holes.empty()) object["holes"] = json(region.outline.holes);
+    put_strength(object["material"], region.material);
+    list.push_back(std::move(object));
+  }
+  return Json{{"regions", std::move(list)}};
+}
 
 std::string scene_text(const SceneDef& scene) {
   const SceneDef standard;

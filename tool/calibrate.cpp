@@ -8,6 +8,7 @@
 #include "command.h"
 #include "ductile/definitions.h"
 #include "ductile/files.h"
+#include "ductile/level.h"
 #include "ductile/picture.h"
 
 namespace ductile::tool {
@@ -132,14 +133,20 @@ std::string function_of(const std::string& scene_file) {
 }
 
 std::string definitions_of(const Plan& plan, const Options& options) {
-  if (options.to == "box2d") return box2d_text(plan);
-  if (options.to == "cpp") return cpp_text(plan, function_of(options.scene));
-  if (options.to == "rube") throw NotYet("--to rube");
+  if (options.to == "box2d") return in_file(options.scene, [&] { return box2d_text(plan); });
+  if (options.to == "cpp")
+    return in_file(options.scene, [&] { return cpp_text(plan, function_of(options.scene)); });
+  if (options.to == "rube") {  // a scene of its own keeps what no plan holds
+    const std::string text = read_text(options.scene);
+    return is_rube(text) ? calibrated_rube(text, options.scene)
+                         : in_file(options.scene, [&] { return rube_text(plan); });
+  }
   return json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
 }
 
 std::string run(const Options& options) {
-  const Plan plan = plan_of(options.scene, options.target_error);
+  const Plan plan =
+      plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
   const std::string definitions = in_file(options.scene, [&] { return definitions_of(plan, options); });
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());

@@ -7,10 +7,17 @@
 #include <filesystem>
 
 #include "ductile/files.h"
+#include "ductile/level.h"
 
 namespace ductile::tool {
 
-Plan plan_of(const std::string& scene_file, std::optional<double> target_error) {
+Plan plan_of(const std::string& scene_file, bool kept_elsewhere, std::optional<double> target_error) {
+  if (is_rube(read_text(scene_file))) {
+    std::vector<Problem> beyond;
+    Plan plan = read_plan(scene_file, &beyond);
+    if (!beyond.empty() && !kept_elsewhere) throw InvalidInput(std::move(beyond));
+    return plan;
+  }
   SceneDef scene = read_scene(scene_file);
   if (target_error) scene.target_error = *target_error;
   return in_file(scene_file, [&] { return calibrate(scene); });

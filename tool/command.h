@@ -29,9 +29,11 @@ struct NotYet : std::runtime_error {
   explicit NotYet(const std::string& what) : std::runtime_error(what + " is not there yet") {}
 };
 
-/// The plan of a scene file, with another target error for its automatic splits if one is given; what is
-/// wrong with the scene is said of that file.
-Plan plan_of(const std::string& scene_file, std::optional<double> target_error = std::nullopt);
+/// The plan of a scene file, with another target error for its automatic splits if one is given, or of a
+/// R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can hold is an
+/// error, unless the caller keeps it elsewhere.
+Plan plan_of(const std::string& scene_file, bool kept_elsewhere = false,
+             std::optional<double> target_error = std::nullopt);
 
 /// Runs `work`; what is wrong with its input is reported as being in `file`.
 template <class Work>

@@ -21,7 +21,7 @@ export function load(doc, choose) {
     const body = bodies[b.name] = world.CreateBody(def);
     for (const f of b.fixtures) {
       const fixture = new B.b2FixtureDef();
-      fixture.shape = f.polygon ? polygon(f.polygon) : disc(f.circle);
+      fixture.shape = f.polygon ? polygon(f.polygon) : disc(f.circle, f.center);
       fixture.friction = f.friction;
       fixture.restitution = f.restitution;
       fixture.density = f.density;
@@ -63,9 +63,10 @@ function polygon(points) {
   shape.Set(array(points), points.length);
   return shape;
 }
-function disc(radius) {
+function disc(radius, center) {
   const shape = new B.b2CircleShape();
   shape.m_radius = radius;
+  shape.m_p = vec(center);
   return shape;
 }
 /// A C array of b2Vec2.

@@ -30,6 +30,7 @@ export function load(doc, choose) {
       } else {
         const disc = new B.b2Circle();
         disc.radius = f.circle;
+        disc.center = vec(f.center);
         B.b2CreateCircleShape(body, shape, disc);
       }
     }

@@ -220,7 +220,7 @@ TEST(CalibrateCommand, WritesEveryKindOfDefinition) {
   const Folder folder;
   const std::string scene = folder.write("my scene.json", cantilever());
   const std::string quoted = "'" + scene + "'";
-  for (const char* to : {"json", "box2d", "cpp"}) {
+  for (const char* to : {"json", "box2d", "cpp", "rube"}) {
     const Ran ran = run("calibrate " + quoted + " --to " + to);
     EXPECT_EQ(ran.exit, 0) << ran.err;
     const std::string out = (folder / to).string();
@@ -236,7 +236,7 @@ TEST(CalibrateCommand, RefusesWhatBox2DCannotHold) {
   const std::string thin = folder.write(
       "thin.json", bodies(body("a", "[[0,0],[1,0],[1,0.01],[0,0.01]]", R"("material": "S355")")));
   EXPECT_EQ(run("calibrate " + thin + " --to json").exit, 0);
-  for (const char* to : {"box2d", "cpp"}) {
+  for (const char* to : {"box2d", "cpp", "rube"}) {
     const Ran ran = run("calibrate " + thin + " --to " + to + " --out " + (folder / "out").string());
     expect_bad_input(ran, "0.01 m wide");
     EXPECT_EQ(ran.err.find(thin + ":"), 0u) << ran.err;
@@ -244,14 +244,46 @@ TEST(CalibrateCommand, RefusesWhatBox2DCannotHold) {
   }
 }
 
-TEST(CalibrateCommand, SaysWhatIsNotThereYet) {
+// A level of someone who draws in R.U.B.E.: a plank welded to a wall, of steel since a property says so.
+const std::string level = R"({"gravity": {"x": 0, "y": -10}, "allowSleep": true,
+  "body": [
+    {"name": "wall", "fixture": [{"polygon": {"vertices": {"x": [-1, 0, 0, -1], "y": [-1, -1, 1, 1]}}}]},
+    {"name": "plank", "type": 2, "customProperties": [{"name": "ductile.material", "string": "S355"}],
+     "fixture": [{"polygon": {"vertices": {"x": [0, 4, 4, 0], "y": [0, 0, 0.5, 0.5]}}}]}],
+  "joint": [{"type": "weld", "name": "root", "bodyA": 0, "bodyB": 1}])";
+
+TEST(CalibrateCommand, TakesALevelOfAnEditor) {
   const Folder folder;
-  const std::string scene = folder.write("scene.json", cantilever());
-  for (const char* to : {"rube"}) {
-    const Ran ran = run("calibrate " + scene + " --to " + to);
-    EXPECT_EQ(ran.exit, 1);
-    EXPECT_EQ(ran.out, "");
-    EXPECT_NE(ran.err.find(to), std::string::npos) << ran.err;
+  const std::string file = folder.write("level.json", level + "}");
+  const Ran table = run("calibrate " + file), plan = run("calibrate --json " + file);
+  EXPECT_EQ(table.exit, 0) << table.err;
+  ASSERT_EQ(plan.exit, 0) << plan.err;
+  const double M = 0.5 * 0.5 / 4 * 355e6;
+  expect_near(plan.json()["joints"][0]["M"], M);
+  EXPECT_EQ(plan.json()["joints"][0]["name"], "root");
+  EXPECT_EQ(plan.json()["bodies"][1]["pieces"][0]["name"], "plank");
+  const Ran written = run("calibrate " + file + " --to rube");
+  ASSERT_EQ(written.exit, 0) << written.err;
+  EXPECT_EQ(written.json()["joint"][0]["maxMotorTorque"].get<float>(), static_cast<float>(M));
+  // What was written is read as the same plan, and runs.
+  const std::string again = folder.write("again.json", written.out);
+  expect_near(run("calibrate --json " + again).json()["joints"][0]["M"], M);
+  const Ran ran = run("simulate " + again + " --time 1 --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["joints"][0]["name"], "root");
+}
+
+TEST(CalibrateCommand, SaysWhatOfALevelNoPlanHolds) {
+  const Folder folder;
+  std::string text = level + "}";
+  text.insert(text.rfind("]}"), R"(, {"type": "rope", "name": "r", "bodyA": 0, "bodyB": 1, "maxLength": 9})");
+  const std::string file = folder.write("level.json", text);
+  EXPECT_EQ(run("calibrate " + file).exit, 0);
+  EXPECT_EQ(run("calibrate " + file + " --to rube").json()["joint"][1]["maxLength"], 9);
+  for (const char* command : {"simulate --time 1 ", "calibrate --to cpp "}) {
+    const Ran ran = run(command + file);
+    expect_bad_input(ran, "joint[1]: is a rope joint");
+    EXPECT_EQ(ran.err.find(file + ":"), 0u) << ran.err;
   }
 }
 }  // namespace

@@ -1,9 +1,9 @@
 // From drawn bodies to joints: split outlines, take every joint's limits from its section, build Box2D
 // worlds.
 //
-// A SceneDef is what a user draws and writes (docs/scene.md describes the same as a file); calibrate() turns
-// it into a Plan, which knows no engine; build() turns a Plan into bodies, fixtures and joints of a b2World.
-// SI units, y up.
+// A SceneDef is what a user draws and writes (docs/scene.schema.json describes the same as a file);
+// calibrate() turns it into a Plan, which knows no engine; build() turns a Plan into bodies, fixtures and
+// joints of a b2World. SI units, y up.
 #pragma once
 
 #include <array>

@@ -1,0 +1,44 @@
+// Levels from files, in one call: ductile scenes, written or drawn, and R.U.B.E. scenes.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "ductile/box2d.h"
+#include "ductile/calibrate.h"
+#include "ductile/joint.h"
+
+namespace ductile {
+
+/// What a file became in a world, which owns it. Call structure.update() after each Step, and, where the plan
+/// has loads, apply_loads(world, plan, built, time) before it.
+struct Level {
+  Plan plan;                                    ///< the bodies and joints that ductile knows
+  Built built;                                  ///< the same in the world
+  std::multimap<std::string, b2Body*> bodies;   ///< all that were made, by name
+  std::multimap<std::string, b2Joint*> joints;  ///< likewise, with those of other kinds
+  Structure structure;
+};
+
+/// Makes a level in `world` and sets the world's gravity: a scene file with the drawings that it names, or a
+/// R.U.B.E. scene (docs/files/rube.md) whose bodies name materials. Files are told apart by what is in them.
+/// Throws InvalidInput with every problem, before the world has changed.
+Level load(b2World& world, const std::filesystem::path& file, const StructureDef& def = {});
+/// The same from memory; `name` is what problems call it, `folder` what the files that it names are relative
+/// to.
+Level load_text(b2World& world, std::string_view text, const std::string& name = "level",
+                const std::filesystem::path& folder = ".", const StructureDef& def = {});
+
+/// The plan of such a file: calibrated, for commands and tools that work on plans. What of a R.U.B.E. scene
+/// no plan can hold is put into `beyond`, if given.
+Plan read_plan(const std::filesystem::path& file, std::vector<Problem>* beyond = nullptr);
+
+/// Is it a R.U.B.E. scene? Told by its keys; false for what is no JSON.
+bool is_rube(std::string_view text);
+
+/// A R.U.B.E. scene with its joints calibrated, as text; everything else stands there as it did.
+std::string calibrated_rube(std::string_view text, const std::string& name = "level");
+
+}  // namespace ductile

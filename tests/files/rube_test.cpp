@@ -1,0 +1,350 @@
+// R.U.B.E. scenes: what we write, what we read, and that nothing gets lost on the way.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ductile/definitions.h"
+#include "ductile/files.h"
+#include "ductile/level.h"
+
+namespace {
+using namespace ductile;
+using nlohmann::json;
+
+json property(const json& item, const std::string& name) {
+  for (const json& p : item.value("customProperties", json::array())) {
+    if (p["name"] != name) continue;
+    for (const char* type : {"float", "int", "string", "bool", "vec2"})
+      if (p.contains(type)) return p[type];
+  }
+  return nullptr;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    b2World world({0, 0});
+    load_text(world, text, "level.json");
+    return "";
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
+std::vector<float> state(const b2World& world) {
+  std::vector<float> list;
+  for (const b2Body* body = world.GetBodyList(); body; body = body->GetNext()) {
+    const b2Vec2 p = body->GetWorldCenter(), v = body->GetLinearVelocity();
+    for (const float value : {p.x, p.y, body->GetAngle(), v.x, v.y, body->GetAngularVelocity()})
+      list.push_back(value);
+  }
+  return list;
+}
+
+/// An IEEE float as the editor writes it.
+std::string hex(float value) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%08X", std::bit_cast<std::uint32_t>(value));
+  return text;
+}
+
+// A level as an editor writes it, of someone who knows nothing of ductile: a wall, a plank of two planks
+// welded on, a lamp on a rope, an image, and things that nobody here knows. Only materials are named in it.
+constexpr double h = 0.5, depth = 0.2;
+json level() {
+  json scene = json::parse(R"({
+    "allowSleep": true, "autoClearForces": true, "continuousPhysics": true, "gravity": {"x": 0, "y": -10},
+    "stepsPerSecond": 60, "velocityIterations": 8, "positionIterations": 3, "warmStarting": true,
+    "collisionbitplanes": {"names": ["a", "b"]},
+    "body": [
+      {"name": "wall", "type": 0, "position": 0, "awake": true,
+       "fixture": [{"name": "f", "friction": 0.2, "polygon": {"vertices": {"x": [-1, 0, 0, -1], "y": [-1, -1, 1, 1]}}}]},
+      {"name": "plank", "type": 2, "position": {"x": 2, "y": 0}, "angle": 0, "awake": true,
+       "massData-mass": 3, "massData-I": 1, "path": "planks/first",
+       "customProperties": [{"name": "ductile.material", "string": "S355"}, {"name": "ductile.depth", "float": 0.2},
+                            {"name": "loot", "int": 7}],
+       "fixture": [
+         {"name": "left", "density": 1, "friction": 0.7, "filter-categoryBits": 2,
+          "polygon": {"vertices": {"x": [-2, 0, 0, -2], "y": [0, 0, 0.5, 0.5]}}},
+         {"name": "right", "density": 1, "friction": 0.7,
+          "polygon": {"vertices": {"x": [0, 2, 2, 0], "y": [0, 0, 0.5, 0.5]}}}]},
+      {"name": "lamp", "type": 2, "position": {"x": 4, "y": -1}, "awake": true, "linearDamping": 0.1,
+       "massData-mass": 2, "massData-I": 0.25,
+       "fixture": [{"density": 1, "circle": {"center": 0, "radius": 0.5}}]},
+      {"type": 0, "position": {"x": 0, "y": -9},
+       "fixture": [{"chain": {"vertices": {"x": [-50, 0, 50], "y": [1, 0, 1]}}}]}],
+    "image": [{"body": 1, "file": "plank.png", "center": {"x": 0, "y": 0.25}, "opacity": 1}],
+    "joint": [
+      {"name": "root", "type": "weld", "bodyA": 0, "bodyB": 1, "anchorA": 0, "anchorB": {"x": -2, "y": 0},
+       "dampingRatio": 0, "frequency": 0, "customProperties": [{"name": "sound", "string": "creak"}]},
+      {"name": "rope", "type": "rope", "bodyA": 1, "bodyB": 2, "anchorA": {"x": 2, "y": 0}, "anchorB": 0,
+       "maxLength": 1.5}]})");
+  scene["body"][1]["position"]["x"] = hex(2);
+  scene["body"][1]["fixture"][0]["friction"] = hex(0.7f);
+  return scene;
+}
+
+TEST(Rube, NamingAMaterialCalibratesAWeld) {
+  const json scene = json::parse(calibrated_rube(level().dump()));
+  const json& joint = scene["joint"][0];
+  const double M = depth * h * h / 4 * 355e6;
+  EXPECT_NEAR(property(joint, "ductile.M"), M, 1e-12 * M);
+  EXPECT_NEAR(property(joint, "ductile.N"), depth * h * 355e6, 1e-12 * depth * h * 355e6);
+  // A player without ductile gets a hinge that gives way at M.
+  EXPECT_EQ(joint["type"], "revolute");
+  EXPECT_EQ(joint["enableMotor"], true);
+  EXPECT_NEAR(joint["maxMotorTorque"], M, 1e-6 * M);
+  EXPECT_EQ(joint["anchorA"], (json{{"x", 0.0}, {"y", 0.25}}));  // the middle of the common edge
+  EXPECT_EQ(joint["anchorB"], (json{{"x", -2.0}, {"y", 0.25}}));
+  // What is made of steel weighs as much.
+  const double m = 7850 * 4 * h * depth, centre = 0.25;
+  EXPECT_NEAR(scene["body"][1]["massData-mass"], m, 1e-6 * m);
+  EXPECT_NEAR(scene["body"][1]["massData-I"], m * ((16 + h * h) / 12 + centre * centre), 1e-5 * m);
+}
+
+/// Takes out of `scene` what calibration may change of it.
+json without(json scene, const std::vector<std::string>& pointers) {
+  for (const std::string& pointer : pointers) {
+    const json::json_pointer at(pointer);
+    if (scene.contains(at)) scene[at.parent_pointer()].erase(at.back());
+  }
+  for (json& joint : scene["joint"]) {
+    json kept = json::array();
+    for (const json& p : joint.value("customProperties", json::array()))
+      if (!p["name"].get<std::string>().starts_with("ductile.")) kept.push_back(p);
+    if (!kept.empty()) joint["customProperties"] = kept;
+  }
+  return scene;
+}
+
+TEST(Rube, EverythingElseStaysAsItWas) {
+  const std::vector<std::string> changed{"/body/1/massData-mass",     "/body/1/massData-I",
+                                         "/body/1/massData-center",   "/joint/0/type",
+                                         "/joint/0/anchorA",          "/joint/0/anchorB",
+                                         "/joint/0/refAngle",         "/joint/0/enableMotor",
+                                         "/joint/0/motorSpeed",       "/joint/0/maxMotorTorque",
+                                         "/joint/0/enableLimit",      "/joint/0/lowerLimit",
+                                         "/joint/0/upperLimit",       "/joint/0/jointSpeed",
+                                         "/body/1/fixture/0/density", "/body/1/fixture/1/density"};
+  const json before = level(), after = json::parse(calibrated_rube(before.dump()));
+  EXPECT_EQ(without(after, changed), without(before, changed));
+}
+
+TEST(Rube, ACalibratedSceneStaysAsItIs) {
+  const std::string once = calibrated_rube(level().dump());
+  EXPECT_EQ(json::parse(calibrated_rube(once)), json::parse(once));
+}
+
+TEST(Rube, LoadsWithDuctileJointsAndEverythingElse) {
+  b2World world({0, 0});
+  Level level = load_text(world, ::level().dump());
+  EXPECT_EQ(world.GetGravity(), b2Vec2(0, -10));
+  EXPECT_EQ(level.bodies.size(), 4u);
+  EXPECT_EQ(world.GetJointCount(), 2);
+  ASSERT_EQ(level.structure.joints().size(), 1u);
+  EXPECT_EQ(level.joints.find("root")->second, level.structure.joints()[0]);
+  EXPECT_EQ(level.joints.find("rope")->second->GetType(), e_distanceJoint);
+  b2Body* lamp = level.bodies.find("lamp")->second;
+  EXPECT_FLOAT_EQ(lamp->GetLinearDamping(), 0.1f);
+  EXPECT_FLOAT_EQ(lamp->GetMass(), 2);
+  EXPECT_EQ(level.bodies.find("plank")->second->GetFixtureList()->GetNext()->GetFilterData().categoryBits, 2);
+  for (int i = 0; i < 1200; ++i) {
+    world.Step(1 / 60.0f, 8, 3);
+    level.structure.update();
+  }
+  // The rope's lamp and the plank's weight at the root.
+  const double moment = 10 * (7850 * 4 * h * depth * 2 + 2 * 4);
+  EXPECT_NEAR(-level.structure.joints()[0]->force(rotation) / moment, 1, 5e-3);
+}
+
+TEST(Rube, SplitsABodyAndTellsWhatWasFixedToIt) {
+  json scene = level();
+  scene["body"][1]["customProperties"].push_back({{"name", "ductile.pieces"}, {"int", 4}});
+  const json after = json::parse(calibrated_rube(scene.dump()));
+  ASSERT_EQ(after["body"].size(), 7u);
+  ASSERT_EQ(after["joint"].size(), 5u);
+  EXPECT_EQ(after["body"][1]["name"], "plank/0");
+  EXPECT_EQ(after["body"][4]["name"], "plank/1");
+  EXPECT_EQ(after["body"][6]["name"], "plank/3");
+  EXPECT_EQ(after["joint"][0]["bodyB"], 1);
+  EXPECT_EQ(after["joint"][1]["bodyA"], 6);  // the rope hangs on the tip
+  EXPECT_EQ(after["joint"][1]["anchorA"], scene["joint"][1]["anchorA"]);
+  EXPECT_EQ(property(after["body"][6], "loot"), 7);
+  EXPECT_TRUE(property(after["body"][6], "ductile.pieces").is_null());
+  EXPECT_EQ(after["body"][6]["fixture"][0]["filter-categoryBits"], 2);
+  b2World world({0, 0});
+  Level level = load_text(world, scene.dump());
+  EXPECT_EQ(level.structure.joints().size(), 4u);
+  EXPECT_NEAR(level.bodies.find("plank/3")->second->GetWorldCenter().x, 3.5, 1e-6);
+  EXPECT_NEAR(level.bodies.find("plank/3")->second->GetMass(), 7850 * h * depth, 0.01);
+}
+
+TEST(Rube, AFlagSaysWhichJointsAreDuctile) {
+  json scene = level();
+  scene["joint"][0]["customProperties"].push_back({{"name", "ductile.calibrate"}, {"bool", false}});
+  EXPECT_EQ(json::parse(calibrated_rube(scene.dump()))["joint"], scene["joint"]);
+  scene = level();
+  scene["joint"][0]["type"] = "revolute";
+  EXPECT_EQ(json::parse(calibrated_rube(scene.dump()))["joint"], scene["joint"]);  // a hinge is a hinge
+  scene["joint"][0]["customProperties"].push_back({{"name", "ductile.calibrate"}, {"bool", true}});
+  scene["joint"][0]["customProperties"].push_back({{"name", "ductile.moment"}, {"float", 5e5}});
+  const json after = json::parse(calibrated_rube(scene.dump()));
+  EXPECT_EQ(property(after["joint"][0], "ductile.M"), 5e5);
+}
+
+class WhatWeWrite : public testing::TestWithParam<const char*> {};
+
+// Read back, it is the world that build() makes. With an N-M polygon that is cut from the pieces' sections
+// anew, numbers agree to rounding only.
+TEST_P(WhatWeWrite, LoadsAsTheSameWorld) {
+  const Plan plan =
+      calibrate(read_scene(std::string(DUCTILE_SOURCE_DIR "/scenes/") + GetParam() + ".scene.json"));
+  const std::string text = rube_text(plan);
+  EXPECT_EQ(json::parse(calibrated_rube(text)), json::parse(text));
+  b2World world({static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)}), copy({0, 0});
+  Structure structure = build(world, plan);
+  Level level = load_text(copy, text);
+  ASSERT_EQ(level.structure.joints().size(), structure.joints().size());
+  ASSERT_EQ(state(copy), state(world));
+  for (int i = 0; i < 120; ++i) {
+    for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
+    structure.update();
+    level.structure.update();
+    const std::vector<float> a = state(world), b = state(copy);
+    if (!plan.interaction) {
+      ASSERT_EQ(b, a) << "step " << i;
+    }
+    for (std::size_t k = 0; k < a.size(); ++k) ASSERT_NEAR(b[k], a[k], 1e-3) << "step " << i;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, WhatWeWrite, testing::Values("car", "frame", "cantilever", "harbour_crane"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(Rube, SupportsAndProfilesSurvive) {
+  SceneDef scene;
+  scene.bodies = {{.name = "beam",
+                   .outline = {{{0, 0}, {4, 0}, {4, 0.2}, {0, 0.2}}, {}},
+                   .material = Material{.yield_stress = 300e6, .youngs_modulus = 200e9, .density = 7000},
+                   .profile = {{{{{0, 0}, {0.1, 0}, {0.1, 0.2}, {0, 0.2}}, {}}, materials::S235}},
+                   .pieces = 2}};
+  scene.supports = {{.body = "beam", .at = {0, 0.1}, .fix_x = true, .fix_y = true},
+                    {.body = "beam", .at = {4, 0.1}, .fix_y = true}};
+  const Plan plan = calibrate(scene);
+  b2World world({0, 0});
+  const Level level = load_text(world, rube_text(plan));
+  ASSERT_EQ(level.plan.joints.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlannedJoint &read = level.plan.joints[i], &written = plan.joints[i];
+    EXPECT_EQ(read.name, written.name);
+    EXPECT_EQ(read.a, written.a);
+    EXPECT_EQ(read.b, written.b);
+    EXPECT_EQ(read.M, written.M);
+    EXPECT_EQ(read.N, written.N);
+    EXPECT_EQ(read.stiffness.M, written.stiffness.M);
+    EXPECT_EQ(read.max_rotation, written.max_rotation);
+    EXPECT_EQ(level.plan.reasons[static_cast<std::size_t>(read.governed_by)],
+              plan.reasons[static_cast<std::size_t>(written.governed_by)]);
+  }
+  EXPECT_NEAR(section_at(level.plan, level.plan.joints[0], 0)->capacities({0, -1}).M, plan.joints[0].M, 1);
+}
+
+// --- what is wrong with a file ---
+
+struct Spoilt {
+  const char* name;
+  std::function<void(json&)> spoil;
+  const char* saying;
+};
+class SpoiltRube : public testing::TestWithParam<Spoilt> {};
+
+TEST_P(SpoiltRube, SaysWhatAndWhere) {
+  json scene = level();
+  GetParam().spoil(scene);
+  const std::string error = error_of(scene.dump());
+  EXPECT_EQ(error.find("level.json:"), 0u) << error;
+  EXPECT_NE(error.find(GetParam().saying), std::string::npos) << error;
+}
+
+void add(json& item, json property) { item["customProperties"].push_back(std::move(property)); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, SpoiltRube,
+    testing::Values(
+        Spoilt{"no_such_body", [](json& s) { s["joint"][0]["bodyB"] = 9; }, "joint[0].bodyB"},
+        Spoilt{"negative_body", [](json& s) { s["joint"][1]["bodyA"] = -1; }, "joint[1].bodyA"},
+        Spoilt{"to_itself", [](json& s) { s["joint"][0]["bodyB"] = 0; }, "joint[0]: joins body 0 to itself"},
+        Spoilt{"unknown_joint", [](json& s) { s["joint"][1]["type"] = "glue"; }, "\"glue\""},
+        Spoilt{"hex_of_seven", [](json& s) { s["body"][1]["angle"] = "3F80000"; }, "body[1].angle"},
+        Spoilt{"hex_of_infinity", [](json& s) { s["body"][1]["angle"] = "7F800000"; }, "body[1].angle"},
+        Spoilt{"beyond_float", [](json& s) { s["body"][1]["angle"] = 1e39; }, "body[1].angle"},
+        Spoilt{"no_vector", [](json& s) { s["body"][1]["position"] = 5; }, "body[1].position"},
+        Spoilt{"body_is_no_list", [](json& s) { s["body"] = 5; }, "body"},
+        Spoilt{"body_is_no_object", [](json& s) { s["body"][0] = 5; }, "body[0]"},
+        Spoilt{"more_x_than_y",
+               [](json& s) { s["body"][0]["fixture"][0]["polygon"]["vertices"]["x"].push_back(1); },
+               "body[0].fixture[0].polygon.vertices"},
+        Spoilt{"no_shape", [](json& s) { s["body"][0]["fixture"][0].erase("polygon"); },
+               "body[0].fixture[0]"},
+        Spoilt{"unknown_material", [](json& s) { s["body"][1]["customProperties"][0]["string"] = "cheese"; },
+               "cheese"},
+        Spoilt{"material_is_a_number",
+               [](json& s) {
+                 s["body"][1]["customProperties"][0] = {{"name", "ductile.material"}, {"int", 1}};
+               },
+               "ductile.material"},
+        Spoilt{"no_depth", [](json& s) { s["body"][1]["customProperties"][1]["float"] = 0; }, "body[1]"},
+        Spoilt{"bodies_apart",
+               [](json& s) {
+                 s["body"][1]["position"] = {{"x", 3}, {"y", 0}};
+               },
+               "edges do not overlap"},
+        Spoilt{"overlapping_fixtures",
+               [](json& s) {
+                 s["body"][1]["fixture"][1]["polygon"]["vertices"]["x"] = {-0.5, 2, 2, -0.5};
+               },
+               "body"},
+        Spoilt{"joined_twice", [](json& s) { s["joint"].push_back(s["joint"][0]); }, "joint[2]"},
+        Spoilt{"axis_of_nothing", [](json& s) { s["joint"][1]["type"] = "prismatic"; },
+               "joint[1]: has no axis"},
+        Spoilt{"gear_of_ropes",
+               [](json& s) {
+                 s["joint"].push_back(
+                     {{"type", "gear"}, {"bodyA", 1}, {"bodyB", 2}, {"joint1", 1}, {"joint2", 1}});
+               },
+               "joint[2]"},
+        Spoilt{"inertia_below_zero",
+               [](json& s) {
+                 s["body"][2]["massData-center"] = {{"x", 9}, {"y", 0}};
+               },
+               "massData-I"},
+        Spoilt{"thin_fixture",
+               [](json& s) {
+                 s["body"].push_back(s["body"][0]);
+                 s["body"][4]["fixture"][0]["polygon"]["vertices"]["x"] = {0, 1e-4, 1e-4, 0};
+               },
+               "body[4].fixture[0]"},
+        Spoilt{"value_without_axis",
+               [](json& s) {
+                 add(s["joint"][0], {{"name", "ductile.M"}, {"float", 5}});
+               },
+               "ductile.axis"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Level, OfASceneFileAndItsDrawing) {
+  b2World world({0, 0});
+  Level level = load(world, DUCTILE_SOURCE_DIR "/scenes/harbour_crane.scene.json");
+  EXPECT_EQ(level.structure.joints().size(), 19u);
+  EXPECT_NE(level.bodies.find("jib/3"), level.bodies.end());
+  EXPECT_EQ(world.GetGravity(), b2Vec2(0, -9.81f));
+}
+
+TEST(Level, AFailureLeavesTheWorldAlone) {
+  json scene = level();
+  scene["joint"][1]["type"] = "glue";
+  b2World world({1, 2});
+  EXPECT_THROW(load_text(world, scene.dump()), InvalidInput);
+  EXPECT_EQ(world.GetBodyCount(), 0);
+  EXPECT_EQ(world.GetGravity(), b2Vec2(1, 2));
+}
+}  // namespace
