@@ -7,7 +7,7 @@ On a page, in their order:
   ```json after a line that ends in `NAME`:   is written to NAME
   ```sh                                       runs in that folder, with `ductile` in its path
   ```cpp with a main                          runs there, compiled
-  ```text after either                        is what it prints; a line `…` stands for any lines
+  ```text after either                        is what it prints; a line `…` stands for any lines, a `…` in a line for anything
   ![…](…/pictures/NAME)                       is what a command of the page drew as NAME
 """
 import os
@@ -34,7 +34,8 @@ def program_name(page, number):
 
 
 def matches(expected, printed):
-    pattern = "\n".join(".*" if line == "…" else re.escape(line) for line in expected.rstrip("\n").split("\n"))
+    pattern = "\n".join(".*" if line == "…" else re.escape(line).replace("…", "[^\n]*")
+                        for line in expected.rstrip("\n").split("\n"))
     return re.fullmatch(pattern, printed.rstrip("\n"), re.S)
 
 
