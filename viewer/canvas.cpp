@@ -23,6 +23,15 @@ double usual(std::vector<double>& values) {
   return *place;
 }
 
+double thickness(const Ring& ring) {
+  double area = 0, perimeter = 0;
+  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+    area += cross(ring[last], ring[i]) / 2;
+    perimeter += length(ring[i] - ring[last]);
+  }
+  return perimeter > 0 ? 2 * std::abs(area) / perimeter : 0;
+}
+
 bool overlap(const Box& a, const Box& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
@@ -59,7 +68,7 @@ void Canvas::prepare(const Workbench& bench) {
   skins_.clear();
   for (const Piece& piece : plan.pieces) {
     const bool moves = plan.bodies[static_cast<std::size_t>(piece.body)].type == BodyType::dynamic_body;
-    Skin& skin = skins_.emplace_back(Skin{.moves = moves});
+    Skin& skin = skins_.emplace_back(Skin{.moves = moves, .thickness = thickness(piece.outline.outer)});
     if (piece.circle > 0) continue;
     skin.fills = convex_parts(piece);  // relative to its centre
     skin.edges.push_back(piece.outline.outer);
@@ -70,10 +79,7 @@ void Canvas::prepare(const Workbench& bench) {
   }
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     for (const int side : {plan.joints[i].a, plan.joints[i].b}) {
-      if (side < 0) continue;
-      Skin& skin = skins_[static_cast<std::size_t>(side)];
-      skin.joints.push_back(i);
-      if (plan.joints[i].height > 0) skin.height = std::min(skin.height, plan.joints[i].height);
+      if (side >= 0) skins_[static_cast<std::size_t>(side)].joints.push_back(i);
     }
   }
 }
@@ -90,7 +96,7 @@ void Canvas::pieces() {
     const ImU32 fill = skin.moves ? rgb(stage_colour(worst)) : ink::fixed;
     const float width = f(ui_);
     // Black outlines would be all that is seen of what is only a few pixels high.
-    const double dark = std::clamp(skin.height * camera_.scale / (10 * ui_), 0.25, 1.);
+    const double dark = std::clamp(skin.thickness * camera_.scale / (8 * ui_), 0.25, 1.);
     const ImU32 edge = IM_COL32(0x1b, 0x20, 0x27, static_cast<int>(255 * dark));
     const Turn turn(now.angle);
     const Point centre = camera_.to_screen(now.position);
@@ -146,16 +152,21 @@ void Canvas::thrown() {
   }
 }
 
-// A line across the cut in the colour of its stage, a dot that grows with its plastic rotation, or a cross.
+// A line across the cut in the colour of its stage, a dot that grows with its plastic rotation, or crosses
+// where it broke.
 void Canvas::joints() {
   const Frame& frame = bench_->frame();
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     const JointReading& joint = frame.joints[i];
     const Point at = camera_.to_screen(placed_[i].anchor);
-    if (joint.broken) {
-      const Point d{4 * ui_, 4 * ui_}, e{4 * ui_, -4 * ui_};
-      to_->AddLine(px(at - d), px(at + d), ink::edge, f(1.5 * ui_));
-      to_->AddLine(px(at - e), px(at + e), ink::edge, f(1.5 * ui_));
+    if (joint.broken) {  // on both sides, wherever they are by now
+      const PlannedJoint& planned = bench_->plan().joints[i];
+      for (const int side : {planned.a, planned.b}) {
+        const Point end = camera_.to_screen(carried(bench_->plan(), side, planned.anchor, frame));
+        const Point d{3 * ui_, 3 * ui_}, e{3 * ui_, -3 * ui_};
+        to_->AddLine(px(end - d), px(end + d), ink::edge, f(1.5 * ui_));
+        to_->AddLine(px(end - e), px(end + e), ink::edge, f(1.5 * ui_));
+      }
       continue;
     }
     const ImU32 colour = rgb(stage_colour(stage(joint)));
@@ -234,7 +245,9 @@ void Canvas::loads() {
 
 void Canvas::chosen(std::optional<std::size_t> pointed) {
   const auto ring = [&](std::size_t joint, ImU32 colour, double width) {
-    to_->AddCircle(px(camera_.to_screen(placed_[joint].anchor)), f(9 * ui_), colour, 0, f(width * ui_));
+    const ImVec2 at = px(camera_.to_screen(placed_[joint].anchor));
+    to_->AddCircle(at, f(9 * ui_), ink::ground, 0, f((width + 2) * ui_));  // seen on dark steel too
+    to_->AddCircle(at, f(9 * ui_), colour, 0, f(width * ui_));
   };
   for (const std::size_t joint : bench_->selected) ring(joint, ink::accent, 2);
   if (bench_->focus) ring(*bench_->focus, ink::accent, 3.5);

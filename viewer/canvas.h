@@ -39,7 +39,7 @@ class Canvas {
     std::vector<Convex> fills;
     std::vector<Ring> edges;
     bool moves;
-    double height = 1e300;            ///< m, of its thinnest joint
+    double thickness;                 ///< m: twice its area over its perimeter, of a strip its height
     std::vector<std::size_t> joints;  ///< that hold it
   };
   int edition_ = -1;

@@ -13,7 +13,11 @@ namespace ductile::viewer {
 
 class Desk {
  public:
-  explicit Desk(Workbench& bench) : bench_(bench) {}
+  /// `tab`: "joint", "joints", "edit", "events" or "ledger" is open at first.
+  explicit Desk(Workbench& bench, bool forces = false, std::string tab = "")
+      : bench_(bench), first_tab_(std::move(tab)) {
+    look_.forces = look_.moments = forces;
+  }
 
   /// One frame, of `size` px; `ui`: pixels per pixel of a window at scale 1.
   void draw(Point size, double ui);
@@ -55,6 +59,7 @@ class Desk {
   void seek(std::optional<long> step);
 
   Workbench& bench_;
+  std::string first_tab_;  // to be opened in the next frame
   Camera camera_;
   Canvas canvas_;
   Look look_;

@@ -86,13 +86,15 @@ void Desk::details(const Box& box) {
       Tab{"Ledger", "tab ledger", "Where the energy goes, and what a step costs.", &Desk::ledger}};
   if (ImGui::BeginTabBar("tabs")) {
     for (const Tab& tab : tabs) {
-      const bool open = ImGui::BeginTabItem(tab.name);
+      const bool wanted = !first_tab_.empty() && tab.control == "tab " + first_tab_;
+      const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
       tip(tab.control, tab.text);
       if (!open) continue;
       (this->*tab.draw)();
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
+    first_tab_.clear();
   }
   ImGui::End();
 }
@@ -127,8 +129,7 @@ void Desk::joint() {
     row("dissipated", {si(now.dissipated, "J"), "", ""});
     ImGui::EndTable();
   }
-  ImGui::ProgressBar(static_cast<float>(now.broken ? 1 : now.capacity_used),
-                     {-1, ImGui::GetTextLineHeight() * 1.1f},
+  ImGui::ProgressBar(static_cast<float>(now.broken ? 1 : now.capacity_used), {-1, ImGui::GetFrameHeight()},
                      ("plastic capacity used: " + percent(now.broken ? 1 : now.capacity_used)).c_str());
   tip("capacity used", "Plastic deformation over the maximum that is nearest: it breaks at 100 %.");
   if (planned.governed_by >= 0) {
@@ -168,6 +169,7 @@ void Desk::joint() {
     if (other != i && plotted.size() < line_colours.size()) plotted.push_back(other);
   }
   std::vector<Line> lines;
+  lines.reserve(plotted.size());
   for (const std::size_t k : plotted) {
     lines.push_back({plotted.size() > 1 ? bench_.plan().joints[k].name : "", line_colours[lines.size()],
                      [k, &quantity](const Frame& frame) { return quantity.of(frame.joints[k]); }});
@@ -455,8 +457,9 @@ void Desk::limits(SceneDef& scene) {
     ImGui::SameLine();
     ImGui::BeginDisabled(!own);
     double shown = value.value_or(limit.now);
-    changed = ImGui::SliderScalar(limit.label, ImGuiDataType_Double, &shown, &limit.low, &limit.high,
-                                  limit.format, ImGuiSliderFlags_Logarithmic);
+    changed =
+        ImGui::SliderScalar(limit.label, ImGuiDataType_Double, &shown, &limit.low, &limit.high,
+                            shown < unlimited ? limit.format : "unlimited", ImGuiSliderFlags_Logarithmic);
     tip(limit.name, limit.text);
     if (changed) value = shown;
     commit(changed && own, scene);

@@ -35,8 +35,9 @@ void Hand::suit(const Plan& plan) {
   const double length = std::max(box.x, box.y);
   mass = round_number(0.1 * moving);
   size = round_number(0.05 * length);
-  // Twice what a fall over the whole scene ends with.
-  speed = round_number(2 * std::sqrt(2 * viewer::length(plan.gravity) * length));
+  // Twice what a fall over the whole scene ends with, on earth where there is no gravity.
+  const double g = viewer::length(plan.gravity);
+  speed = round_number(2 * std::sqrt(2 * (g > 0 ? g : 9.81) * length));
 }
 
 void Hand::press(const Camera& camera, Point px, Keys keys) {

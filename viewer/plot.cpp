@@ -98,11 +98,15 @@ std::optional<long> plot(const char* title, const Timeline& run, const std::vect
   };
   to.AddLine({f(x_of(now.time)), f(box.low.y)}, {f(x_of(now.time)), f(box.high.y)}, ink::edge, f(ui));
   to.PopClipRect();
-  if (!span.empty()) {  // above the upper right corner
+  if (!span.empty()) {  // above the upper right corner, or in it where values stand there
     const std::string range = (span.low < 0 ? show(span.low) + " to " : "up to ") + show(span.high);
-    const Point corner =
-        Point{box.high.x - text_width(range), box.low.y - ImGui::GetTextLineHeightWithSpacing()};
-    if (corner.x > used) write(corner, ink::faint, range);
+    const double line = ImGui::GetTextLineHeight(), x = box.high.x - text_width(range);
+    const bool room = x > used;
+    const Point corner = room ? Point{x, box.low.y - ImGui::GetTextLineHeightWithSpacing()}
+                              : Point{x - 3 * ui, box.low.y + 2 * ui};
+    if (!room)
+      to.AddRectFilled(px(corner), px(corner + Point{text_width(range), line}), IM_COL32(255, 255, 255, 200));
+    write(corner, ink::faint, range);
   }
   if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return std::nullopt;
   const double share = std::clamp((point(ImGui::GetMousePos()).x - box.low.x) / box.size().x, 0., 1.);
@@ -135,7 +139,7 @@ void plot_limits(const Diagram& diagram, const Timeline& run, std::size_t joint,
     }
   }
   const double text = ImGui::GetTextLineHeight();
-  const Box inner{box.low + Point{8 * ui, text + 4 * ui}, box.high - Point{8 * ui, text + 4 * ui}};
+  const Box inner{box.low + Point{8 * ui, text + 5 * ui}, box.high - Point{8 * ui, text + 5 * ui}};
   const auto at = [&](double n, double m) {
     return Point{inner.low.x + N.share(n) * inner.size().x, inner.high.y - M.share(m) * inner.size().y};
   };
@@ -143,7 +147,7 @@ void plot_limits(const Diagram& diagram, const Timeline& run, std::size_t joint,
   to.PushClipRect(px(box.low), px(box.high), true);
   const Point origin = at(0, 0);
   to.AddLine({f(box.low.x), f(origin.y)}, {f(box.high.x), f(origin.y)}, ink::line, f(ui));
-  to.AddLine({f(origin.x), f(box.low.y)}, {f(origin.x), f(box.high.y)}, ink::line, f(ui));
+  to.AddLine({f(origin.x), f(inner.low.y)}, {f(origin.x), f(inner.high.y)}, ink::line, f(ui));
   std::vector<ImVec2> path;
   const auto ring = [&](const std::vector<AxialMoment>& points, ImU32 colour, double width) {
     path.clear();
@@ -220,7 +224,8 @@ void plot_section(const Diagram& diagram, const JointReading& joint, ImVec2 size
       to.AddPolyline(path.data(), static_cast<int>(path.size()), ink::edge, ImDrawFlags_Closed, f(ui));
     }
   }
-  for (double x = box.low.x + 2 * ui; x < box.high.x; x += 9 * ui) {
+  for (int dash = 0; dash * 9 * ui < box.size().x; ++dash) {
+    const double x = box.low.x + (2 + 9 * dash) * ui;
     to.AddLine({f(x), f(y)}, {f(std::min(x + 6 * ui, box.high.x)), f(y)}, ink::edge, f(1.5 * ui));
   }
   write(box.low + ui * Point{4, 2}, positive ? compression : tension, positive ? "compression" : "tension");

@@ -14,8 +14,8 @@ std::string si(double value, const char* unit) {
   if (value == 0) return fmt::format("0 {}", unit);
   // The prefix of the number as it is written: 999.96 is 1 k.
   const double written = std::stod(fmt::format("{:.3e}", std::abs(value)));
-  const int k = std::clamp(static_cast<int>(std::floor(std::log10(written) / 3)), -3, 4);
-  return fmt::format("{:.4g} {}{}", value / std::pow(1000., k), prefixes[static_cast<std::size_t>(k + 3)],
+  const double k = std::clamp(std::floor(std::log10(written) / 3), -3., 4.);
+  return fmt::format("{:.4g} {}{}", value / std::pow(1000., k), prefixes[static_cast<std::size_t>(k + 3.)],
                      unit);
 }
 

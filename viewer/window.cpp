@@ -4,7 +4,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <stb/stb_image_write.h>
+#include <png.h>
 #include <time.h>
 
 #include <algorithm>
@@ -40,7 +40,6 @@ std::runtime_error glfw_error(const std::string& what) {
 class Window {
  public:
   Window(Workbench& bench, double scale, bool visible) {
-    if (glfwInit() == GLFW_FALSE) throw glfw_error("there is no display");
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -49,11 +48,7 @@ class Window {
     glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
     const auto pixels = [scale](int size) { return static_cast<int>(size * (scale > 0 ? scale : 1)); };
     window_ = glfwCreateWindow(pixels(width), pixels(height), "ductile", nullptr, nullptr);
-    if (!window_) {
-      const auto error = glfw_error("there is no window with OpenGL 3.2");
-      glfwTerminate();
-      throw error;
-    }
+    if (!window_) throw glfw_error("there is no window with OpenGL 3.2");
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, &bench);
@@ -74,7 +69,6 @@ class Window {
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
     glfwDestroyWindow(window_);
-    glfwTerminate();
   }
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -105,17 +99,22 @@ class Window {
   std::string picture() const {
     int w = 0, h = 0;
     glfwGetFramebufferSize(window_, &w, &h);
-    const auto line = static_cast<std::size_t>(w) * 3;
-    std::string pixels(line * static_cast<std::size_t>(h), '\0'), png;
+    const int line = 3 * w;
+    std::string pixels(static_cast<std::size_t>(line) * static_cast<std::size_t>(h), '\0');
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    stbi_flip_vertically_on_write(1);
-    stbi_write_png_to_func(
-        [](void* out, void* data, int size) {
-          static_cast<std::string*>(out)->append(static_cast<const char*>(data),
-                                                 static_cast<std::size_t>(size));
-        },
-        &png, w, h, 3, pixels.data(), static_cast<int>(line));
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(w);
+    image.height = static_cast<png_uint_32>(h);
+    image.format = PNG_FORMAT_RGB;
+    std::string png(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+    png_alloc_size_t size = png.size();
+    // OpenGL's first line is the lowest one.
+    if (!png_image_write_to_memory(&image, png.data(), &size, 0, pixels.data(), -line, nullptr)) {
+      throw std::runtime_error(std::string("no picture: ") + image.message);
+    }
+    png.resize(size);
     return png;
   }
 
@@ -160,6 +159,14 @@ class Window {
     style.ScaleAllSizes(static_cast<float>(scale_));
   }
 
+  struct Library {
+    Library() {
+      if (glfwInit() == GLFW_FALSE) throw glfw_error("there is no display");
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+  } library_;
   GLFWwindow* window_ = nullptr;
   double scale_ = 1;
 };
@@ -230,7 +237,7 @@ ViewCost view(const ViewDef& def) {
   bench.select(find_joints(bench.plan(), def), false);
   const bool counted = def.frames >= 0;
   Window window(bench, def.scale, !counted);
-  Desk desk(bench);
+  Desk desk(bench, def.forces, def.tab);
   std::vector<double> cost;
   ViewCost result;
   std::string title;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "ductile/files.h"
+#include "ductile/scene_list.h"
 #include "open.h"
 
 namespace ductile::viewer {
@@ -24,6 +25,14 @@ SceneDef floor_alone() {
   return scene;
 }
 
+/// Steps per second that one of this repository's scenes asks for; 0: those of every other scene.
+double usual_hz(const std::filesystem::path& file) {
+  for (const SceneEntry& entry : scene_list) {
+    if (file.filename() == std::string(entry.name) + ".scene.json" && entry.hz != 60) return entry.hz;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Workbench::Workbench(std::vector<std::filesystem::path> scenes)
@@ -38,6 +47,7 @@ void Workbench::open(const std::filesystem::path& file) {
   try {
     plan = calibrate(opened.scene);
     run = std::make_unique<Timeline>(plan, solver());
+    if (const double hz = usual_hz(opened.file); hz > 0) run->act(act::Set{{.dt = 1 / hz}});
   } catch (const InvalidInput& error) {
     auto problems = error.problems();
     for (Problem& problem : problems) problem.place = file.string() + ":" + problem.place;
@@ -103,13 +113,13 @@ void Workbench::edit(SceneDef scene, bool continued) {
 
 void Workbench::undo() {
   if (!can_undo()) return;
-  show(calibrate(versions_[version_ - 1]), solver(), {});
+  show(calibrate(versions_[version_ - 1]), solver(), {{0, act::Set{run_->stepping()}}});
   --version_;
 }
 
 void Workbench::redo() {
   if (!can_redo()) return;
-  show(calibrate(versions_[version_ + 1]), solver(), {});
+  show(calibrate(versions_[version_ + 1]), solver(), {{0, act::Set{run_->stepping()}}});
   ++version_;
 }
 

@@ -160,6 +160,23 @@ TEST(Workbench, EditsAreUndoneAndRedone) {
   EXPECT_FALSE(bench.can_redo());
 }
 
+TEST(Workbench, StepsStayAsTheyWereSet) {
+  const fs::path scenes = fs::path(DUCTILE_SOURCE_DIR) / "scenes";
+  Workbench bench;
+  bench.open(scenes / "frame_bomb.scene.json");
+  EXPECT_EQ(bench.run().stepping().dt, 1. / 240) << "as the list of scenes asks for";
+  bench.set_stepping({.dt = 1. / 500, .velocity_iterations = 20});
+  SceneDef scene = bench.scene();
+  scene.gravity.y /= 2;
+  bench.edit(scene);
+  bench.undo();
+  bench.restart();
+  EXPECT_EQ(bench.run().stepping().dt, 1. / 500);
+  EXPECT_EQ(bench.run().stepping().velocity_iterations, 20);
+  bench.open(scenes / "cantilever.scene.json");
+  EXPECT_EQ(bench.run().stepping().dt, 1. / 60);
+}
+
 TEST(Workbench, ADraggedSliderIsOneEdit) {
   const Folder folder;
   Workbench bench;

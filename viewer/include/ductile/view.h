@@ -10,6 +10,8 @@ namespace ductile {
 struct ViewDef {
   std::filesystem::path scene;       ///< a scene file or a drawing
   std::vector<std::string> select;   ///< names of joints that are selected at first
+  std::string tab = "joint";         ///< which is open at first: joint, joints, edit, events, ledger
+  bool forces = false;               ///< forces and moments are drawn at first
   long frames = -1;                  ///< so many steps, then the end; negative: until it is closed
   double scale = 0;                  ///< pixels per pixel of 1280 × 720; 0: as the display asks for
   std::filesystem::path screenshot;  ///< PNG of the last frame; empty: none
