@@ -53,6 +53,15 @@ class Report(unittest.TestCase):
             if not claim["by_clock"]:
                 self.assertTrue(claim["holds"], claim)
 
+    def test_the_direct_solver_stands(self):
+        self.assertEqual(report(self.out, only="stability").returncode, 0)
+        data = json.loads((self.out / "data" / "stability.json").read_text())
+        self.assertEqual([c["holds"] for c in data["claims"]], [True, True])
+        # And others do not, or the cells ask for nothing.
+        verdicts = {(row[5], row[6]) for row in data["tables"][0]["rows"]}
+        self.assertEqual({v for solver, v in verdicts if solver == "direct"}, {"stands"})
+        self.assertEqual({v for solver, v in verdicts if solver == "stock"}, {"stands", "drifts", "diverges"})
+
     def test_a_second_run_gives_the_same_errors(self):
         again = Path(self.folder.name) / "again"
         self.assertEqual(report(again).returncode, 0)
