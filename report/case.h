@@ -41,7 +41,7 @@ struct Figure {
 /// Cells that say "stands", "drifts" or "diverges", with a number each.
 struct Matrix {
   std::string name, title, caption;
-  std::vector<std::string> columns;
+  std::vector<std::string> levels, columns;  // a column is "a|b|c", one head per level
   struct Cell {
     std::string verdict, told;
   };

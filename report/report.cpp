@@ -35,8 +35,8 @@ static void to_json(Json& j, const Matrix::Row& r) {
   j = {{"name", r.name}, {"promised", r.promised}, {"cells", r.cells}};
 }
 static void to_json(Json& j, const Matrix& m) {
-  j = {
-      {"name", m.name}, {"title", m.title}, {"caption", m.caption}, {"columns", m.columns}, {"rows", m.rows}};
+  j = {{"name", m.name},     {"title", m.title},     {"caption", m.caption},
+       {"levels", m.levels}, {"columns", m.columns}, {"rows", m.rows}};
 }
 static void to_json(Json& j, const Column& c) { j = {{"name", c.name}, {"measured", c.measured}}; }
 static void to_json(Json& j, const Table& t) {
@@ -48,7 +48,7 @@ static void to_json(Json& j, const Claim& c) {
 
 namespace {
 
-const Case* const cases[] = {&joints, &stability};
+const Case* const cases[] = {&sections, &joints, &stability};
 
 std::string csv(const Json& table) {
   const auto cell = [](const Json& value) {
