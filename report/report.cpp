@@ -48,7 +48,7 @@ static void to_json(Json& j, const Claim& c) {
 
 namespace {
 
-const Case* const cases[] = {&sections, &joints, &discretisation, &stability};
+const Case* const cases[] = {&sections, &joints, &discretisation, &stability, &interaction, &growth};
 
 std::string csv(const Json& table) {
   const auto cell = [](const Json& value) {
