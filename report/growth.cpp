@@ -69,7 +69,7 @@ Result run_growth(const Context& context) {
   int hits = 0;
   for (const Family& family : families) {
     Series ours{.name = fmt::format("{}, direct, swaying", family.name), .look = family.name},
-        resting{.name = fmt::format("{}, direct, first steps at rest", family.name),
+        resting{.name = fmt::format("{}, direct, standing", family.name),
                 .look = fmt::format("{} at rest", family.name)},
         stock{.name = fmt::format("{}, stock welds", family.name),
               .look = fmt::format("{} stock", family.name)},
@@ -106,7 +106,8 @@ Result run_growth(const Context& context) {
         ratios.push_back(a / s), rest_ratios.push_back(r / s), yard.push_back(s / few);
       }
       std::sort(ratios.begin(), ratios.end());
-      const double ratio = ratios[ratios.size() / 2], low = 0.9 * ratios.front(), high = 1.1 * ratios.back(),
+      const double ratio = ratios[ratios.size() / 2], low = 0.9 * ratios[ratios.size() / 10],
+                   high = 1.1 * ratios[ratios.size() - 1 - ratios.size() / 10],
                    us = 1e6 * median(yard) / joints;
       const double rest = median(rest_ratios), each = static_cast<double>(built->structure->bytes()) / joints;
       for (auto* s : {&ours, &resting, &stock, &bytes})
