@@ -54,8 +54,9 @@ class Report(unittest.TestCase):
                 self.assertTrue(claim["holds"], claim)
 
     def test_the_direct_solver_stands(self):
-        self.assertEqual(report(self.out, only="stability").returncode, 0)
-        data = json.loads((self.out / "data" / "stability.json").read_text())
+        out = Path(self.folder.name) / "stability"
+        self.assertEqual(report(out, only="stability").returncode, 0)
+        data = json.loads((out / "data" / "stability.json").read_text())
         self.assertEqual([c["holds"] for c in data["claims"]], [True, True])
         # And others do not, or the cells ask for nothing.
         verdicts = {(row[5], row[6]) for row in data["tables"][0]["rows"]}
