@@ -223,5 +223,48 @@ TEST_P(Extremes, StayFiniteAndGainNothing) {
 INSTANTIATE_TEST_SUITE_P(All, Extremes, testing::Range(std::size_t{0}, extremes.size()),
                          [](const auto& info) { return extremes[info.param].name; });
 
+// A free chain, every other piece 1e4 times heavier than steel, that spins so fast that the middle is asked
+// for three times its plastic tension: it stretches everywhere at once, and ever more slowly.
+TEST(StretchingChain, EverySolveEnds) {
+  constexpr int n = 80;
+  constexpr double length = 20, l = length / n, dt = 1.0 / 240, tension = 350e6, heavy = 1e4;
+  b2World world({0, 0});
+  world.SetAllowSleeping(false);
+  Structure structure(world);
+  std::vector<b2Body*> pieces;
+  double mass = 0, moment = 0;
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) * l, m = 7800 * l * (i % 2 == 0 ? 1 : heavy);
+    pieces.push_back(add_box(world, {.x = x, .width = l, .mass = m}));
+    mass += m, moment += m * x;
+    if (i == 0) continue;
+    ElasticPlasticJointDef joint;
+    joint.Initialize(pieces[pieces.size() - 2], pieces.back(), vec(i * l, 0), {1, 0});
+    joint.rows[axial].cap = joint.rows[axial].cap_reverse = tension;
+    joint.rows[shear].cap = joint.rows[shear].cap_reverse = tension / std::sqrt(3);
+    joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = tension / 4;
+    structure.create_joint(joint);
+  }
+  const double middle = moment / mass;
+  double pull = 0;  // on the middle, at ω = 1
+  for (const b2Body* b : pieces) pull += b->GetMass() * std::max(b->GetPosition().x - middle, 0.);
+  const double omega = std::sqrt(3 * tension / pull);
+  for (b2Body* b : pieces) {
+    b->SetLinearVelocity(vec(0, omega * (b->GetPosition().x - middle)));
+    b->SetAngularVelocity(static_cast<float>(omega));
+  }
+  const double energy = kinetic_energy(pieces);
+  int hits = 0;
+  for (int i = 0; i < 480; ++i) {
+    world.Step(static_cast<float>(dt), 8, 3);
+    hits += structure.report().bounds_hit;
+    structure.update();
+  }
+  EXPECT_EQ(hits, 0);
+  const auto& joints = structure.joints();
+  EXPECT_GT(std::count_if(joints.begin(), joints.end(), [](auto* j) { return j->elongation() > 0; }), n / 2);
+  EXPECT_LE(kinetic_energy(pieces), energy);
+}
+
 }  // namespace
 }  // namespace ductile
