@@ -57,10 +57,7 @@ Result run_growth(const Context& context) {
                {"us per joint, stock", true},
                {"s to build", true}},
               {}};
-  Figure time{.name = "growth-time",
-              .title = "Time of a step per joint",
-              .x = {"joints", true},
-              .y = {"time per joint and step [µs]", true}};
+
   Figure memory{.name = "growth-memory",
                 .title = "Memory per joint",
                 .x = {"joints", true},
@@ -68,12 +65,9 @@ Result run_growth(const Context& context) {
   double done = 0, dearest = 0, most_bytes = 0;
   int hits = 0;
   for (const Family& family : families) {
-    Series ours{.name = fmt::format("{}, direct, swaying", family.name), .look = family.name},
-        resting{.name = fmt::format("{}, direct, standing", family.name),
-                .look = fmt::format("{} at rest", family.name)},
-        stock{.name = fmt::format("{}, stock welds", family.name),
-              .look = fmt::format("{} stock", family.name)},
-        bytes{.name = family.name, .look = family.name};
+    Series ours{.name = "direct, swaying", .look = "swaying"},
+        resting{.name = "direct, standing", .look = "standing"},
+        stock{.name = "stock welds", .look = "stock"}, bytes{.name = family.name, .look = family.name};
     for (const int size : sizes) {
       const Layout layout = family.of(size);
       const double joints = static_cast<double>(layout.welds.size());
@@ -123,10 +117,17 @@ Result run_growth(const Context& context) {
       most_bytes = std::max(most_bytes, each);
       context.progress(++done / static_cast<double>(3 * sizes.size()));
     }
-    for (auto* s : {&ours, &resting, &stock}) time.series.push_back(std::move(*s));
+    result.figures.push_back({.name = fmt::format("growth-time-{}", family.name),
+                              .group = "growth-time",
+                              .tab = family.name,
+                              .first = &family == families + 1,
+                              .title = fmt::format("Time of a step per joint: {}", family.name),
+                              .x = {"joints", true},
+                              .y = {"time per joint and step [µs]", true},
+                              .series = {std::move(ours), std::move(resting), std::move(stock)}});
     memory.series.push_back(std::move(bytes));
   }
-  result.figures = {std::move(time), std::move(memory)};
+  result.figures.push_back(std::move(memory));
   result.tables = {std::move(table)};
   result.text = {
       "Structures of true steel on ground that shakes sideways (2 Hz, 3 m/s²), so that every step is solved, "

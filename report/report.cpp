@@ -169,7 +169,7 @@ std::string make_report(const ReportOptions& options) {
         write_text(data / fmt::format("{}-{}.csv", c->name, table["name"].get<std::string>()),
                    report::csv(table));
       }
-      write_text(file, made.dump(1) + "\n");  // last: it says that the case is complete
+      write_text(file, made.dump() + "\n");  // last: it says that the case is complete
     }
     said += fmt::format("{} ({} s)\n", c->title, made["seconds"].get<double>());
     for (const Json& claim : made["claims"]) {
