@@ -19,7 +19,7 @@ using bench::Built;
 using bench::Layout;
 using bench::Steel;
 
-constexpr double g = 10, frequency = 60, duration = 10;  // m/s², Hz, s
+constexpr double g = 10, frequency = 60, duration = 15;  // m/s², Hz, s
 
 /// How a structure is stepped.
 struct Way {
@@ -375,7 +375,7 @@ Result run_joints(const Context& context) {
     }
   }
   result.text = {
-      "A structure of steel boxes is put into gravity all at once and steps for 10 s at 60 Hz. Judged over "
+      "A structure of steel boxes is put into gravity all at once and steps for 15 s at 60 Hz. Judged over "
       "the last "
       "second are the moment that the ground takes (statics alone says what it is), how far every piece sank "
       "(linear "
