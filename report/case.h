@@ -92,6 +92,6 @@ struct Case {
 };
 
 /// A new case is one of these, and its name in the list of report.cpp.
-extern const Case sections, joints, discretisation, stability, interaction, growth;
+extern const Case sections, joints, discretisation, stability, interaction, leaving_out, growth;
 
 }  // namespace ductile::report

@@ -48,7 +48,8 @@ static void to_json(Json& j, const Claim& c) {
 
 namespace {
 
-const Case* const cases[] = {&sections, &joints, &discretisation, &stability, &interaction, &growth};
+const Case* const cases[] = {&sections,    &joints,      &discretisation, &stability,
+                             &interaction, &leaving_out, &growth};
 
 std::string csv(const Json& table) {
   const auto cell = [](const Json& value) {
