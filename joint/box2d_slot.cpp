@@ -98,12 +98,23 @@ class WorldWatch : public b2CircleShape {
       : b2CircleShape(circle), structure_(&structure) {}
   WorldWatch(const WorldWatch&) = delete;
   ~WorldWatch() override { structure_->world_is_gone(); }
+  Structure::Impl* structure() const { return structure_; }
 
  private:
   Structure::Impl* structure_;
 };
 
 b2Body* watch_world(b2World& world, Structure::Impl& structure) { return WorldWatch::post(world, structure); }
+
+std::vector<Structure::Impl*> structures_in(b2World& world) {
+  std::vector<Structure::Impl*> found;
+  for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
+    if (body->IsEnabled() || body->GetFixtureList() == nullptr) continue;
+    const b2Shape* shape = body->GetFixtureList()->GetShape();
+    if (const auto* watch = dynamic_cast<const WorldWatch*>(shape)) found.push_back(watch->structure());
+  }
+  return found;
+}
 
 Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known, SolverKind solver_kind)
     : members(std::move(enlisted_members)), kind(solver_kind) {

@@ -4,6 +4,7 @@
 #include <box2d/box2d.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -17,6 +18,8 @@ struct Component;
 
 void check(const ElasticPlasticJointDef& def);
 b2Body* watch_world(b2World& world, Structure::Impl& structure);
+/// The structures of a world, in an order that only their coming and going changes.
+std::vector<Structure::Impl*> structures_in(b2World& world);
 
 /// One joint of a structure.
 struct Member {
@@ -32,7 +35,7 @@ struct Member {
   double max_rotation = unlimited, max_elongation = unlimited, max_compression = unlimited,
          max_slip = unlimited;
   int break_group = 0;
-  std::unique_ptr<YieldSurface> surface;
+  std::shared_ptr<const YieldSurface> surface;
 
   SolverJoint& data();
   const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }

@@ -53,7 +53,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     m.own.hardening[i] = row.hardening;
   }
   if (!d.interaction.empty()) {
-    m.surface = std::make_unique<YieldSurface>(d.interaction, d.rows[shear].cap);
+    m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
     m.own.surface = m.surface.get();
   }
   m.own.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
@@ -288,6 +288,50 @@ std::size_t Structure::Impl::bytes() const {
            c->mirrors.capacity() * sizeof(Component::Mirror);
   }
   return sum;
+}
+
+auto Structure::Impl::state() const -> State {
+  State s{def, watch, next_id, {}, {}, report, batch_, stepped_, gone_, known_, pending_};
+  for (const auto& m : members) s.members.push_back(*m);
+  for (const auto& c : components) {
+    std::vector<std::uint32_t> ids;
+    for (const Member* m : c->members) ids.push_back(m->id);
+    s.components.push_back({*c, std::move(ids)});
+  }
+  return s;
+}
+
+// The joints are at their addresses again; members and components are made anew.
+void Structure::Impl::restore(const State& s) {
+  def = s.def;
+  watch = s.watch;
+  next_id = s.next_id;
+  report = s.report;
+  batch_ = s.batch;
+  stepped_ = s.stepped;
+  gone_ = s.gone;
+  known_ = s.known;
+  pending_.assign(s.pending.begin(), s.pending.end());
+  enlisted_.clear();
+  active_.clear();
+  enlisting_ = false;
+  components.clear();
+  members.clear();
+  joints.clear();
+  for (const Member& saved : s.members) {
+    members.push_back(std::make_unique<Member>(saved));
+    members.back()->component = nullptr;
+    joints.push_back(saved.joint);
+    saved.joint->member_ = members.back().get();
+  }
+  for (const State::Formed& saved : s.components) {
+    components.push_back(std::make_unique<Component>(saved.component));
+    Component& c = *components.back();
+    for (std::size_t i = 0; i < saved.ids.size(); ++i) {
+      c.members[i] = find(saved.ids[i])->get();
+      c.members[i]->component = &c;
+    }
+  }
 }
 
 Structure::Structure(b2World& world, const StructureDef& def) : impl_(std::make_unique<Impl>(world, def)) {}

@@ -22,6 +22,11 @@ struct Structure::Impl {
   void velocity(const b2SolverData& data);
   void position(const b2SolverData& data);
 
+  /// All that goes from step to step.
+  struct State;
+  State state() const;
+  void restore(const State& state);
+
   void update();
   void shift_origin(const b2Vec2& new_origin, const Member& caller);
   std::size_t bytes() const;
@@ -63,6 +68,24 @@ struct Structure::Impl {
     JointEvent event;
   };
   std::vector<Pending> pending_;
+};
+
+struct Structure::Impl::State {
+  StructureDef def;
+  b2Body* watch;
+  std::uint32_t next_id;
+  std::vector<Member> members;
+  struct Formed {
+    Component component;
+    std::vector<std::uint32_t> ids;  // of its members
+  };
+  std::vector<Formed> components;
+  StepReport report;
+  std::uint64_t batch;
+  bool stepped;
+  JointEnergy gone;
+  KnownPoses known;
+  std::vector<Pending> pending;
 };
 
 }  // namespace ductile

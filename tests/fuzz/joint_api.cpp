@@ -84,7 +84,14 @@ class Game : b2DestructionListener {
 
   void operate() {
     const double before = kinetic();
-    switch (in_.below(24)) {
+    const unsigned code = in_.next();
+    if (code == 240) {
+      snapshot_.save(*world_);
+      saved_ = {bodies_, stock_, budget_, most_, turn_};
+      return;
+    }
+    if (code == 243) return go_back();
+    switch (code % 24) {
       case 0:
         make_body();
         break;
@@ -380,6 +387,17 @@ class Game : b2DestructionListener {
     }
   }
 
+  void go_back() {
+    try {
+      snapshot_.restore(*world_);
+    } catch (const std::logic_error&) {
+      return;  // nothing was saved, or the structure is another one
+    }
+    bodies_ = saved_.bodies;
+    stock_ = saved_.stock;
+    budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn;
+  }
+
   void happened(const JointEvent& event) {
     require(event.joint != nullptr, "an event is about a joint");
     require_finite({event.force, event.energy}, "event");
@@ -502,6 +520,12 @@ class Game : b2DestructionListener {
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
   double turn_ = 0;               // rad in the last step, at most
+  Snapshot snapshot_;
+  struct {
+    std::vector<b2Body*> bodies;
+    std::vector<b2Joint*> stock;
+    double budget = 0, most = 0, turn = 0;
+  } saved_;
   StructureDef def_;
   std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});
   std::vector<b2Body*> bodies_;

@@ -230,4 +230,30 @@ class Structure {
   std::unique_ptr<Impl> impl_;
 };
 
+/// A world at one moment with all that is in it, its structures too: for rollback netcode, rewinding and
+/// undo. After restore() the world runs on as it did after save(), to the bit, whatever happened in between:
+/// what was made since is gone, what went is back at its address (bodies, fixtures, contacts, broken joints).
+/// Nobody is told: no listener is called, and what a game keeps beside the world is the game's to bring back.
+///
+/// Costs a copy of the world's memory. Chain shapes and structures must be the same at both moments.
+class Snapshot {
+ public:
+  Snapshot();
+  ~Snapshot();
+  Snapshot(Snapshot&&) noexcept;
+  Snapshot& operator=(Snapshot&&) noexcept;
+
+  /// Forgets what was saved before, but keeps its memory. Changes nothing in the world. Throws
+  /// std::logic_error while the world is stepping.
+  void save(b2World& world);
+  /// As often as you like, to older and newer moments. Throws std::logic_error, and changes nothing, while
+  /// the world is stepping, or where it is another world or a chain shape or a structure has come or gone
+  /// since.
+  void restore(b2World& world) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 }  // namespace ductile

@@ -1,0 +1,257 @@
+// What b2World keeps, as bytes. Bodies, fixtures, joints and contacts lie in the chunks of its block
+// allocator and know each other by address, so bytes that are put back where they were are the same world
+// again: order of lists, warm starts, sleep timers and the broad phase's tree included. Written against
+// Box2D 2.4.1.
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "structure.h"
+
+namespace ductile {
+
+namespace {
+
+// Explicit instantiation may name private members ([temp.spec.general]/6).
+template <class Tag, typename Tag::Type member>
+struct Reveal {
+  friend typename Tag::Type reveal(Tag) { return member; }
+};
+#define REVEAL(Class, member, ...)        \
+  struct Class##_##member {               \
+    using Type = __VA_ARGS__ Class::*;    \
+    friend Type reveal(Class##_##member); \
+  };                                      \
+  template struct Reveal<Class##_##member, &Class::member>
+
+using FreeLists = b2Block* [b2_blockSizeCount];
+REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
+REVEAL(b2World, m_bodyList, b2Body*);
+REVEAL(b2World, m_destructionListener, b2DestructionListener*);
+REVEAL(b2World, m_inv_dt0, float);
+REVEAL(b2World, m_profile, b2Profile);
+REVEAL(b2BlockAllocator, m_chunks, b2Chunk*);
+REVEAL(b2BlockAllocator, m_chunkCount, int32);
+REVEAL(b2BlockAllocator, m_freeLists, FreeLists);
+REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
+REVEAL(b2BroadPhase, m_proxyCount, int32);
+REVEAL(b2BroadPhase, m_moveBuffer, int32*);
+REVEAL(b2BroadPhase, m_moveCount, int32);
+REVEAL(b2DynamicTree, m_root, int32);
+REVEAL(b2DynamicTree, m_nodes, b2TreeNode*);
+REVEAL(b2DynamicTree, m_nodeCount, int32);
+REVEAL(b2DynamicTree, m_nodeCapacity, int32);
+REVEAL(b2DynamicTree, m_freeList, int32);
+REVEAL(b2DynamicTree, m_insertionCount, int32);
+REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
+#undef REVEAL
+
+template <class Tag, class Object>
+auto& of(Object& object, Tag tag) {
+  return object.*reveal(tag);
+}
+
+// b2_block_allocator.cpp
+constexpr std::size_t chunk_size = 16 * 1024;
+constexpr int32 block_sizes[b2_blockSizeCount] = {16,  32,  64,  96,  128, 160, 192,
+                                                  224, 256, 320, 384, 448, 512, 640};
+struct Chunk {
+  int32 block_size;
+  std::byte* blocks;
+};
+struct FreeBlock {
+  FreeBlock* next;
+};
+static_assert(sizeof(b2Body) <= 640 && sizeof(b2WheelJoint) <= 640, "what is larger lies elsewhere");
+
+using Bytes = std::vector<std::byte>;
+
+void append(Bytes& bytes, const void* from, std::size_t size) {
+  const auto* begin = static_cast<const std::byte*>(from);
+  bytes.insert(bytes.end(), begin, begin + size);
+}
+
+/// A chain's points, and its proxies where they are many, lie outside the allocator.
+struct Chain {
+  b2Fixture* fixture;
+  const b2Vec2* at;
+  std::vector<b2Vec2> points;
+  std::vector<b2FixtureProxy> proxies;
+
+  bool operator==(const Chain& o) const {
+    return fixture == o.fixture && at == o.at && points.size() == o.points.size() &&
+           std::equal(points.begin(), points.end(), o.points.begin());
+  }
+};
+
+std::vector<Chain> chains_in(b2World& world) {
+  std::vector<Chain> chains;
+  for (b2Body* b = world.GetBodyList(); b != nullptr; b = b->GetNext()) {
+    for (b2Fixture* f = b->GetFixtureList(); f != nullptr; f = f->GetNext()) {
+      if (f->GetType() != b2Shape::e_chain) continue;
+      const auto* chain = static_cast<const b2ChainShape*>(f->GetShape());
+      const b2FixtureProxy* proxies = of(*f, b2Fixture_m_proxies{});
+      chains.push_back({f,
+                        chain->m_vertices,
+                        {chain->m_vertices, chain->m_vertices + chain->m_count},
+                        {proxies, proxies + chain->GetChildCount()}});
+    }
+  }
+  return chains;
+}
+
+b2ContactManager& contacts_of(b2World& world) {
+  return const_cast<b2ContactManager&>(world.GetContactManager());  // of a world that is not const
+}
+
+}  // namespace
+
+struct Snapshot::Impl {
+  b2World* world = nullptr;
+  // b2World's own members: lists, settings, and what goes from step to step. Not its listeners.
+  Bytes lists, settings;
+  b2Contact* contact_list = nullptr;
+  int32 contact_count = 0;
+  // b2BlockAllocator
+  Bytes chunks;
+  FreeLists free_lists;
+  // b2BroadPhase
+  int32 proxy_count = 0, root = 0, node_count = 0, free_node = 0, insertion_count = 0;
+  std::vector<b2TreeNode> nodes;
+  std::vector<int32> moved;
+  std::vector<Chain> chains;
+  std::vector<std::pair<Structure::Impl*, Structure::Impl::State>> structures;
+
+  void save(b2World& w);
+  void restore(b2World& w) const;
+};
+
+namespace {
+
+/// From one member of the world up to another.
+std::pair<std::byte*, std::size_t> between(void* first, void* end) {
+  auto* begin = static_cast<std::byte*>(first);
+  return {begin, static_cast<std::size_t>(static_cast<std::byte*>(end) - begin)};
+}
+auto lists_of(b2World& world) {
+  return between(&of(world, b2World_m_bodyList{}), &of(world, b2World_m_destructionListener{}));
+}
+auto settings_of(b2World& world) {
+  return between(&of(world, b2World_m_inv_dt0{}), &of(world, b2World_m_profile{}));
+}
+
+}  // namespace
+
+void Snapshot::Impl::save(b2World& w) {
+  if (w.IsLocked()) throw std::logic_error("snapshot: the world is stepping; save it between steps");
+  world = &w;
+  const auto keep = [](Bytes& bytes, const std::pair<std::byte*, std::size_t>& range) {
+    bytes.assign(range.first, range.first + range.second);
+  };
+  keep(lists, lists_of(w));
+  keep(settings, settings_of(w));
+
+  b2BlockAllocator& allocator = of(w, b2World_m_blockAllocator{});
+  const auto* chunk = reinterpret_cast<const Chunk*>(of(allocator, b2BlockAllocator_m_chunks{}));
+  chunks.clear();
+  for (int32 i = 0; i < of(allocator, b2BlockAllocator_m_chunkCount{}); ++i) {
+    append(chunks, chunk[i].blocks, chunk_size);
+  }
+  std::copy_n(of(allocator, b2BlockAllocator_m_freeLists{}), b2_blockSizeCount, free_lists);
+
+  b2ContactManager& contacts = contacts_of(w);
+  contact_list = contacts.m_contactList;
+  contact_count = contacts.m_contactCount;
+  b2BroadPhase& phase = contacts.m_broadPhase;
+  proxy_count = of(phase, b2BroadPhase_m_proxyCount{});
+  const int32* buffer = of(phase, b2BroadPhase_m_moveBuffer{});
+  moved.assign(buffer, buffer + of(phase, b2BroadPhase_m_moveCount{}));
+  b2DynamicTree& tree = of(phase, b2BroadPhase_m_tree{});
+  root = of(tree, b2DynamicTree_m_root{});
+  node_count = of(tree, b2DynamicTree_m_nodeCount{});
+  free_node = of(tree, b2DynamicTree_m_freeList{});
+  insertion_count = of(tree, b2DynamicTree_m_insertionCount{});
+  const b2TreeNode* node = of(tree, b2DynamicTree_m_nodes{});
+  nodes.assign(node, node + of(tree, b2DynamicTree_m_nodeCapacity{}));
+
+  chains = chains_in(w);
+  structures.clear();
+  for (Structure::Impl* s : structures_in(w)) structures.emplace_back(s, s->state());
+}
+
+void Snapshot::Impl::restore(b2World& w) const {
+  if (&w != world)
+    throw std::logic_error("snapshot: of another world; restore it into the one it was saved of");
+  if (w.IsLocked()) throw std::logic_error("snapshot: the world is stepping; restore it between steps");
+  if (chains_in(w) != chains) {
+    throw std::logic_error(
+        "snapshot: a chain shape has come or gone since; make chains before the first save");
+  }
+  const auto same = [](const Structure::Impl* now, const auto& saved) { return now == saved.first; };
+  if (const auto now = structures_in(w);
+      !std::equal(now.begin(), now.end(), structures.begin(), structures.end(), same)) {
+    throw std::logic_error(
+        "snapshot: a structure has come or gone since; make structures before the first save");
+  }
+
+  std::copy(lists.begin(), lists.end(), lists_of(w).first);
+  std::copy(settings.begin(), settings.end(), settings_of(w).first);
+
+  b2BlockAllocator& allocator = of(w, b2World_m_blockAllocator{});
+  auto* chunk = reinterpret_cast<Chunk*>(of(allocator, b2BlockAllocator_m_chunks{}));
+  const auto known = static_cast<int32>(chunks.size() / chunk_size);
+  FreeLists& free = of(allocator, b2BlockAllocator_m_freeLists{});
+  std::copy_n(free_lists, b2_blockSizeCount, free);
+  for (int32 i = 0; i < known; ++i) {
+    std::memcpy(chunk[i].blocks, chunks.data() + static_cast<std::size_t>(i) * chunk_size, chunk_size);
+  }
+  // Chunks that came since are free, all of them; they stay, for a later snapshot may need them in their
+  // place.
+  for (int32 i = known; i < of(allocator, b2BlockAllocator_m_chunkCount{}); ++i) {
+    const auto size = static_cast<std::size_t>(chunk[i].block_size);
+    auto& head =
+        free[std::find(block_sizes, block_sizes + b2_blockSizeCount, chunk[i].block_size) - block_sizes];
+    for (std::size_t at = 0; at + size <= chunk_size; at += size) {
+      head = reinterpret_cast<b2Block*>(new (chunk[i].blocks + at)
+                                            FreeBlock{reinterpret_cast<FreeBlock*>(head)});
+    }
+  }
+
+  b2ContactManager& contacts = contacts_of(w);
+  contacts.m_contactList = contact_list;
+  contacts.m_contactCount = contact_count;
+  b2BroadPhase& phase = contacts.m_broadPhase;
+  of(phase, b2BroadPhase_m_proxyCount{}) = proxy_count;
+  std::copy(moved.begin(), moved.end(), of(phase, b2BroadPhase_m_moveBuffer{}));  // which never shrinks
+  of(phase, b2BroadPhase_m_moveCount{}) = static_cast<int32>(moved.size());
+  b2DynamicTree& tree = of(phase, b2BroadPhase_m_tree{});
+  of(tree, b2DynamicTree_m_root{}) = root;
+  of(tree, b2DynamicTree_m_nodeCount{}) = node_count;
+  of(tree, b2DynamicTree_m_freeList{}) = free_node;
+  of(tree, b2DynamicTree_m_insertionCount{}) = insertion_count;
+  b2TreeNode*& node = of(tree, b2DynamicTree_m_nodes{});
+  // Proxies are numbered by nodes, and pairs ordered by those numbers: capacity tells the number that is
+  // next.
+  const auto capacity = static_cast<int32>(nodes.size());
+  if (std::exchange(of(tree, b2DynamicTree_m_nodeCapacity{}), capacity) != capacity) {
+    b2Free(node);
+    node = static_cast<b2TreeNode*>(b2Alloc(capacity * static_cast<int32>(sizeof(b2TreeNode))));
+  }
+  std::copy(nodes.begin(), nodes.end(), node);
+
+  for (const Chain& chain : chains) {
+    std::copy(chain.proxies.begin(), chain.proxies.end(), of(*chain.fixture, b2Fixture_m_proxies{}));
+  }
+  for (const auto& [structure, state] : structures) structure->restore(state);
+}
+
+Snapshot::Snapshot() : impl_(std::make_unique<Impl>()) {}
+Snapshot::~Snapshot() = default;
+Snapshot::Snapshot(Snapshot&&) noexcept = default;
+Snapshot& Snapshot::operator=(Snapshot&&) noexcept = default;
+void Snapshot::save(b2World& world) { impl_->save(world); }
+void Snapshot::restore(b2World& world) const { impl_->restore(world); }
+
+}  // namespace ductile
