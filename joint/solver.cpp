@@ -802,7 +802,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
       const bool free = j.law.G[i] == 0;
       const double change = j.gap[i] - gaps_[k][i];
       const bool closed =
-          kept && j.m_eff[i] * change * change <= 1e-6 * size + rounding * rounding * j.m_eff[i];
+          kept && j.m_eff[i] * change * change <= 1e-10 * size + rounding * rounding * j.m_eff[i];
       if (closed && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += change;
       if (!free) j.plastic[i] += change;
