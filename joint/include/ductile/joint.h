@@ -111,6 +111,9 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double slip() const;                  ///< m: Σ|plastic shear|
   /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break.
   double capacity_used() const;
+  /// 0 unloaded … below 1 the largest usage() of its rows; from 1 on it has yielded, 1 + capacity_used(); 2
+  /// where it broke. What has yielded stays at 1 or above when its load goes.
+  double stage() const;
   bool broken() const;  ///< carries nothing any more; gone after Structure::update()
 
   // Energy.
@@ -147,6 +150,19 @@ class ElasticPlasticJoint : public b2WeldJoint {
   Member* member_;
   bool leads_ = false;  // first joint of its island: does the work of all
 };
+
+/// How Structure::draw() shows joints. A scale of 0 leaves its mark out.
+struct JointDrawing {
+  float force = 0;    ///< m per N: a line from the joint along N t + Q n, the axis t and its left n
+  float moment = 0;   ///< m per N m: radius of a circle, orange for M > 0 and blue below
+  float neutral = 0;  ///< m: length of a line from where the joint is without stress, along the turned axis
+  float dot = 8;      ///< pixels: a point in the colour of the joint's stage()
+  const ElasticPlasticJoint* selected = nullptr;  ///< has a white point on its own
+};
+
+/// Colour of a stage: pale to deep blue below yield, yellow to dark purple from it to breaking; safe for the
+/// colour-blind.
+b2Color stage_color(double stage);
 
 /// How a structure finds its joints' impulses.
 enum class SolverKind {
@@ -223,6 +239,8 @@ class Structure {
   /// As of the last update(), which is to follow every step. Needs StructureDef::keep_ledger.
   JointEnergy energy() const;
   std::size_t bytes() const;  ///< memory held
+  /// Draws all joints. Any time outside b2World::Step.
+  void draw(b2Draw& canvas, const JointDrawing& how = {}) const;
 
   struct Impl;
 
