@@ -416,6 +416,15 @@ void Component::limit_speed(const b2SolverData& data) {
   const auto share = [&](double limit, double speed) {
     return std::min(1.0, in_floats * limit / (solver.step() * speed));
   };
+  const auto kinetic = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const SolverBody& b = solver.bodies[i];
+      sum += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    }
+    return sum;
+  };
+  double before = 0;
   for (int pass = 0;; ++pass) {
     double fastest = 0, turning = 0;  // squares
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -425,7 +434,11 @@ void Component::limit_speed(const b2SolverData& data) {
     }
     const double least =
         std::min(share(b2_maxTranslation, std::sqrt(fastest)), share(b2_maxRotation, std::sqrt(turning)));
-    if (least == 1) return;
+    if (least == 1) {
+      if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return;
+    }
+    if (pass == 0) before = kinetic();
     const bool together = pass == 4;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       SolverBody& b = solver.bodies[i];
@@ -439,8 +452,11 @@ void Component::limit_speed(const b2SolverData& data) {
       b.v_free -= less;
       b.v -= less;
     }
-    if (together) solver.slow_down(least);
-    if (together) return give(data);
+    if (together) {
+      solver.slow_down(least);
+      report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return give(data);
+    }
     solve(data);
   }
 }

@@ -32,6 +32,7 @@ struct Member {
   bool fresh = true;               // never solved: its neutral position is where it is first seen
   bool broken = false;
   bool yielded = false;
+  double told = 0;  // capacity_used() of the last flow event
   double max_rotation = unlimited, max_elongation = unlimited, max_compression = unlimited,
          max_slip = unlimited;
   int break_group = 0;

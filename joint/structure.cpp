@@ -201,8 +201,14 @@ void Structure::Impl::look_for_breaks(Component& component) {
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
                                      : JointEvent::rotation;
-    if (!std::exchange(m->yielded, true)) say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
-    const bool exceeded = m->joint->capacity_used() > 1;
+    const double used = m->joint->capacity_used();
+    if (!std::exchange(m->yielded, true)) {
+      say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
+    } else if (used >= m->told + def.flow_share) {
+      m->told = used;
+      say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
+    }
+    const bool exceeded = used > 1;
     if (!exceeded || (veto && !veto(*m->joint))) continue;
     break_joint(*m, mode, static_cast<Row>(row));
   }
@@ -249,7 +255,12 @@ JointEnergy Structure::Impl::energy() const {
 }
 
 void Structure::Impl::update() {
-  stepped_ = false;
+  if (std::exchange(stepped_, false)) {
+    worst.bounds_hit += report.bounds_hit;
+    worst.parted += report.parted;
+    worst.residual = std::max(worst.residual, report.residual);
+    worst.slowed = std::max(worst.slowed, report.slowed);
+  }
   if (def.keep_ledger) {
     for (const auto& c : components) gone_.clamped += c->close_ledger();
   }
@@ -291,7 +302,7 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def, watch, next_id, {}, {}, report, batch_, stepped_, gone_, known_, pending_};
+  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, known_, pending_};
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
     std::vector<std::uint32_t> ids;
@@ -307,6 +318,7 @@ void Structure::Impl::restore(const State& s) {
   watch = s.watch;
   next_id = s.next_id;
   report = s.report;
+  worst = s.worst;
   batch_ = s.batch;
   stepped_ = s.stepped;
   gone_ = s.gone;

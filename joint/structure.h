@@ -42,6 +42,7 @@ struct Structure::Impl {
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
+  StepReport worst;  // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
  private:
   void form();
@@ -80,7 +81,7 @@ struct Structure::Impl::State {
     std::vector<std::uint32_t> ids;  // of its members
   };
   std::vector<Formed> components;
-  StepReport report;
+  StepReport report, worst;
   std::uint64_t batch;
   bool stepped;
   JointEnergy gone;

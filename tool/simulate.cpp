@@ -230,6 +230,9 @@ std::string run(const Options& options) {
     replay_file->keep();
   }
   if (!options.pictures.empty()) pictures.write(*simulation, options);
+  if (const Structure* structure = simulation->structure()) {
+    for (const std::string& warning : structure->warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  }
   if (!options.json) return table(*simulation, options.scene);
   const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
                     {"joints", joints_json(*simulation)},

@@ -20,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace ductile {
@@ -181,6 +182,8 @@ struct JointEvent {
 
 struct StructureDef {
   SolverKind solver = SolverKind::direct;
+  double flow_share =
+      0.1;  ///< JointEvent::flow comes each time a joint has used up so much more of its limit
   bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
 };
 
@@ -206,6 +209,7 @@ struct StepReport {
   int bounds_hit = 0;   ///< solves and pushes that did not end in time; 0 in every scene that we know of
   int parted = 0;       ///< of them, pushes that no pose could follow: the joints' neutral positions did
   double residual = 0;  ///< largest relative residual of a solve
+  double slowed = 0;    ///< share of a component's kinetic energy that Box2D's speed limits took, at most
 };
 
 /// The joints of one world that are kept honest together. It finds by itself which bodies hang together, and
@@ -236,6 +240,10 @@ class Structure {
   std::span<ElasticPlasticJoint* const> joints() const;
 
   const StepReport& report() const;  ///< of the steps since the last update()
+  /// What is not as it should be, in plain words and with what to do about it: what went wrong in any step
+  /// since the start (the speed limit, bounds, residuals), and what is now beyond what is promised
+  /// (stiffness, mass ratios, fixtures too small for Box2D). Empty when all is well.
+  std::vector<std::string> warnings() const;
   /// As of the last update(), which is to follow every step. Needs StructureDef::keep_ledger.
   JointEnergy energy() const;
   std::size_t bytes() const;  ///< memory held
