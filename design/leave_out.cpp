@@ -37,7 +37,8 @@ class Leaner {
         quiet_(index(full_.structures()), true),
         lean_{.plan = plan} {
     measure_structures();
-    for (std::size_t i = 0; i < plan_.joints.size(); ++i) judge(static_cast<int>(i));
+    find_quiet();
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) judged_.push_back(judge(static_cast<int>(i)));
     budget_ = options.tolerance;
   }
 
@@ -84,36 +85,73 @@ class Leaner {
     return -1;
   }
 
-  // Its usage and the displacement that its elasticity may bring, both at the bound of its forces.
-  void judge(int i) {
+  // Of a joint; 0 in its free rows.
+  template <class Force>
+  std::array<double, 3> forces(int joint, const Yield& yield, const Force& force) const {
+    std::array<double, 3> result{};
+    for (const Row row : {axial, shear, rotation})
+      if (!yield.is_free(row)) result[row] = force(3 * joint + row);
+    return result;
+  }
+
+  // Whatever their signs.
+  static double usage(const Yield& yield, const std::array<double, 3>& force) {
+    double most = 0;
+    for (const double n : {-1., 1.})
+      for (const double m : {-1., 1.})
+        most = std::max(most, yield.usage({n * force[0], force[1], m * force[2]}));
+    return most;
+  }
+
+  static bool whole(const Yield& yield) {
+    return !yield.is_free(axial) && !yield.is_free(shear) && !yield.is_free(rotation);
+  }
+
+  // Structures in which no joint yields at the bound of its forces. What swings in a mechanism is bounded by
+  // nothing here.
+  void find_quiet() {
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+      const int s = structure_of(plan_.joints[i]);
+      if (s < 0) continue;
+      const Yield yield(plan_, plan_.joints[i]);
+      const auto bound = forces(static_cast<int>(i), yield, [&](int row) { return full_.force(row); });
+      if (!(usage(yield, bound) < 1) || (!whole(yield) && full_.statics().is_mechanism()))
+        quiet_[index(s)] = false;
+    }
+    const bool any_loud = std::find(quiet_.begin(), quiet_.end(), false) != quiet_.end();
+    // Where only one structure is there, its collapse bounds what it carries.
+    if (any_loud && quiet_.size() == 1) at_most_ = std::min(1., limit_analysis(plan_).load_factor);
+  }
+
+  struct Judged {
+    int structure;
+    double bends;    // m: what its elasticity moves the farthest point of its structure by, at most
+    bool may_go;     // it does not yield, and nobody holds it
+    bool may_merge;  // and no row of it is free
+  };
+
+  // In a quiet structure by the bound of its forces. In others by an estimate, and only where nothing hits
+  // them: loads that come at once swing to twice what statics say, and what collapses carries no more than
+  // the collapse load.
+  Judged judge(int i) const {
     const PlannedJoint& joint = plan_.joints[index(i)];
-    const Yield yield(plan_, joint);
     const int s = structure_of(joint);
-    double used = 0, bends = 0;
-    bool whole = true;
-    if (s >= 0) {
-      std::array<double, 3> force{};
-      for (const Row row : {axial, shear, rotation}) {
-        if (yield.is_free(row)) {
-          whole = false;
-          continue;
-        }
-        force[row] = full_.force(3 * i + row);
+    if (s < 0 || (!quiet_[index(s)] && impact_ > 0)) return {s, 0, false, false};
+    const Yield yield(plan_, joint);
+    const auto force = forces(i, yield, [&](int row) {
+      return quiet_[index(s)] ? full_.force(row) : 2 * at_most_ * full_.rest(row);
+    });
+    double bends = 0;
+    for (const Row row : {axial, shear, rotation})
+      if (force[row] > 0)
         bends +=
             force[row] / full_.statics().stiffness()[3 * i + row] * (row == rotation ? size_[index(s)] : 1);
-      }
-      for (const double n : {-1., 1.})
-        for (const double m : {-1., 1.})
-          used = std::max(used, yield.usage({n * force[0], force[1], m * force[2]}));
-      // What swings in a mechanism is bounded by nothing here.
-      if (!(used < 1) || (!whole && full_.statics().is_mechanism())) quiet_[index(s)] = false;
-    }
     const auto is_driven = [&](int piece) {
       return piece >= 0 &&
              plan_.bodies[index(plan_.pieces[index(piece)].body)].type == BodyType::kinematic_body;
     };
-    const bool may_go = s >= 0 && used < 1 && !joint.hold && !is_driven(joint.a) && !is_driven(joint.b);
-    judged_.push_back({s, used, bends, may_go, may_go && whole});
+    const bool may_go = usage(yield, force) < 1 && !joint.hold && !is_driven(joint.a) && !is_driven(joint.b);
+    return {s, bends, may_go, may_go && whole(yield)};
   }
 
   // --- trying a leaner plan ---
@@ -135,13 +173,17 @@ class Leaner {
     return compare(a, with, b, instead, options_.seconds, options_.stepping, full_.structure(), size_);
   }
 
-  // Takes what keeps its promise.
+  // Takes what keeps its promise and saves time.
   void offer(Plan leaner, JointSolver solver, double promise, const std::string& what) {
     promise = std::max(promise, resolution);
     if (promise > budget_) return;
     const Comparison run = compared(lean_.plan, lean_.solver, leaner, solver);
-    if (run.error > promise) return;
-    leaner.left_out.push_back({what, promise, run.error, run.time_saved});
+    const LeftOut item{what, promise, run.error, run.time_saved};
+    if (run.error > promise || run.time_saved <= 0) {
+      lean_.kept.push_back(item);
+      return;
+    }
+    leaner.left_out.push_back(item);
     lean_.plan = std::move(leaner);
     lean_.solver = solver;
     budget_ -= promise;
@@ -261,13 +303,6 @@ class Leaner {
     return it == all.end() ? -1 : static_cast<int>(it - all.begin());
   }
 
-  struct Judged {
-    int structure;
-    double usage;    // bound; yields at 1
-    double bends;    // m: what its elasticity moves the farthest point of its structure by, at most
-    bool may_go;     // it does not yield, and nobody holds it
-    bool may_merge;  // and no row of it is free
-  };
   const Judged& judged_of(const PlannedJoint& joint) const {
     const auto it = std::find_if(plan_.joints.begin(), plan_.joints.end(),
                                  [&](const PlannedJoint& j) { return j.name == joint.name; });
@@ -275,7 +310,8 @@ class Leaner {
   }
 
   const LeaveOut& options_;
-  double impact_;  // J
+  double impact_;       // J
+  double at_most_ = 1;  // of the loads
   const Plan& plan_;
   Response full_;
   std::vector<bool> quiet_;     // structures in which nothing can yield

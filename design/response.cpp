@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "buckling.h"
 #include "plane.h"
 
 namespace ductile {
@@ -21,6 +22,7 @@ Response::Response(const Plan& plan, double impact) : plan_(plan), statics_(plan
     if (body.velocity != Point{} || body.angular_velocity != 0) energy = unlimited;
   }
   swing_.assign(swing_.size(), std::sqrt(2 * energy));
+  strain_.assign(swing_.size(), 0);
 
   VectorXd gravity = VectorXd::Zero(statics_.B.cols());
   for (std::size_t i = 0; i < plan.pieces.size(); ++i)
@@ -32,6 +34,22 @@ Response::Response(const Plan& plan, double impact) : plan_(plan), statics_(plan
     const Point arm = load.at - plan.carrier(load.piece).center;
     statics_.add(f, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
     add(f, load.def.ramp, load.def.to < unlimited);
+  }
+  lean();
+}
+
+void Response::lean() {
+  VectorXd forces = VectorXd::Zero(statics_.B.rows());
+  for (const Answer& answer : answers_) forces += answer.forces;
+  const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan_, statics_, forces);
+  for (std::size_t s = 0; s < swing_.size(); ++s) {
+    VectorXd start(statics_.B.cols());  // some of every mode
+    for (Index c = 0; c < start.size(); ++c)
+      start[c] = of_column_[static_cast<std::size_t>(c)] == static_cast<int>(s)
+                     ? std::cos(static_cast<double>(c))
+                     : 0;
+    const double mu = buckling(statics_, K_g, start);
+    swing_[s] = mu < 1 ? swing_[s] / std::pow(1 - mu, 1.5) + mu / (1 - mu) * strain_[s] : unlimited;
   }
 }
 
@@ -78,6 +96,7 @@ void Response::add(const VectorXd& load, double ramp, bool ends) {
   for (std::size_t s = 0; s < swing_.size(); ++s) {
     const double at_once = std::sqrt(std::max(0.0, work[s]));
     const double slowly = ramp > 0 ? 2 * std::sqrt(square[s]) / ramp : unlimited;
+    strain_[s] += at_once;
     swing_[s] += std::min(at_once, slowly) + (ends ? at_once : 0);
   }
 }
@@ -99,6 +118,7 @@ double Response::force(int row) const {
       structure = structure_[static_cast<std::size_t>(piece)];
   const double k = statics_.stiffness()[row];
   if (structure < 0 || k == 0) return 0;
+  if (swing_[static_cast<std::size_t>(structure)] == unlimited) return unlimited;
   double& h = leverage_[row];
   if (h < 0) {
     const VectorXd b = statics_.B.row(row).transpose();

@@ -6,6 +6,11 @@
 // jumps of the velocity by x_s/T, so with a ≤ 2‖x_s‖/T, whichever is less. Taken off at once: the first
 // again. Impacts add the kinetic energy of what is around: a² = 2E. All add up, and by Cauchy and Schwarz a
 // linear functional c of the motion is within c·x_s ± a √(cᵀ K⁻¹ c).
+//
+// What leans under its load leans more (P–Δ): with the geometric stiffness K_g of all loads together and
+// μ = max −xᵀK_g x / xᵀK x, the inverse of the buckling load factor, K + K_g ≥ (1 − μ) K. Then the static
+// answer is within μ/(1 − μ) ‖x_s‖_K of the first-order one, in the same norm, and swings grow by
+// (1 − μ)^−3/2 at most. Nothing is bounded where μ ≥ 1.
 #pragma once
 
 #include <optional>
@@ -41,6 +46,7 @@ class Response {
   };
   void find_structures();
   void add(const Eigen::VectorXd& f, double ramp, bool ends);
+  void lean();
   /// The displacement of a point along x or y, as a functional of the motion.
   Eigen::VectorXd functional(int piece, Point at, bool along_y) const;
   double swing(const Eigen::VectorXd& functional, int piece) const;
@@ -51,6 +57,7 @@ class Response {
   std::vector<int> of_column_;        // structure of each column of B
   std::vector<Answer> answers_;       // gravity, then the loads
   std::vector<double> swing_;         // a of each structure, √J
+  std::vector<double> strain_;        // Σ ‖x_s‖_K of each, √J
   mutable Eigen::VectorXd leverage_;  // of rows: k B K⁻¹ Bᵀ, between 0 and 1; negative: not yet known
 };
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "command.h"
 #include "ductile/definitions.h"
+#include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/picture.h"
@@ -18,6 +20,8 @@ struct Options {
   std::string scene, to, out;
   std::vector<std::string> pictures;
   std::optional<double> target_error;
+  std::optional<double> leave_out;
+  LeaveOut leaving;
   bool json = false;
 };
 
@@ -39,7 +43,7 @@ const char* name(BodyType type) {
   }
 }
 
-Json json(const Piece& piece) {
+Json json(const Piece& piece, const Plan& plan) {
   Json object{{"name", piece.name},
               {"mass", piece.mass},
               {"inertia", piece.inertia},
@@ -48,6 +52,8 @@ Json json(const Piece& piece) {
   for (const Ring& hole : piece.outline.holes) object["holes"].push_back(json(hole));
   if (piece.circle > 0) object["circle"] = piece.circle;
   for (const Convex& part : convex_parts(piece)) object["fixtures"].push_back(json(part));
+  if (piece.part_of >= 0) object["part_of"] = piece_name(plan, piece.part_of);
+  if (piece.stands_still) object["stands_still"] = true;
   return object;
 }
 
@@ -80,11 +86,14 @@ Json json(const Plan& plan) {
     bodies.push_back({{"name", body.name}, {"type", name(body.type)}, {"pieces", Json::array()}});
   }
   for (const Piece& piece : plan.pieces) {
-    bodies[static_cast<std::size_t>(piece.body)]["pieces"].push_back(json(piece));
+    bodies[static_cast<std::size_t>(piece.body)]["pieces"].push_back(json(piece, plan));
   }
   for (const PlannedJoint& joint : plan.joints) joints.push_back(json(joint, plan));
   for (const LeftOut& item : plan.left_out) {
-    left_out.push_back({{"what", item.what}, {"error", item.error}, {"time_saved", item.time_saved}});
+    left_out.push_back({{"what", item.what},
+                        {"error", item.error},
+                        {"time_saved", item.time_saved},
+                        {"measured", item.measured}});
   }
   return {{"bodies", std::move(bodies)}, {"joints", std::move(joints)}, {"left_out", std::move(left_out)}};
 }
@@ -113,10 +122,6 @@ std::string table(const Plan& plan, const std::string& scene) {
   }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
     text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
-  for (const LeftOut& item : plan.left_out) {
-    text += fmt::format("left out: {}, error {:.2g}, time saved {:.0f} %\n", item.what, item.error,
-                        100 * item.time_saved);
-  }
   return text;
 }
 
@@ -144,9 +149,37 @@ std::string definitions_of(const Plan& plan, const Options& options) {
   return json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
 }
 
+std::string left_out_table(const LeanPlan& lean, const Plan& full, const LeaveOut& options) {
+  std::string text =
+      fmt::format("\nleft out: {} of {} joints; error: displacement over the structure's size\n",
+                  full.joints.size() - lean.plan.joints.size(), full.joints.size());
+  const auto row = [&](const LeftOut& item, const std::string& note = "") {
+    text += fmt::format("{:>10.2g} {:>10.2g} {:>9.0f} %  {}{}\n", item.error, item.measured,
+                        100 * item.time_saved, item.what, note);
+  };
+  if (lean.plan.left_out.size() + lean.kept.size() > 0)
+    text += fmt::format("{:>10} {:>10} {:>11}  in runs of {:g} s\n", "promised", "measured", "time saved",
+                        options.seconds);
+  for (const LeftOut& item : lean.plan.left_out) row(item);
+  if (lean.plan.left_out.size() > 1) row(lean.all);
+  for (const LeftOut& item : lean.kept) row(item, " (kept)");
+  return text;
+}
+
 std::string run(const Options& options) {
-  const Plan plan =
+  Plan plan =
       plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
+  std::string left_out;
+  if (options.leave_out) {
+    if (!options.to.empty() && options.to != "json")
+      throw InvalidInput({{"command line:--leave-out", "does not go with --to " + options.to,
+                           "leave one of them out, or use --to json"}});
+    LeaveOut leaving = options.leaving;
+    leaving.tolerance = *options.leave_out;
+    LeanPlan lean = in_file(options.scene, [&] { return leave_out(plan, leaving); });
+    left_out = left_out_table(lean, plan, leaving);
+    plan = std::move(lean.plan);
+  }
   const std::string definitions = in_file(options.scene, [&] { return definitions_of(plan, options); });
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
@@ -156,7 +189,7 @@ std::string run(const Options& options) {
   }
   if (!options.out.empty()) write_text(options.out, definitions);
   const bool print_definitions = options.json || (!options.to.empty() && options.out.empty());
-  return print_definitions ? definitions : table(plan, options.scene);
+  return print_definitions ? definitions : table(plan, options.scene) + left_out;
 }
 
 }  // namespace
@@ -172,6 +205,19 @@ void add_calibrate(CLI::App& app, std::string& output) {
                    "relative displacement error of automatic splits (0.01)")
       ->check(finite(0, true))
       ->check(CLI::Range(0.0, 1.0));
+  auto* leaves =
+      command
+          ->add_option("--leave-out", options->leave_out,
+                       "leave out what the scene does not need, within this relative displacement error")
+          ->check(finite(0, true));
+  command->add_option("--impact", options->leaving.impact, "J that may hit a structure besides (default 0)")
+      ->needs(leaves)
+      ->check(finite(0));
+  command
+      ->add_option("--time", options->leaving.seconds,
+                   "of the runs that confirm what is left out, s (default 5)")
+      ->needs(leaves)
+      ->check(finite(0, true));
   command->add_option("--out", options->out,
                       "write the definitions to this file (json if --to is not given)");
   add_picture(command, options->pictures, "draw pieces, cuts and joints by plastic moment");

@@ -286,4 +286,22 @@ TEST(CalibrateCommand, SaysWhatOfALevelNoPlanHolds) {
     EXPECT_EQ(ran.err.find(file + ":"), 0u) << ran.err;
   }
 }
+TEST(CalibrateCommand, LeavesOutWhatTheSceneDoesNotNeed) {
+  const std::string scene = DUCTILE_SOURCE_DIR "/scenes/cantilever.scene.json";
+  const Ran ran = run("calibrate " + scene + " --leave-out 0.01 --time 2 --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const json result = ran.json();
+  EXPECT_TRUE(result["joints"].empty());
+  ASSERT_EQ(result["left_out"].size(), 1u);
+  const json& item = result["left_out"][0];
+  EXPECT_EQ(item["what"], "10 joints merged with the pieces at both sides");
+  EXPECT_LE(item["measured"], item["error"]);
+  EXPECT_LE(item["error"], 0.01);
+  EXPECT_GT(item["time_saved"], 0);
+  EXPECT_EQ(result["bodies"][1]["pieces"][3]["stands_still"], true);
+  EXPECT_NE(run("calibrate " + scene + " --leave-out 0.01 --time 2").out.find("promised"), std::string::npos);
+  expect_bad_input(run("calibrate " + scene + " --leave-out 0.01 --to box2d"), "--leave-out");
+  expect_bad_input(run("calibrate " + scene + " --leave-out -1"));
+}
+
 }  // namespace

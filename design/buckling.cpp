@@ -1,0 +1,103 @@
+#include "buckling.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// One side of a joint, of a piece that moves.
+struct End {
+  int column;
+  double sign;    // −1: the first piece, +1: the second
+  double follow;  // share of its turn that the joint's axis follows
+  Point arm;      // from its centre to the joint
+  std::array<double, 3> scale;
+};
+
+}  // namespace
+
+// With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
+//   u = e·δ + φ Je·δ + ½ e·(θ_a² r_a − θ_b² r_b) + …      v = Je·δ − φ e·δ + ½ Je·(θ_a² r_a − θ_b² r_b) + …
+// and a point at r from the centre comes back by ½ θ² r.
+Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
+                                                const VectorXd& forces) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto both = [&](Index row, Index column, double value) {
+    entries.emplace_back(row, column, value);
+    entries.emplace_back(column, row, value);
+  };
+  const auto column = [&](int piece) {
+    return piece < 0 ? -1 : statics.column[static_cast<std::size_t>(piece)];
+  };
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const PlannedJoint& j = plan.joints[i];
+    const double N = forces[3 * static_cast<Index>(i)], Q = forces[3 * static_cast<Index>(i) + 1];
+    if (N == 0 && Q == 0) continue;
+    const Point force = N * j.axis + Q * left(j.axis), across = N * left(j.axis) - Q * j.axis;
+    std::vector<End> ends;
+    for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
+      if (column(piece) < 0) continue;
+      const double follow = j.a < 0 ? 0 : column(j.a) < 0 || column(j.b) < 0 ? 1 : 0.5;
+      ends.push_back(
+          {column(piece), sign, follow, j.anchor - plan.carrier(piece).center, statics.scale(piece)});
+    }
+    for (const End& end : ends) {
+      entries.emplace_back(end.column + 2, end.column + 2,
+                           -end.sign * dot(force, end.arm) * end.scale[2] * end.scale[2]);
+      for (const End& turn : ends) {  // φ across·δ
+        const double phi = turn.follow * turn.scale[2] * end.sign;
+        both(turn.column + 2, end.column, phi * across.x * end.scale[0]);
+        both(turn.column + 2, end.column + 1, phi * across.y * end.scale[1]);
+        both(turn.column + 2, end.column + 2, phi * dot(across, left(end.arm)) * end.scale[2]);
+      }
+    }
+  }
+  for (const Plan::Load& load : plan.loads) {
+    const int c = column(load.piece);
+    if (c < 0) continue;
+    const double turn = statics.scale(load.piece)[2];
+    entries.emplace_back(c + 2, c + 2,
+                         dot(load.def.force, load.at - plan.carrier(load.piece).center) * turn * turn);
+  }
+  Eigen::SparseMatrix<double> K_g(statics.B.cols(), statics.B.cols());
+  K_g.setFromTriplets(entries.begin(), entries.end());
+  return K_g;
+}
+
+double buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g, const VectorXd& start) {
+  constexpr int most = 60;
+  std::vector<VectorXd> basis, images;  // orthonormal in K, and K times them
+  std::vector<double> diagonal, beside;
+  VectorXd x = statics.motions(start);
+  double greatest = 0, first = 0;
+  for (int step = 0; step < most; ++step) {
+    const VectorXd Kx = statics.B.transpose() * statics.stiffness().cwiseProduct(statics.B * x);
+    const double norm = std::sqrt(std::max(0.0, x.dot(Kx)));
+    if (step == 1) first = norm;
+    if (norm == 0 || norm < 1e-10 * first) break;  // the basis holds all
+    if (!basis.empty()) beside.push_back(norm);
+    basis.push_back(x / norm);
+    images.push_back(Kx / norm);
+    x = statics.motions(-(K_g * basis.back()));
+    diagonal.push_back(x.dot(images.back()));
+    for (int twice = 0; twice < 2; ++twice)
+      for (std::size_t i = 0; i < basis.size(); ++i) x -= x.dot(images[i]) * basis[i];
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(
+        Eigen::Map<const VectorXd>(diagonal.data(), static_cast<Index>(diagonal.size())),
+        Eigen::Map<const VectorXd>(beside.data(), static_cast<Index>(beside.size())), Eigen::EigenvaluesOnly);
+    const double now = std::max(0.0, ritz.eigenvalues().maxCoeff());
+    if (step > 8 && std::abs(now - greatest) < 1e-7 * now) return now;
+    greatest = now;
+  }
+  return greatest;
+}
+
+}  // namespace ductile
