@@ -110,6 +110,9 @@ void Equilibrium::fill() {
   B.setFromTriplets(entries.begin(), entries.end());
 }
 
+// k / m_eff where no row is elastic, 1/s²: what the structure's solver makes of rigid rows at 60 Hz.
+constexpr double all_rigid = 1e9 * 60 * 60;
+
 // A row's effective mass is 1 / ‖its row of B‖², since B's columns are scaled by the masses.
 void Equilibrium::set_stiffness() {
   VectorXd squares = VectorXd::Zero(B.rows());
@@ -125,7 +128,7 @@ void Equilibrium::set_stiffness() {
         const double k = stiffness_of(plan_.joints[i], row);
         if (squares[r] == 0 || elastic != (k < unlimited)) continue;
         if (elastic) fastest = std::max(fastest, k * squares[r]);
-        k_[r] = elastic ? k : (fastest > 0 ? 1e6 * fastest : 1) / squares[r];
+        k_[r] = elastic ? k : (fastest > 0 ? 1e6 * fastest : all_rigid) / squares[r];
       }
 }
 

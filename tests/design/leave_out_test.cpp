@@ -154,4 +154,13 @@ TEST(LeaveOut, ACarMayHitItsBridgeAnyHow) {
   EXPECT_LT(lean.plan.joints[0].M, unlimited);
 }
 
+// A drawing of 500 joints; what is pinned to the ground or rolls on it stays.
+TEST(LeaveOut, AViaductStandsOnItsSupportsInOnePiece) {
+  const Plan plan = calibrate(scene_of("viaduct"));
+  ASSERT_EQ(plan.joints.size(), 500u);
+  const LeanPlan lean = leave_out(plan, {.seconds = 4});
+  expect_promises_kept(lean, 0.01);
+  EXPECT_EQ(lean.plan.joints.size(), 6u);
+}
+
 }  // namespace

@@ -35,6 +35,8 @@ inline constexpr SceneEntry scene_list[] = {
      240},
     {"harbour_crane", "A container caught on a barge bends the jib of a crane, then breaks it.", 6,
      Outcome::breaks},
+    {"viaduct", "A viaduct of 248 panels, drawn with its openings, carries two loads: 500 joints.", 5,
+     Outcome::stands},
     {"car", "A car jumps onto the drawbridge, bends its hinge and drives across.", 13, Outcome::bends},
     {"car_heavy", "A car three times as heavy tears the drawbridge off.", 10, Outcome::breaks},
     {"B1-1", "A block of 10 000 t comes down on a beam of 20 m beside its root.", 5, Outcome::stands},
