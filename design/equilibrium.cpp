@@ -47,6 +47,7 @@ Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
   for (Index i = 0; i < A.outerSize(); ++i) largest = std::max(largest, A.col(i).norm());
   qr_.setPivotThreshold(1e-11 * largest);
   qr_.compute(A);
+  R_ = qr_.matrixR().topLeftCorner(qr_.rank(), qr_.rank());
 }
 
 void Equilibrium::find_loose() {
@@ -165,8 +166,7 @@ VectorXd Equilibrium::least_energy(const VectorXd& f) const {
   const Index rank = qr_.rank();
   VectorXd y = VectorXd::Zero(B.rows());
   const VectorXd permuted = qr_.colsPermutation().transpose() * f;
-  const auto R = qr_.matrixR().topLeftCorner(rank, rank);
-  y.head(rank) = R.transpose().template triangularView<Eigen::Lower>().solve(permuted.head(rank));
+  y.head(rank) = R_.transpose().triangularView<Eigen::Lower>().solve(permuted.head(rank));
   const VectorXd Y = qr_.matrixQ() * y;
   return k_.cwiseSqrt().cwiseProduct(Y);
 }
@@ -180,10 +180,9 @@ VectorXd Equilibrium::forces(const VectorXd& f) const {
 VectorXd Equilibrium::motions(const VectorXd& f) const {
   const Index rank = qr_.rank();
   const VectorXd permuted = qr_.colsPermutation().transpose() * f;
-  const auto R = qr_.matrixR().topLeftCorner(rank, rank);
   VectorXd x = VectorXd::Zero(B.cols());
-  const VectorXd y = R.transpose().template triangularView<Eigen::Lower>().solve(permuted.head(rank));
-  x.head(rank) = R.template triangularView<Eigen::Upper>().solve(y);
+  const VectorXd y = R_.transpose().triangularView<Eigen::Lower>().solve(permuted.head(rank));
+  x.head(rank) = R_.triangularView<Eigen::Upper>().solve(y);
   return qr_.colsPermutation() * x;
 }
 

@@ -58,6 +58,7 @@ class Equilibrium {
   const Plan& plan_;
   Eigen::VectorXd k_;
   Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr_;  // of √k B
+  Eigen::SparseMatrix<double> R_;  // of it, without the directions of mechanisms
 };
 
 }  // namespace ductile

@@ -321,8 +321,19 @@ class Leaner {
   LeanPlan lean_;
 };
 
+double until_all_is_over(const Plan& plan) {
+  double last = plan.gravity_ramp;
+  for (const Plan::Load& load : plan.loads)
+    last = std::max(last, load.def.to < unlimited ? load.def.to : load.def.from + load.def.ramp);
+  return last + 5;
+}
+
 }  // namespace
 
-LeanPlan leave_out(const Plan& plan, const LeaveOut& options) { return Leaner(plan, options).run(); }
+LeanPlan leave_out(const Plan& plan, const LeaveOut& options) {
+  LeaveOut complete = options;
+  if (complete.seconds == 0) complete.seconds = until_all_is_over(plan);
+  return Leaner(plan, complete).run();
+}
 
 }  // namespace ductile

@@ -60,7 +60,7 @@ LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity = false);
 struct LeaveOut {
   double tolerance = 0.01;  ///< displacement error that may be, over the size of the structure (its diagonal)
   double impact = 0;        ///< J that may hit a structure beside what is loose in the scene
-  double seconds = 5;       ///< of the runs that confirm it
+  double seconds = 0;  ///< of the runs that confirm it; 0: 5 s more than until all loads have come and gone
   Stepping stepping = {};
 };
 
