@@ -4,7 +4,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 
 #include "ductile/box2d.h"
@@ -14,11 +16,13 @@
 namespace ductile::bench {
 namespace {
 
-// Girders of 24 vertices, no two alike, each in 21 pieces.
-SceneDef girders(std::int64_t count) {
+// Girders of 24 vertices, no two alike, each in 21 pieces, or in what a displacement error of 1/441 asks: 20
+// to 23.
+SceneDef girders(std::int64_t count, bool automatic) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> height(0.8, 1.2);
   SceneDef scene;
+  scene.target_error = 1.0 / (21 * 21);
   for (std::int64_t i = 0; i < count; ++i) {
     const double y = 4.0 * static_cast<double>(i);
     BodyDef& body = scene.bodies.emplace_back();
@@ -27,6 +31,8 @@ SceneDef girders(std::int64_t count) {
     for (int k = 11; k >= 0; --k) body.outline.outer.push_back({20.0 / 11 * k, y + height(random)});
     body.material = materials::S355;
     body.depth = 0.3;
+    body.automatic = automatic;
+    if (automatic) continue;
     body.pieces = 21;
     body.along = {Point{0, y}, Point{20, y}};
   }
@@ -34,8 +40,8 @@ SceneDef girders(std::int64_t count) {
 }
 
 // vs_parse: against parse_scene(), text to SceneDef; json_us: of which nlohmann::json::parse alone.
-void load(benchmark::State& state) {
-  const SceneDef scene = girders(state.range(0) / 20);
+void load(benchmark::State& state, bool automatic) {
+  const SceneDef scene = girders(state.range(0) / 20, automatic);
   const std::string text = scene_text(scene);
   std::vector<double> json;
   std::size_t joints = 0;
@@ -59,12 +65,42 @@ void load(benchmark::State& state) {
   state.counters["json_us"] = 1e6 * median(json);
   state.counters["ns_per_joint"] = 1e3 * state.counters["us"].value / static_cast<double>(joints);
 }
-BENCHMARK(load)
+BENCHMARK_CAPTURE(load, given, false)
     ->Name("calibrate/load")
     ->Arg(1'000)
     ->Arg(10'000)
     ->Arg(100'000)
     ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(load, automatic, true)
+    ->Name("calibrate/load_automatic")
+    ->Arg(1'000)
+    ->Arg(10'000)
+    ->Arg(100'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+// A coastline: one outline of very many vertices, into convex parts.
+void outline(benchmark::State& state) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> radius(90, 110);
+  const auto n = state.range(0);
+  Piece piece;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n),
+                 r = radius(random);
+    piece.outline.outer.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(convex_parts(piece));
+  state.counters["ns_per_vertex"] =
+      benchmark::Counter(1e-9 * static_cast<double>(n),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(outline)
+    ->Name("calibrate/outline")
+    ->Arg(1'000)
+    ->Arg(10'000)
+    ->Arg(100'000)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

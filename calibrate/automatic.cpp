@@ -20,7 +20,7 @@ namespace {
 constexpr double thinnest = 0.02;
 // m, between two cuts and across them: a piece with corners this far apart is thick enough.
 constexpr double least_side = 1.25 * thinnest;
-// Of the longest way through a body; an error of 1e-6 in a cantilever.
+// Of the longest way through a body (an error of 1e-6 in a cantilever); of all ways, twice as many.
 constexpr double most_parts = 1000;
 // Of a piece's length: two cuts are this far apart on both sides.
 constexpr double least_share = 0.2;
@@ -222,11 +222,13 @@ class Automatic {
     // The error falls as 1/n² as long as the shape allows more cuts.
     for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts), last_n = 0;
          ;) {
-      std::vector<PlacedCut> cuts = place_cuts(std::max(extent / n, least_side));
+      double h = std::max(extent / n, least_side);
+      std::vector<PlacedCut> cuts = place_cuts(h);
+      for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
       const double own = error_of(cuts), expected = error * (last_n / n) * (last_n / n);
       const bool stalls = own > 1.5 * expected && own > 0.7 * error;
       if (!stalls || best.empty()) best = std::move(cuts), error = own;
-      if (own <= margin * target_ || stalls || extent / n < least_side || n >= most_parts) break;
+      if (own <= margin * target_ || stalls || h > extent / n || n >= most_parts) break;
       last_n = n;
       n = std::min(std::ceil(n * std::clamp(std::sqrt(own / (margin * target_)), 1 + 1 / n, 2.0)),
                    most_parts);
@@ -391,7 +393,9 @@ class Automatic {
       int n = std::max(1, static_cast<int>(std::ceil(extent / h - 1e-9)));
       if (m.closed) n = std::max(n, 2);
       const std::size_t before = cuts.size();
-      if (node_from && node_to && extent < h / 2) {
+      if (extent < h / 2 && node_from != node_to) {
+        continue;  // a short arm of a node
+      } else if (extent < h / 2 && node_from) {
         add(cuts, w, begin + extent / 2, h);
       } else {
         for (int k = node_from || m.closed ? 0 : 1; k < n + (node_to ? 1 : 0); ++k)
@@ -520,12 +524,12 @@ class Automatic {
   // Cuts until every piece is one that Box2D takes, leaving out cuts that prevent it.
   AutomaticSplit divide(Splitter& splitter, std::vector<PlacedCut> cuts, const std::string& place) const {
     AutomaticSplit result;
-    for (;;) {
+    for (int round = 0;; ++round) {
       result.cuts.clear();
       for (const PlacedCut& c : cuts) result.cuts.push_back({c.chord.left, c.chord.right});
       std::vector<int> useless;
       result.parts = splitter.split(outline_, result.cuts, place, &useless);
-      if (useless.empty()) useless = around_thin_pieces(result.parts, cuts);
+      if (useless.empty()) useless = around_thin_pieces(result.parts, cuts, round > 3);
       if (useless.empty()) break;
       std::vector<PlacedCut> kept;
       for (int i = 0; i < std::ssize(cuts); ++i)
@@ -539,14 +543,20 @@ class Automatic {
     return result;
   }
 
-  // For every piece that is too thin, the cut beside it that has the shortest pieces.
-  std::vector<int> around_thin_pieces(const Split& parts, const std::vector<PlacedCut>& cuts) const {
+  // For every piece that is too thin, the cut beside it that has the shortest pieces, or all cuts beside it.
+  static std::vector<int> around_thin_pieces(const Split& parts, const std::vector<PlacedCut>& cuts,
+                                             bool all) {
     std::vector<int> result(parts.pieces.size(), -1);
     for (const Interval& i : parts.intervals)
       for (const int piece : {i.left, i.right})
         if (int& cut = result[piece]; cut < 0 || cuts[i.cut].length < cuts[cut].length) cut = i.cut;
     for (std::size_t i = 0; i < result.size(); ++i)
       if (result[i] >= 0 && collides(parts.pieces[i])) result[i] = -1;
+    if (all) {
+      const std::vector<int> thin = result;
+      for (const Interval& i : parts.intervals)
+        if (thin[i.left] >= 0 || thin[i.right] >= 0) result.push_back(i.cut);
+    }
     std::erase(result, -1);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());

@@ -18,6 +18,8 @@ namespace ductile {
 namespace {
 
 constexpr int most_pieces = 100'000;
+// Of a section, against its coordinates: doubles then know its height within 1e-6.
+constexpr double thinnest_section = 3e-10;
 
 std::string body_place(const BodyDef& body) { return "body '" + body.name + "'"; }
 
@@ -491,6 +493,15 @@ class Planner {
     joint.anchor = middle(from, to);
     joint.axis = right(unit(to - from));
     const double height = joint.height = length(to - from);
+    // A section's moment goes with its height squared, which is the difference of two coordinates.
+    const double coordinate = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
+    if (!(height > thinnest_section * coordinate)) {
+      problems_.push_back({"joint '" + joint.name + "' at " + to_string(joint.anchor),
+                           "is " + to_string(height) + " m high, less than " + to_string(thinnest_section) +
+                               " of its coordinates, which is too thin to compute with",
+                           "draw the body thicker there or nearer to the origin, or cut it elsewhere"});
+      return;
+    }
     const bool inside = plan_.pieces[a].body == plan_.pieces[b].body;
     std::array<Side, 2> sides{side(a, joint, -joint.axis, inside), side(b, joint, joint.axis, inside)};
     for (const Side& s : sides) {

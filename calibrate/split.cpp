@@ -199,8 +199,15 @@ class PlanarMap {
   void find_chord_crossings() {
     if (std::all_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) { return parallel(cut, cuts_.front()); }))
       return;
-    for (std::size_t i = 0; i < chords_.size(); ++i)
-      for (std::size_t j = i + 1; j < chords_.size(); ++j) {
+    const auto low = [&](int i) { return std::min(points_[chords_[i].from].x, points_[chords_[i].to].x); };
+    const auto high = [&](int i) { return std::max(points_[chords_[i].from].x, points_[chords_[i].to].x); };
+    std::vector<int> order(chords_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return low(i) < low(j); });
+    for (std::size_t first = 0; first < order.size(); ++first)
+      for (std::size_t second = first + 1; second < order.size(); ++second) {
+        const int i = std::min(order[first], order[second]), j = std::max(order[first], order[second]);
+        if (low(order[second]) > high(order[first])) break;
         const Line &c = chords_[i], &d = chords_[j];
         if (c.cut == d.cut || parallel(cuts_[c.cut], cuts_[d.cut])) continue;
         if (same(c.from) == same(d.from) || same(c.from) == same(d.to) || same(c.to) == same(d.from) ||
@@ -214,8 +221,8 @@ class PlanarMap {
         const double s = cross(p - a, q - p) / across, t = cross(p - a, b - a) / across;
         points_.push_back(a + s * (b - a));
         same_.push_back(static_cast<int>(points_.size()) - 1);
-        chord_crossings_.push_back({static_cast<int>(i), s, same_.back()});
-        chord_crossings_.push_back({static_cast<int>(j), t, same_.back()});
+        chord_crossings_.push_back({i, s, same_.back()});
+        chord_crossings_.push_back({j, t, same_.back()});
       }
   }
 

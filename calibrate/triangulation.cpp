@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "moments.h"
 #include "plane.h"
@@ -13,6 +15,87 @@ void make_twins(std::vector<HalfEdge>& edges, int a, int b) {
   edges[a].twin = b;
   edges[b].twin = a;
 }
+
+// Points of which some are taken away, in a tree of boxes.
+class Remaining {
+ public:
+  explicit Remaining(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    std::size_t leaves = 1;
+    while (leaves * 8 < points_.size()) leaves *= 2;
+    boxes_.resize(2 * leaves);
+    leaf_.resize(points_.size());
+    build(1, 0, order_.size());
+  }
+
+  void remove(int i) {
+    Box& own = boxes_[leaf_[i]];
+    const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(own.first);
+    std::iter_swap(std::find(begin, begin + own.left, i), begin + own.left - 1);
+    for (std::size_t b = leaf_[i]; b > 0; b /= 2) --boxes_[b].left;
+  }
+
+  /// Does any that is left lie in the triangle or on its sides, but not on its corners?
+  bool any_in(Point a, Point b, Point c) const {
+    const Point low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
+        high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+    std::size_t todo[64];
+    std::size_t n = 0;
+    todo[n++] = 1;
+    while (n > 0) {
+      const std::size_t at = todo[--n];
+      const Box& box = boxes_[at];
+      if (box.left == 0 || box.low.x > high.x || box.high.x < low.x || box.low.y > high.y ||
+          box.high.y < low.y)
+        continue;
+      if (2 * at < boxes_.size()) {
+        todo[n++] = 2 * at;
+        todo[n++] = 2 * at + 1;
+        continue;
+      }
+      for (std::size_t k = box.first; k < box.first + static_cast<std::size_t>(box.left); ++k) {
+        const Point p = points_[order_[k]];
+        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || p == a || p == b || p == c)
+          continue;
+        if (orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  struct Box {
+    Point low, high;
+    std::size_t first = 0;  // in order_, whose points that are left come first in a leaf
+    int left = 0;           // of its points
+  };
+
+  void build(std::size_t at, std::size_t first, std::size_t last) {
+    Box& box = boxes_[at];
+    box = {points_[order_[first]], points_[order_[first]], first, static_cast<int>(last - first)};
+    for (std::size_t k = first; k < last; ++k) {
+      const Point p = points_[order_[k]];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+      leaf_[order_[k]] = at;
+    }
+    if (2 * at >= boxes_.size()) return;
+    const std::size_t half = first + (last - first) / 2;
+    const auto begin = order_.begin();
+    const bool wide = box.high.x - box.low.x > box.high.y - box.low.y;
+    std::nth_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(half),
+                     begin + static_cast<std::ptrdiff_t>(last), [&](int i, int j) {
+                       return wide ? points_[i].x < points_[j].x : points_[i].y < points_[j].y;
+                     });
+    build(2 * at, first, half);
+    build(2 * at + 1, half, last);
+  }
+
+  std::vector<Point> points_;
+  std::vector<int> order_;
+  std::vector<Box> boxes_;  // 1: all; 2i and 2i + 1: halves of i
+  std::vector<std::size_t> leaf_;
+};
 
 // Triangles of an outline: holes are joined to the outer ring by bridges, then ears are cut off.
 class EarClipping {
@@ -139,6 +222,17 @@ class EarClipping {
   }
 
   void clip(int start) {
+    std::vector<Point> corners;  // by node; those of rings that no bridge reaches are not in the way
+    for (const Node& node : nodes_) corners.push_back(points_[node.point]);
+    remaining_.emplace(std::move(corners));
+    std::vector<bool> reached(nodes_.size());
+    int node_of_ring = start;
+    do {
+      reached[node_of_ring] = true;
+      node_of_ring = next(node_of_ring);
+    } while (node_of_ring != start);
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      if (!reached[i]) remaining_->remove(static_cast<int>(i));
     int node = start, tried = 0;
     for (int left = count(start); left > 3;) {
       const int side = orientation(at(previous(node)), at(node), at(next(node)));
@@ -149,6 +243,7 @@ class EarClipping {
         nodes_[previous(node)].beyond = side > 0 ? add_triangle(node) : -1;
         nodes_[previous(node)].next = next(node);
         nodes_[next(node)].previous = previous(node);
+        remaining_->remove(node);
         --left;
         tried = 0;
         node = next(next(node));  // every other, which fans less
@@ -195,19 +290,14 @@ class EarClipping {
   bool is_ear(int node) const {
     const int before = previous(node), after = next(node);
     const Point a = at(before), b = at(node), c = at(after);
-    if (!sees(before, c) || !sees(after, a)) return false;
-    for (int other = next(after); other != before; other = next(other)) {
-      const Point p = at(other);
-      if (p == a || p == b || p == c) continue;
-      if (orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0) return false;
-    }
-    return true;
+    return sees(before, c) && sees(after, a) && !remaining_->any_in(a, b, c);
   }
 
   std::vector<Point> points_;
   std::vector<Node> nodes_;
   std::vector<int> bridges_;
   std::vector<HalfEdge> triangles_;
+  std::optional<Remaining> remaining_;  // corners
 };
 
 // Makes the fattest triangles that these vertices allow.

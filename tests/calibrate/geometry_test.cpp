@@ -196,7 +196,12 @@ TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
     // All the way to Box2D, whose asserts abort; too thin for it is refused.
     BodyDef body{.outline = outline, .material = test_steel};
     for (const Cut& cut : cuts) body.cuts.push_back({cut.from, cut.to});
-    for (const Piece& piece : calibrate(body).pieces) {
+    std::vector<Piece> pieces;
+    try {
+      pieces = calibrate(body).pieces;
+    } catch (const InvalidInput&) {  // a section too thin to compute with
+    }
+    for (const Piece& piece : pieces) {
       try {
         for (const b2PolygonShape& shape : shapes(piece)) EXPECT_TRUE(shape.Validate());
       } catch (const InvalidInput&) {

@@ -283,6 +283,20 @@ TEST(Calibrate, BodiesJoinWhereEdgesOverlap) {
   EXPECT_EQ(plan.joints[0].axis, (Point{1, 0}));
 }
 
+// A wedge that comes to a point: cut where its height drowns in the rounding of its coordinates.
+TEST(Calibrate, SectionsTooThinToComputeWithAreRefused) {
+  SceneDef scene;
+  scene.bodies = {{.name = "wedge",
+                   .outline = {{{0, 0}, {100, 1}, {0, 2}}, {}},
+                   .material = test_steel,
+                   .cuts = {{Point{50, -9}, Point{50, 9}}, {Point{100 - 1e-5, -9}, Point{100 - 1e-5, 9}}}}};
+  EXPECT_EQ(problems_of(scene), "");
+  scene.bodies[0].cuts[1] = {Point{100 - 1e-6, -9}, Point{100 - 1e-6, 9}};
+  EXPECT_NE(problems_of(scene).find("m high, less than 3e-10 of its coordinates, which is too thin"),
+            std::string::npos)
+      << problems_of(scene);
+}
+
 TEST(Calibrate, AllProblemsAtOnce) {
   SceneDef scene = cantilever(3);
   scene.bodies[1].material->density = -1;
