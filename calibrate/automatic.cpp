@@ -280,7 +280,11 @@ class Automatic {
       node_[0] = node_[1] = axis_.members[0].from >= 0;
       return;
     }
-    const int far = farthest(0).first;
+    // From the longest member on: what lost all its chords may have come apart.
+    const auto longest =
+        std::max_element(axis_.members.begin(), axis_.members.end(),
+                         [](const Member& a, const Member& b) { return a.length < b.length; });
+    const int far = farthest(ends(static_cast<int>(longest - axis_.members.begin())).first).first;
     const auto [end, from] = farthest(far);
     std::vector<int> path;  // ways, from the end back
     for (int v = end; from[v] >= 0;) {
@@ -385,6 +389,7 @@ class Automatic {
   std::vector<PlacedCut> place_cuts(double h) const {
     std::vector<PlacedCut> cuts;
     for (int w = 0; w < std::ssize(lines_); ++w) {
+      if (static_cast<double>(cuts.size()) > 2 * most_parts) return cuts;
       const Member& m = axis_.members[w];
       const bool node_from = m.from >= 0, node_to = m.to >= 0;
       const double begin = node_from ? m.stations.front().s : 0,
