@@ -76,11 +76,16 @@ struct Hinge {
 std::vector<Hinge> parts_of(const std::vector<Place>& line, double a, double b, int n) {
   std::vector<Hinge> result;
   const double ds = std::abs(b - a) / n;
+  result.reserve(static_cast<std::size_t>(n));
+  std::size_t after = 1;  // of the line's places
   for (int i = 0; i < n; ++i) {
-    Place p = on(line, a + (b - a) * (i + 0.5) / n);
-    p.s = (i + 0.5) * ds;
+    const double s = std::min(a, b) + (i + 0.5) * ds;
+    while (after + 1 < line.size() && line[after].s < s) ++after;
+    Place p = between(line[after - 1], line[after], s);
+    p.s = std::abs(s - a);
     result.push_back({p, ds});
   }
+  if (b < a) std::reverse(result.begin(), result.end());
   return result;
 }
 
@@ -92,6 +97,7 @@ struct Span {
 std::vector<Point> displacements(const std::vector<Hinge>& at, const std::vector<Hinge>& hinges,
                                  const std::vector<double>& rotations) {
   std::vector<Point> result;
+  result.reserve(at.size());
   double turn = 0;
   Point moment{};
   std::size_t k = 0;
@@ -117,10 +123,10 @@ struct Deviation {
 Deviation compare(const std::vector<Point>& beam, const std::vector<Point>& chain) {
   Deviation d;
   for (std::size_t i = 0; i < beam.size(); ++i) {
-    d.most = std::max(d.most, length(beam[i]));
-    d.error = std::max(d.error, length(beam[i] - chain[i]));
+    d.most = std::max(d.most, dot(beam[i], beam[i]));
+    d.error = std::max(d.error, dot(beam[i] - chain[i], beam[i] - chain[i]));
   }
-  return d;
+  return {std::sqrt(d.most), std::sqrt(d.error)};
 }
 
 // What is beyond s weighs and where: weight and first moment, per part of the beam.
@@ -220,7 +226,8 @@ class Automatic {
     std::vector<PlacedCut> best;
     double error = std::numeric_limits<double>::infinity();
     // The error falls as 1/n² as long as the shape allows more cuts.
-    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts), last_n = 0;
+    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts), last_n = 0,
+                round = 0;
          ;) {
       double h = std::max(extent / n, least_side);
       std::vector<PlacedCut> cuts = place_cuts(h);
@@ -230,8 +237,8 @@ class Automatic {
       if (!stalls || best.empty()) best = std::move(cuts), error = own;
       if (own <= margin * target_ || stalls || h > extent / n || n >= most_parts) break;
       last_n = n;
-      n = std::min(std::ceil(n * std::clamp(std::sqrt(own / (margin * target_)), 1 + 1 / n, 2.0)),
-                   most_parts);
+      const double wanted = std::ceil(n * std::min(std::sqrt(own / (margin * target_)), 2.0));
+      n = std::min(std::max(wanted, n + 1 + std::floor(0.05 * round++ * n)), most_parts);
     }
     return divide(splitter, std::move(best), place);
   }
@@ -505,7 +512,7 @@ class Automatic {
   // From a to b along the longest line; where it ends there, with joints to what holds it.
   Span span(const std::vector<Hinge>& joints, double a, double b) const {
     Span result;
-    result.beam = parts_of(line_, a, b, std::max<int>(128, 8 * static_cast<int>(joints.size())));
+    result.beam = parts_of(line_, a, b, std::max<int>(64, 4 * static_cast<int>(joints.size())));
     for (const Hinge& j : joints) {
       Hinge own = j;
       own.place.s = (b > a ? 1 : -1) * (j.place.s - a);

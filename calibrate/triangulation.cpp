@@ -354,10 +354,33 @@ class Delaunay {
 }  // namespace
 
 Triangulation triangulate(const Outline& outline) {
-  EarClipping ears(outline);
-  Triangulation result{std::move(ears.points()), std::move(ears.triangles())};
-  Delaunay(result).run();
-  return result;
+  const auto turned = [](Ring& ring) {
+    for (Point& p : ring) p = left(p);
+  };
+  const double whole = moments(outline).area;
+  Triangulation best;
+  double least = std::numeric_limits<double>::infinity();
+  // Where rings touch, the bridge of a hole may miss; of another side it does not.
+  Outline seen = outline;
+  for (int turn = 0; turn < 4; ++turn) {
+    EarClipping ears(seen);
+    Triangulation own{std::move(ears.points()), std::move(ears.triangles())};
+    double area = 0;
+    for (std::size_t e = 0; e + 2 < own.edges.size(); e += 3) {
+      const Point a = own.points[own.edges[e].from];
+      area += cross(own.points[own.edges[e + 1].from] - a, own.points[own.edges[e + 2].from] - a) / 2;
+    }
+    if (const double off = std::abs(area - whole); off < least) {
+      least = off;
+      best = std::move(own);
+      for (int back = turn; back % 4 != 0; ++back) turned(best.points);
+    }
+    if (least <= 1e-9 * whole) break;
+    turned(seen.outer);
+    for (Ring& hole : seen.holes) turned(hole);
+  }
+  Delaunay(best).run();
+  return best;
 }
 
 void add_feet(Triangulation& triangulation) {
