@@ -96,6 +96,7 @@ class Reader {
   Problems& problems_;
   std::vector<Body> bodies_;
   SceneDef def_;
+  std::vector<bool> needed_;                    // by bodies: a ductile joint is on it
   std::vector<int> def_of_body_, body_of_def_;  // -1: takes no part
   std::vector<Between> between_;
   std::set<std::string> names_;
@@ -206,10 +207,8 @@ BodyDef Reader::definition(const Body& body) {
 }
 
 void Reader::take_part(int index) {
-  int& known = def_of_body_[static_cast<std::size_t>(index)];
-  if (known >= 0) return;
   const Body& body = bodies_[static_cast<std::size_t>(index)];
-  known = static_cast<int>(def_.bodies.size());
+  def_of_body_[static_cast<std::size_t>(index)] = static_cast<int>(def_.bodies.size());
   def_.bodies.push_back(definition(body));
   def_.bodies.back().name = unique(body.name);
   body_of_def_.push_back(index);
@@ -311,12 +310,7 @@ void Reader::joint(int index, const Value& value) {
                        "\"ductile.calibrate\" to false");
   }
   JointBetweenDef joint;
-  const auto name = [&](int body) {
-    take_part(body);
-    return def_.bodies[static_cast<std::size_t>(def_of_body_[static_cast<std::size_t>(body)])].name;
-  };
-  joint.a = name(a);
-  joint.b = name(b);
+  needed_[static_cast<std::size_t>(a)] = needed_[static_cast<std::size_t>(b)] = true;
   joint.gap = item.custom_number("ductile.gap", positive).value_or(0);
   JointOverrides& o = joint.overrides;
   for (const auto& [name, target] :
@@ -335,24 +329,30 @@ void Reader::read() {
   bodies_ = read_bodies(item);
   problems_.check();
   def_of_body_.assign(bodies_.size(), -1);
+  needed_.assign(bodies_.size(), false);
   def_.gravity = item.vector("gravity");
   def_.sleep = item.boolean("allowSleep");
   def_.interaction = item.custom_boolean("ductile.interaction").value_or(false);
   const auto joints = item.list("joint");
   for (std::size_t i = 0; i < joints.size(); ++i) joint(static_cast<int>(i), joints[i]);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (Item(bodies_[i].value).custom("ductile.pieces", {"int"})) take_part(static_cast<int>(i));
-  }
   for (const PlannedJoint& j : given_) {
-    for (const int body : {j.a, j.b}) {
-      if (body == j.b || !is_ground(body)) take_part(body);
-    }
+    if (!is_ground(j.a)) needed_[static_cast<std::size_t>(j.a)] = true;
+    needed_[static_cast<std::size_t>(j.b)] = true;
   }
-  problems_.check();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (def_of_body_[i] < 0) take_part_if_it_can(static_cast<int>(i));
+    if (needed_[i] || Item(bodies_[i].value).custom("ductile.pieces", {"int"}))
+      take_part(static_cast<int>(i));
+    else
+      take_part_if_it_can(static_cast<int>(i));
   }
   problems_.check();
+  const auto name = [&](int body) {
+    return def_.bodies[static_cast<std::size_t>(def_of_body_[static_cast<std::size_t>(body)])].name;
+  };
+  for (std::size_t i = 0; i < between_.size(); ++i) {
+    def_.joints[i].a = name(between_[i].a);
+    def_.joints[i].b = name(between_[i].b);
+  }
   scene_.plan = calibrate(def_);
   write_bodies();
   redirect();

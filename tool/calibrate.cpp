@@ -196,7 +196,7 @@ std::string run(const Options& options) {
 void add_calibrate(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("calibrate", "Split a scene's bodies and calibrate their joints");
-  command->add_option("SCENE", options->scene, "scene file")->required();
+  command->add_option("SCENE", options->scene, "scene file, or a level of R.U.B.E.")->required();
   command->add_option("--to", options->to, "print definitions: json, box2d, cpp or rube")
       ->check(CLI::IsMember({"json", "box2d", "cpp", "rube"}));
   command

@@ -221,6 +221,47 @@ TEST_P(WhatWeWrite, LoadsAsTheSameWorld) {
 INSTANTIATE_TEST_SUITE_P(Scenes, WhatWeWrite, testing::Values("car", "frame", "cantilever", "harbour_crane"),
                          [](const auto& info) { return std::string(info.param); });
 
+// The two last of four pieces of a beam, as one rigid body.
+TEST(Rube, PiecesThatShareABodyAreOne) {
+  SceneDef scene;
+  scene.bodies = {
+      {.name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}, {}}},
+      {.name = "beam",
+       .outline = {{{0, 0}, {8, 0}, {8, 1}, {0, 1}}, {}},
+       .material = materials::oak,
+       .pieces = 4}};
+  scene.joints = {{.a = "wall", .b = "beam"}};
+  Plan plan = calibrate(scene);
+  Piece& third = plan.pieces[3];
+  ASSERT_EQ(third.name, "beam/2");
+  plan.pieces[4].part_of = 3;
+  third.mass *= 2;
+  third.center.x += 1;
+  third.inertia = third.mass * (4 * 4 + 1) / 12;
+  std::erase_if(plan.joints, [](const PlannedJoint& j) { return j.name == "beam/2-beam/3"; });
+
+  const std::string text = rube_text(plan);
+  EXPECT_EQ(json::parse(text)["body"].size(), 4u);
+  EXPECT_EQ(json::parse(box2d_text(plan))["bodies"].size(), 4u);
+  b2World world({0, -9.81f}), copy({0, 0});
+  Structure structure = build(world, plan);
+  Level level = load_text(copy, text);
+  EXPECT_EQ(level.plan.pieces.size(), 4u);
+  double low = 8, high = 0;
+  for (const Point& p : level.plan.pieces[3].outline.outer) {
+    low = std::min(low, p.x);
+    high = std::max(high, p.x);
+  }
+  EXPECT_NEAR(low, 4, 1e-6);
+  EXPECT_NEAR(high, 8, 1e-6);
+  for (int i = 0; i < 60; ++i) {
+    for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
+    structure.update();
+    level.structure.update();
+    ASSERT_EQ(state(copy), state(world)) << "step " << i;
+  }
+}
+
 TEST(Rube, SupportsAndProfilesSurvive) {
   SceneDef scene;
   scene.bodies = {{.name = "beam",

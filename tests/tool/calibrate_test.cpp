@@ -273,6 +273,20 @@ TEST(CalibrateCommand, TakesALevelOfAnEditor) {
   EXPECT_EQ(ran.json()["joints"][0]["name"], "root");
 }
 
+TEST(CalibrateCommand, ASpoiltLevelIsBadInput) {
+  const Folder folder;
+  std::string text = level + "}";
+  text.replace(text.find("\"bodyB\": 1"), 10, "\"bodyB\": 7");
+  const std::string file = folder.write("level.json", text), out = (folder / "out.json").string();
+  for (const char* command : {"calibrate ", "calibrate --to rube --out ", "simulate --time 1 "}) {
+    const std::string to = std::string(command).ends_with("--out ") ? out + " " : "";
+    const Ran ran = run(command + to + file);
+    expect_bad_input(ran, "joint[0].bodyB");
+    EXPECT_EQ(ran.err.find(file + ":"), 0u) << ran.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(CalibrateCommand, SaysWhatOfALevelNoPlanHolds) {
   const Folder folder;
   std::string text = level + "}";
