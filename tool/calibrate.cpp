@@ -179,7 +179,7 @@ std::string run(const Options& options) {
     left_out = left_out_table(lean, plan);
     plan = std::move(lean.plan);
   }
-  const std::string definitions = in_file(options.scene, [&] { return definitions_of(plan, options); });
+  const std::string definitions = definitions_of(plan, options);
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
     const std::string svg =

@@ -240,6 +240,7 @@ TEST(CalibrateCommand, RefusesWhatBox2DCannotHold) {
     const Ran ran = run("calibrate " + thin + " --to " + to + " --out " + (folder / "out").string());
     expect_bad_input(ran, "0.01 m wide");
     EXPECT_EQ(ran.err.find(thin + ":"), 0u) << ran.err;
+    EXPECT_EQ(ran.err.find(thin, 1), std::string::npos) << ran.err;  // once
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
   }
 }
