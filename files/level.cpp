@@ -396,11 +396,11 @@ Level load(b2World& world, const std::filesystem::path& file, const StructureDef
   return load_text(world, read_text(file), file.string(), file.parent_path(), def);
 }
 
-Plan read_plan(const std::filesystem::path& file, std::vector<Problem>* beyond) {
-  const std::string text = read_text(file), name = file.string();
+Plan parse_plan(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                std::vector<Problem>* beyond) {
   const nlohmann::json json = parse_json(text, name);
   if (!rube::is_scene(json)) {
-    const SceneDef scene = parse_scene(text, name, file.parent_path());
+    const SceneDef scene = parse_scene(text, name, folder);
     return in_file(name, [&] { return calibrate(scene); });
   }
   rube::Scene scene = rube::read(json, name);

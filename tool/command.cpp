@@ -12,13 +12,14 @@
 namespace ductile::tool {
 
 Plan plan_of(const std::string& scene_file, bool kept_elsewhere, std::optional<double> target_error) {
-  if (is_rube(read_text(scene_file))) {
+  const std::string text = read_text(scene_file);  // once: it may be a pipe
+  if (is_rube(text)) {
     std::vector<Problem> beyond;
-    Plan plan = read_plan(scene_file, &beyond);
+    Plan plan = parse_plan(text, scene_file, ".", &beyond);
     if (!beyond.empty() && !kept_elsewhere) throw InvalidInput(std::move(beyond));
     return plan;
   }
-  SceneDef scene = read_scene(scene_file);
+  SceneDef scene = parse_scene(text, scene_file, std::filesystem::path(scene_file).parent_path());
   if (target_error) scene.target_error = *target_error;
   return in_file(scene_file, [&] { return calibrate(scene); });
 }

@@ -274,6 +274,16 @@ TEST(CalibrateCommand, TakesALevelOfAnEditor) {
   EXPECT_EQ(ran.json()["joints"][0]["name"], "root");
 }
 
+TEST(CalibrateCommand, ReadsFromAPipe) {
+  const Folder folder;
+  for (const std::string& text : {cantilever(), level + "}"}) {
+    const std::string file = folder.write("scene.json", text), out = (folder / "out").string();
+    const std::string piped = "cat " + file + " | " DUCTILE_COMMAND " calibrate --json /dev/stdin >" + out;
+    EXPECT_EQ(std::system(piped.c_str()), 0);
+    EXPECT_EQ(slurp(out), run("calibrate --json " + file).out);
+  }
+}
+
 TEST(CalibrateCommand, ASpoiltLevelIsBadInput) {
   const Folder folder;
   std::string text = level + "}";

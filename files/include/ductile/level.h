@@ -31,9 +31,10 @@ Level load(b2World& world, const std::filesystem::path& file, const StructureDef
 Level load_text(b2World& world, std::string_view text, const std::string& name = "level",
                 const std::filesystem::path& folder = ".", const StructureDef& def = {});
 
-/// The plan of such a file: calibrated, for commands and tools that work on plans. What of a R.U.B.E. scene
+/// The plan of such a text: calibrated, for commands and tools that work on plans. What of a R.U.B.E. scene
 /// no plan can hold is put into `beyond`, if given.
-Plan read_plan(const std::filesystem::path& file, std::vector<Problem>* beyond = nullptr);
+Plan parse_plan(std::string_view text, const std::string& name = "level",
+                const std::filesystem::path& folder = ".", std::vector<Problem>* beyond = nullptr);
 
 /// Is it a R.U.B.E. scene? Told by its keys; false for what is no JSON.
 bool is_rube(std::string_view text);
