@@ -443,7 +443,11 @@ void Desk::limits(SceneDef& scene) {
       Limit{"max. rotation", "limit rotation", "Accumulated plastic rotation at which it breaks.", "%.4g rad",
             &JointOverrides::max_rotation, planned.max_rotation, 1e-4, 100},
       Limit{"max. elongation", "limit elongation", "Accumulated plastic lengthening at which it breaks.",
-            "%.4g m", &JointOverrides::max_elongation, planned.max_elongation, 1e-5, 100}};
+            "%.4g m", &JointOverrides::max_elongation, planned.max_elongation, 1e-5, 100},
+      Limit{"max. compression", "limit compression", "Accumulated plastic shortening at which it breaks.",
+            "%.4g m", &JointOverrides::max_compression, planned.max_compression, 1e-5, 100},
+      Limit{"max. slip", "limit slip", "Accumulated plastic shear at which it breaks.", "%.4g m",
+            &JointOverrides::max_slip, planned.max_slip, 1e-5, 100}};
   for (const Limit& limit : limits) {
     std::optional<double>& value = overrides.*limit.of;
     bool own = value.has_value();
@@ -487,6 +491,8 @@ void Desk::limits(SceneDef& scene) {
   compare("M reverse", &PlannedJoint::M_reverse, "N m");
   compare("max. rotation", &PlannedJoint::max_rotation, "rad");
   compare("max. elongation", &PlannedJoint::max_elongation, "m");
+  compare("max. compression", &PlannedJoint::max_compression, "m");
+  compare("max. slip", &PlannedJoint::max_slip, "m");
   ImGui::EndTable();
 }
 

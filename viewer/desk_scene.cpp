@@ -86,17 +86,22 @@ void Desk::run() {
 
 void Desk::show() {
   if (!ImGui::CollapsingHeader("Show", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  ImGui::Checkbox("forces", &look_.forces);
+  const auto checkbox = [](const char* label, bool& on, ImU32 colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::Checkbox(label, &on);
+    ImGui::PopStyleColor();
+  };
+  checkbox("forces", look_.forces, ink::force);
   tip("forces", "Draws the force on each joint's second body (F).");
   ImGui::SameLine();
   drag("##force scale", look_.force_scale, 0.05, 20, "%.2f x");
   tip("force scale", "Length of the forces: at 1 what is usual in this scene is 50 pixels long.");
-  ImGui::Checkbox("moments", &look_.moments);
+  checkbox("moments", look_.moments, ink::moment);
   tip("moments", "Draws each joint's moment as an arc that turns the second body (T).");
   ImGui::SameLine();
   drag("##moment scale", look_.moment_scale, 0.05, 20, "%.2f x");
   tip("moment scale", "Size of the moments: at 1 what is usual in this scene is 22 pixels in radius.");
-  ImGui::Checkbox("loads", &look_.loads);
+  checkbox("loads", look_.loads, ink::load);
   tip("loads", "Draws the scene's loads as they are now.");
   ImGui::SameLine();
   ImGui::Checkbox("names", &look_.names);

@@ -74,7 +74,8 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   double scale() const { return scale_; }
-  bool closed() const { return glfwWindowShouldClose(window_) != GLFW_FALSE; }
+  bool closing() const { return glfwWindowShouldClose(window_) != GLFW_FALSE; }
+  void stay() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
   void title(const std::string& text) { glfwSetWindowTitle(window_, text.c_str()); }
   void begin(bool idle) {
     if (idle) {
@@ -241,7 +242,11 @@ ViewCost view(const ViewDef& def) {
   std::vector<double> cost;
   ViewCost result;
   std::string title;
-  for (long frame = 0; !window.closed() && (!counted || frame <= def.frames); ++frame) {
+  for (long frame = 0; !counted || frame <= def.frames; ++frame) {
+    if (window.closing()) {
+      if (bench.may_discard("close the window")) break;
+      window.stay();
+    }
     window.begin(!counted && !def.trace && !bench.playing && !bench.run().busy());
     const ImGuiIO& io = ImGui::GetIO();
     if (counted) {

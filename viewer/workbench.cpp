@@ -59,6 +59,7 @@ void Workbench::open(const std::filesystem::path& file) {
   before_ = std::move(plan);
   versions_ = {std::move(opened.scene)};
   version_ = saved_ = 0;
+  warned_.clear();
   file_ = std::move(opened.file);
   message = std::move(opened.note);
   selected.clear();
@@ -68,7 +69,16 @@ void Workbench::open(const std::filesystem::path& file) {
   if (stock_) start_stock();
 }
 
+bool Workbench::may_discard(const std::string& what) {
+  if (!changed() || warned_ == what) return true;
+  warned_ = what;
+  message = file_.filename().string() + " has been edited and is not saved. Save it, or " + what +
+            " once more to lose the edits.";
+  return false;
+}
+
 bool Workbench::try_open(const std::filesystem::path& file) {
+  if (!may_discard("open " + file.filename().string())) return false;
   try {
     open(file);
     return true;
@@ -100,6 +110,7 @@ void Workbench::edit(SceneDef scene, bool continued) {
   std::vector<Timeline::Entry> acts{{0, act::Set{run_->stepping()}}};
   if (plan.pieces.size() == this->plan().pieces.size()) acts = run_->acts();
   show(std::move(plan), solver(), std::move(acts));
+  warned_.clear();
   if (saved_ > version_) saved_ = gone;
   versions_.resize(version_ + 1);
   if (continued && version_ > 0) {

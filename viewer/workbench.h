@@ -21,8 +21,12 @@ class Workbench {
   // --- the scene ---
   /// Another scene. Throws, with everything as it was, where the file cannot be used.
   void open(const std::filesystem::path& file);
-  /// The same, with what is wrong as the message; false then.
+  /// The same as a user asks for it: what is wrong becomes the message, and so does what would be lost; false
+  /// then. Asked again, edits that are not saved are lost.
   bool try_open(const std::filesystem::path& file);
+  /// Whether edits that are not saved may go: the first time that something asks for it, a message says that
+  /// doing `what` again discards them.
+  bool may_discard(const std::string& what);
   /// The next or the previous of the list, around its ends.
   void open_neighbour(int by);
   /// Throws std::system_error.
@@ -88,6 +92,7 @@ class Workbench {
   std::filesystem::path file_;
   std::vector<SceneDef> versions_;
   std::size_t version_ = 0, saved_ = 0;
+  std::string warned_;  // of losing edits by this
   Plan before_;
   int edition_ = 0;
   std::unique_ptr<Timeline> run_, stock_;

@@ -97,6 +97,31 @@ TEST(Workbench, ABadFileIsAMessageAndNothingIsLost) {
   EXPECT_EQ(bench.run().cursor(), 20);
 }
 
+TEST(Workbench, EditsAreNotLostUnasked) {
+  const Folder folder;
+  Workbench bench;
+  const fs::path a = write_scene(folder, cantilever(4, 3e6)),
+                 b = write_scene(folder, cantilever(2, 3e6), "b.json");
+  bench.open(a);
+  SceneDef scene = bench.scene();
+  scene.bodies[1].depth = 2;
+  bench.edit(scene);
+  EXPECT_FALSE(bench.try_open(b));
+  EXPECT_NE(bench.message.find("not saved"), std::string::npos);
+  EXPECT_FALSE(bench.may_discard("close")) << "something else is asked for";
+  EXPECT_TRUE(bench.may_discard("close"));
+  EXPECT_EQ(bench.scene().bodies[1].depth, 2);
+  scene.bodies[1].depth = 3;
+  bench.edit(scene);
+  EXPECT_FALSE(bench.may_discard("close")) << "more would be lost now";
+  bench.save(a);
+  EXPECT_TRUE(bench.may_discard("close"));
+  bench.undo();
+  EXPECT_FALSE(bench.try_open(b));
+  EXPECT_TRUE(bench.try_open(b));
+  EXPECT_EQ(bench.file(), b);
+}
+
 TEST(Workbench, ADrawingBecomesBodies) {
   const Folder folder;
   const std::string shapes = R"(viewBox="0 0 100 50"><rect id="a-b" x="0" y="0" width="100" height="10"/>
