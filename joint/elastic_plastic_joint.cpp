@@ -81,8 +81,9 @@ b2Vec2 ElasticPlasticJoint::axis() const {
 }
 
 double ElasticPlasticJoint::force(Row row) const {
-  return member_ != nullptr && member_->component != nullptr ? member_->component->solver.force(state())[row]
-                                                             : 0;
+  if (member_ == nullptr) return 0;
+  return member_->component != nullptr ? member_->component->solver.force(state())[row]
+                                       : member_->last_force[row];
 }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
@@ -96,9 +97,10 @@ double ElasticPlasticJoint::usage(Row row) const {
 }
 
 double ElasticPlasticJoint::elastic(Row row) const {
-  return member_ != nullptr && member_->component != nullptr
+  if (member_ == nullptr) return 0;
+  return member_->component != nullptr
              ? member_->component->solver.elastic(state(), static_cast<unsigned>(row))
-             : 0;
+             : member_->last_elastic[row];
 }
 double ElasticPlasticJoint::plastic(Row row) const { return state().plastic[row]; }
 

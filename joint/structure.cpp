@@ -90,6 +90,10 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   gone_.numerical += component.solver.ledger.numerical;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
+    m->last_force = m->broken ? Rows{} : component.solver.force(m->own);
+    for (const Row row : {axial, shear, rotation}) {
+      m->last_elastic[row] = component.solver.elastic(m->own, static_cast<unsigned>(row));
+    }
     m->component = nullptr;
   }
   for (std::size_t i = 0; i < component.mirrors.size(); ++i) {

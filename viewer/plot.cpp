@@ -78,20 +78,19 @@ std::optional<long> plot(const char* title, const Timeline& run, const std::vect
   ImDrawList& to = *ImGui::GetWindowDrawList();
   to.PushClipRect(px(box.low), px(box.high), true);
   to.AddLine({f(box.low.x), f(y(0))}, {f(box.high.x), f(y(0))}, ink::line, f(ui));
-  std::vector<ImVec2> path;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    path.clear();
+    std::optional<Point> before;
     for (std::size_t i = 0; i < width; ++i) {
       const Column& c = drawn[k][i];
       if (!std::isfinite(c.low)) continue;
       const double x = box.low.x + (static_cast<double>(i) + 0.5) * step;
-      for (const double value : {c.first, c.low, c.high, c.last}) {
-        if (path.empty() || path.back().x != f(x) || path.back().y != f(y(value))) {
-          path.push_back({f(x), f(y(value))});
-        }
-      }
+      const auto line = [&](Point from, Point to_point) {
+        to.AddLine(px(from), px(to_point), lines[k].colour, f(1.4 * ui));
+      };
+      if (before) line(*before, {x, y(c.first)});
+      if (c.low < c.high) line({x, y(c.low)}, {x, y(c.high)});
+      before = {x, y(c.last)};
     }
-    to.AddPolyline(path.data(), static_cast<int>(path.size()), lines[k].colour, 0, f(1.4 * ui));
   }
   const auto x_of = [&](double time) {
     return box.low.x + (end > start ? (time - start) / (end - start) : 0) * box.size().x;

@@ -135,6 +135,26 @@ TEST(Simulation, JointsThatGoWithABodyAreForgotten) {
   }
 }
 
+TEST(Simulation, WhatHoldsIsReadInTheStepInWhichAnotherBreaks) {
+  // A growing pull on the tag is carried by tag, bar and support, up to the cap of the tag's joint.
+  constexpr double cap = 2e5;
+  SceneDef scene = cantilever(10, 1, 2);
+  scene.gravity = {0, 0};
+  BodyDef tag = bar(1, 1, 1);
+  tag.name = "tag";
+  tag.at = {10, 0};
+  scene.bodies.push_back(tag);
+  scene.joints = {{.a = "bar", .b = "tag", .overrides = {.axial = cap, .max_elongation = 1e-3}}};
+  scene.loads = {{.body = "tag", .at = {10.5, 0.5}, .force = {2 * cap, 0}, .ramp = 2}};
+  Simulation run(calibrate(scene));
+  ASSERT_EQ(run.plan().joints[1].name, "bar/1-tag");
+  while (!run.joint(1).broken && run.steps() < 600) run.step();
+  ASSERT_TRUE(run.joint(1).broken);
+  EXPECT_EQ(run.joint(1).N, 0);
+  EXPECT_NEAR(run.joint(0).N, cap, 1e-6 * cap);
+  EXPECT_NEAR(run.joint(2).N, cap, 1e-6 * cap) << "the support";
+}
+
 TEST(Simulation, WheelsCarryAndDrive) {
   const SceneDef scene = parse_scene(R"({"gravity": [0, -10],
     "materials": {"m": {"density": 100, "E": 1e9, "fy": 1e7, "friction": 0.9}},
