@@ -47,7 +47,7 @@ void Desk::draw(Point size, double ui) {
 
 void Desk::adopt() {
   edition_ = bench_.edition();
-  diagrams_.clear();
+  diagram_.reset();
   if (scene_ == bench_.file().string()) return;  // edited
   scene_ = save_as_ = bench_.file().string();
   camera_.show(extent(bench_.plan()));
@@ -175,6 +175,7 @@ void Desk::help() {
       Row{"ctrl+drag", "select in a box anywhere"},
       Row{"shift+drag", "pull a bomb back and let it go"},
       Row{"ctrl+A", "select all joints"},
+      Row{"ctrl+click", "type a slider's value"},
       Row{"ctrl+Z  Y  S", "undo, redo, save"},
       Row{"Escape", "select nothing"},
       Row{"H", "this list"},

@@ -48,7 +48,6 @@ class Desk {
   void help();
 
   void save();
-  void put_mass() { placing_ = true; }
   /// Puts a changed scene on the bench where a control `changed` it; wrong values become the message.
   void commit(bool changed, SceneDef scene);
   /// To be called right after a control: its name, and what it does, for whoever rests the pointer on it.
@@ -69,10 +68,11 @@ class Desk {
   std::filesystem::path file_;   // of the scene that is shown
   std::string save_as_, scene_;  // what is typed; what was opened
   std::map<std::string, Box> controls_;
-  std::map<std::size_t, Diagram> diagrams_;  // of the joint that is in focus
-  bool edited_ = false;                      // by the control that is being dragged
-  double rests_ = 0;                         // s since the pointer moved
-  float from_share_ = 0.9f;                  // of "select from"
+  std::optional<Diagram> diagram_;  // of the joint in focus
+  std::size_t diagram_of_ = 0;
+  bool edited_ = false;      // by the control that is being dragged
+  double rests_ = 0;         // s since the pointer moved
+  float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
   bool placing_ = false, helping_ = false;
 };

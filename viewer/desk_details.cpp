@@ -1,5 +1,5 @@
-// The right side of the desk: the joint in focus, all joints, what is edited, what happened, where energy and
-// time go.
+// The right side of the desk, to read: the joint in focus, all joints, what happened, where energy and time
+// go.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "pick.h"
 #include "plot.h"
 #include "quantity.h"
+#include "rows.h"
 
 namespace ductile::viewer {
 namespace {
@@ -47,19 +48,6 @@ constexpr std::array<Quantity, 12> quantities{
      {"plastic shear", [](const JointReading& j) { return j.plastic_shear; }, metre},
      {"plastic capacity used", [](const JointReading& j) { return j.capacity_used; }, percent},
      {"dissipated", [](const JointReading& j) { return j.dissipated; }, joule}}};
-
-constexpr ImGuiTableFlags table_flags =
-    ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-
-void row(const char* name, std::initializer_list<std::string> cells) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(name);
-  for (const std::string& cell : cells) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(cell.c_str());
-  }
-}
 
 std::string cap_of(double positive, double negative, const char* unit) {
   if (positive == negative) return si(positive, unit);
@@ -138,19 +126,16 @@ void Desk::joint() {
     tip("reasons", reason.c_str());
   }
 
-  auto found = diagrams_.find(i);
-  if (found == diagrams_.end()) {
-    diagrams_.clear();
-    found = diagrams_.emplace(i, diagram(bench_.plan(), i)).first;
-  }
+  if (!diagram_ || diagram_of_ != i) diagram_ = diagram(bench_.plan(), i);
+  diagram_of_ = i;
   const float width = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
   const auto height = static_cast<float>(150 * ui_);
-  plot_limits(found->second, bench_.run(), i, {0.62f * width - gap, height}, ui_);
+  plot_limits(*diagram_, bench_.run(), i, {0.62f * width - gap, height}, ui_);
   tip("N-M",
       "N to the right, M up. Bold: where it yields; thin: its section's own curve; the dot: now, with where "
       "it has been.");
   ImGui::SameLine();
-  plot_section(found->second, now, {0.38f * width, height}, ui_);
+  plot_section(*diagram_, now, {0.38f * width, height}, ui_);
   tip("section",
       "The section where it yields with the present N: tension, compression, and the neutral axis between "
       "them. What is very thin is drawn wider.");
@@ -322,178 +307,6 @@ void Desk::ledger() {
   bool beside = bench_.stock() != nullptr;
   if (ImGui::Checkbox("beside stock welds", &beside)) bench_.compare_with_stock(beside);
   tip("beside stock", "Runs the same scene with Box2D's own welds beside this one, for its time per step.");
-}
-
-void Desk::commit(bool changed, SceneDef scene) {
-  if (!changed) return;
-  try {
-    bench_.edit(std::move(scene), edited_ && ImGui::IsItemActive());
-    edited_ = true;
-  } catch (const InvalidInput& error) {
-    bench_.message = "This cannot be.\n" + std::string(error.what());
-  }
-}
-
-void Desk::edit() {
-  SceneDef scene = bench_.scene();
-  const Plan& plan = bench_.plan();
-  // The body that was clicked on, or else the one of the joint in focus.
-  std::size_t at = bench_.body.value_or(0);
-  if (!bench_.body && bench_.focus) {
-    at = static_cast<std::size_t>(plan.pieces[static_cast<std::size_t>(plan.joints[*bench_.focus].b)].body);
-  }
-  at = std::min(at, scene.bodies.size() - 1);
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52f);
-  if (ImGui::BeginCombo("body", scene.bodies[at].name.c_str())) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      if (ImGui::Selectable(scene.bodies[i].name.c_str(), i == at)) bench_.body = at = i;
-    }
-    ImGui::EndCombo();
-  }
-  tip("body", "Which body is edited; a click on one in the scene chooses it too.");
-  BodyDef& body = scene.bodies[at];
-  material(scene, body);
-  if (body.profile.empty()) {
-    constexpr double thinnest = 1e-4, thickest = 100;
-    const bool changed = ImGui::SliderScalar("depth", ImGuiDataType_Double, &body.depth, &thinnest, &thickest,
-                                             "%.4g m", ImGuiSliderFlags_Logarithmic);
-    tip("depth", "Of the body, out of the plane.");
-    commit(changed, scene);
-  }
-  if (body.cuts.empty() && !body.automatic && body.circle == 0) {
-    const bool changed = ImGui::SliderInt("pieces", &body.pieces, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
-    tip("pieces", "Into how many equal pieces the body is split.");
-    commit(changed, scene);
-  }
-  ImGui::Separator();
-  limits(scene);
-  ImGui::PopItemWidth();
-}
-
-void Desk::material(SceneDef& scene, BodyDef& body) {
-  if (!body.material) return;
-  Material& material = *body.material;
-  const char* name = "its own";
-  for (const NamedMaterial& known : materials::all()) {
-    if (known.material == material) name = known.name.data();
-  }
-  bool changed = false;
-  if (ImGui::BeginCombo("material", name)) {
-    for (const NamedMaterial& known : materials::all()) {
-      if (ImGui::Selectable(std::string(known.name).c_str(), known.material == material)) {
-        material = known.material;
-        changed = true;
-      }
-    }
-    ImGui::EndCombo();
-  }
-  tip("material", "A built-in material, or its own by the values below.");
-  commit(changed, scene);
-  struct Value {
-    const char *label, *name, *text, *format;
-    double Material::*of;
-    double low, high, unit;
-  };
-  static constexpr std::array values{
-      Value{"yield stress", "yield stress", "f_y: at which stress it flows.", "%.4g MPa",
-            &Material::yield_stress, 0.1, 5000, 1e6},
-      Value{"E", "E", "Young's modulus; 0: not known, joints are rigid.", "%.4g GPa",
-            &Material::youngs_modulus, 0, 1000, 1e9},
-      Value{"density", "density", "Mass over volume.", "%.4g kg/m³", &Material::density, 1, 30000, 1},
-      Value{"fracture strain", "fracture strain",
-            "Engineering strain at rupture: how far hinges turn before they break.", "%.4g",
-            &Material::fracture_strain, 0, 2, 1}};
-  for (const Value& value : values) {
-    double shown = material.*value.of / value.unit;
-    changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low, &value.high,
-                                  value.format, ImGuiSliderFlags_Logarithmic);
-    tip(value.name, value.text);
-    if (changed) material.*value.of = shown * value.unit;
-    commit(changed, scene);
-  }
-}
-
-// The overrides of the joint in focus, and what its capacities have become.
-void Desk::limits(SceneDef& scene) {
-  if (!bench_.focus) {
-    ImGui::TextWrapped("Select a joint to change its limits.");
-    return;
-  }
-  const std::size_t i = *bench_.focus;
-  const PlannedJoint planned = bench_.plan().joints[i];
-  const auto governing = limits_of(scene, bench_.plan(), i);
-  if (!governing) {
-    ImGui::TextWrapped("A support holds whatever comes.");
-    return;
-  }
-  JointOverrides& overrides = *governing->overrides;
-  ImGui::Text("Limits of %s", governing->of.c_str());
-  struct Limit {
-    const char *label, *name, *text, *format;
-    std::optional<double> JointOverrides::*of;
-    double now, low, high;
-  };
-  const std::array limits{
-      Limit{"moment", "limit moment", "Plastic moment in both senses, instead of the section's.", "%.4g N m",
-            &JointOverrides::moment, planned.M, 1, 1e10},
-      Limit{"axial", "limit axial", "Greatest axial force in both senses.", "%.4g N", &JointOverrides::axial,
-            planned.N, 1, 1e11},
-      Limit{"shear", "limit shear", "Greatest shear force.", "%.4g N", &JointOverrides::shear, planned.Q, 1,
-            1e11},
-      Limit{"max. rotation", "limit rotation", "Accumulated plastic rotation at which it breaks.", "%.4g rad",
-            &JointOverrides::max_rotation, planned.max_rotation, 1e-4, 100},
-      Limit{"max. elongation", "limit elongation", "Accumulated plastic lengthening at which it breaks.",
-            "%.4g m", &JointOverrides::max_elongation, planned.max_elongation, 1e-5, 100},
-      Limit{"max. compression", "limit compression", "Accumulated plastic shortening at which it breaks.",
-            "%.4g m", &JointOverrides::max_compression, planned.max_compression, 1e-5, 100},
-      Limit{"max. slip", "limit slip", "Accumulated plastic shear at which it breaks.", "%.4g m",
-            &JointOverrides::max_slip, planned.max_slip, 1e-5, 100}};
-  for (const Limit& limit : limits) {
-    std::optional<double>& value = overrides.*limit.of;
-    bool own = value.has_value();
-    ImGui::PushID(limit.label);
-    bool changed = ImGui::Checkbox("##own", &own);
-    tip((std::string("own ") + limit.name).c_str(), "Its own value instead of that of section and material.");
-    if (changed)
-      value = own ? std::optional(std::isfinite(limit.now) && limit.now > 0 ? limit.now : limit.high)
-                  : std::nullopt;
-    commit(changed, scene);
-    ImGui::SameLine();
-    ImGui::BeginDisabled(!own);
-    double shown = value.value_or(limit.now);
-    changed =
-        ImGui::SliderScalar(limit.label, ImGuiDataType_Double, &shown, &limit.low, &limit.high,
-                            shown < unlimited ? limit.format : "unlimited", ImGuiSliderFlags_Logarithmic);
-    tip(limit.name, limit.text);
-    if (changed) value = shown;
-    commit(changed && own, scene);
-    ImGui::EndDisabled();
-    ImGui::PopID();
-  }
-  ImGui::Separator();
-  // Before the edits: found by name, since pieces may be others.
-  const auto& before = bench_.plan_before().joints;
-  const auto old = std::find_if(before.begin(), before.end(),
-                                [&](const PlannedJoint& j) { return j.name == planned.name; });
-  ImGui::Text("%s", planned.name.c_str());
-  if (!ImGui::BeginTable("capacities", 3, table_flags)) return;
-  ImGui::TableSetupColumn("capacity");
-  ImGui::TableSetupColumn("saved");
-  ImGui::TableSetupColumn("now");
-  ImGui::TableHeadersRow();
-  const auto compare = [&](const char* name, double PlannedJoint::*of, const char* unit) {
-    row(name, {old != before.end() ? si((*old).*of, unit) : "–", si(planned.*of, unit)});
-  };
-  compare("N", &PlannedJoint::N, "N");
-  compare("N compression", &PlannedJoint::Nc, "N");
-  compare("Q", &PlannedJoint::Q, "N");
-  compare("M", &PlannedJoint::M, "N m");
-  compare("M reverse", &PlannedJoint::M_reverse, "N m");
-  compare("max. rotation", &PlannedJoint::max_rotation, "rad");
-  compare("max. elongation", &PlannedJoint::max_elongation, "m");
-  compare("max. compression", &PlannedJoint::max_compression, "m");
-  compare("max. slip", &PlannedJoint::max_slip, "m");
-  ImGui::EndTable();
 }
 
 }  // namespace ductile::viewer

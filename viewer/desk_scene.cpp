@@ -15,7 +15,7 @@ std::string scene_name(const std::filesystem::path& file) {
   return name.substr(0, name.find('.'));
 }
 
-bool drag(const char* label, double& value, double low, double high, const char* format) {
+bool slide(const char* label, double& value, double low, double high, const char* format) {
   return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
                              ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
@@ -72,7 +72,7 @@ void Desk::run() {
   }
   Stepping stepping = bench_.run().stepping();
   double hz = 1 / stepping.dt;
-  bool changed = drag("steps/s", hz, 10, 2000, "%.0f");
+  bool changed = slide("steps/s", hz, 10, 2000, "%.0f");
   tip("steps/s", fmt::format("Steps per second from here on; now dt = {:.4g} s.", stepping.dt).c_str());
   stepping.dt = changed ? 1 / std::round(hz) : stepping.dt;
   changed |= ImGui::SliderInt("velocity it.", &stepping.velocity_iterations, 1, 100, "%d",
@@ -94,12 +94,12 @@ void Desk::show() {
   checkbox("forces", look_.forces, ink::force);
   tip("forces", "Draws the force on each joint's second body (F).");
   ImGui::SameLine();
-  drag("##force scale", look_.force_scale, 0.05, 20, "%.2f x");
+  slide("##force scale", look_.force_scale, 0.05, 20, "%.2f x");
   tip("force scale", "Length of the forces: at 1 what is usual in this scene is 50 pixels long.");
   checkbox("moments", look_.moments, ink::moment);
   tip("moments", "Draws each joint's moment as an arc that turns the second body (T).");
   ImGui::SameLine();
-  drag("##moment scale", look_.moment_scale, 0.05, 20, "%.2f x");
+  slide("##moment scale", look_.moment_scale, 0.05, 20, "%.2f x");
   tip("moment scale", "Size of the moments: at 1 what is usual in this scene is 22 pixels in radius.");
   checkbox("loads", look_.loads, ink::load);
   tip("loads", "Draws the scene's loads as they are now.");
@@ -119,11 +119,11 @@ void Desk::show() {
 
 void Desk::throwing() {
   if (!ImGui::CollapsingHeader("Throw", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  drag("mass, kg", hand_.mass, 1e-3, 1e9, "%.6g");
+  slide("mass, kg", hand_.mass, 1e-3, 1e9, "%.6g");
   tip("mass", "Of the next bomb or mass.");
-  drag("size, m", hand_.size, 1e-2, 100, "%.3g");
+  slide("size, m", hand_.size, 1e-2, 100, "%.3g");
   tip("size", "Diameter of a bomb, side of a mass.");
-  drag("speed, m/s", hand_.speed, 0.1, 1000, "%.3g");
+  slide("speed, m/s", hand_.speed, 0.1, 1000, "%.3g");
   tip("speed",
       "Of a bomb that is thrown with the space bar; one that is pulled back goes as far as it was pulled in "
       "a quarter of a second.");
@@ -132,9 +132,11 @@ void Desk::throwing() {
     hand_.throw_at(bench_, camera_, camera_.centre);
   }
   ImGui::SameLine();
-  if (button("Add mass", "add mass", "Then click where it is put (M: at the pointer).")) put_mass();
+  if (button("Add mass", "add mass", "Then click where it is put (M: at the pointer).")) {
+    placing_ = true;
+  }
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-  drag("grip, m/s²", hand_.strength, 1, 1e5, "%.0f");
+  slide("grip, m/s²", hand_.strength, 1, 1e5, "%.0f");
   tip("grip", "Greatest pull of the pointer on a body that is dragged, over its mass.");
 }
 
