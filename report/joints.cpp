@@ -98,8 +98,9 @@ double plastic_rotation() {
   return low;
 }
 
-/// How far every piece sinks: the springs' linear statics, K u = f, by Eigen. Nothing of joint/ is in it.
-Eigen::VectorXd sinking(const Layout& layout, double gravity) {
+/// Where every piece goes, (x, y, θ) each: the springs' linear statics, K u = f, by Eigen. Nothing of joint/
+/// is in it.
+Eigen::VectorXd displacements(const Layout& layout, double gravity) {
   const auto n = static_cast<Eigen::Index>(layout.pieces.size());
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (const Layout::Weld& w : layout.welds) {
@@ -135,10 +136,7 @@ Eigen::VectorXd sinking(const Layout& layout, double gravity) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     f[3 * i + 1] = -gravity * layout.pieces[static_cast<std::size_t>(i)].mass();
-  const Eigen::VectorXd u = K.ldlt().solve(f);
-  Eigen::VectorXd down(n);
-  for (Eigen::Index i = 0; i < n; ++i) down[i] = u[3 * i + 1];
-  return down;
+  return K.ldlt().solve(f);
 }
 
 double extent(const Layout& layout) {
@@ -175,11 +173,16 @@ Outcome run(const Structure& s, const Way& way) {
   Layout layout = s.layout;
   if (!way.elastic) layout.E = unlimited;
   layout.yields = s.yields;
-  double weight_moment = 0;
-  for (const Layout::Piece& p : layout.pieces) weight_moment += p.mass() * s.gravity * p.x;
-  const Eigen::VectorXd down = way.elastic
-                                   ? sinking(layout, s.gravity)
-                                   : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.pieces.size()));
+  const Eigen::VectorXd u = way.elastic
+                                ? displacements(layout, s.gravity)
+                                : Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(layout.pieces.size()));
+  const auto moved = [&](std::size_t piece, Eigen::Index axis) {
+    return u[3 * static_cast<Eigen::Index>(piece) + axis];
+  };
+  double weight_moment = 0;  // of the weights where they come to rest
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+    weight_moment += layout.pieces[i].mass() * s.gravity * (layout.pieces[i].x + moved(i, 0));
+  }
   const double dt = 1 / frequency / way.substeps;
   Built built(layout, s.yields && way.kind == Built::stock ? Built::stock_hinges : way.kind, s.gravity);
   Built yardstick(layout, Built::stock, 1e-3);  // straight: stock at its cheapest
@@ -205,7 +208,7 @@ Outcome run(const Structure& s, const Way& way) {
   const double size = extent(layout);
   for (std::size_t i = 0; i < built.pieces.size(); ++i) {
     const double sunk = double{built.pieces[i]->GetPosition().y} - layout.pieces[i].y;
-    out.sag = std::max(out.sag, std::abs(sunk - down[static_cast<Eigen::Index>(i)]) / size);
+    out.sag = std::max(out.sag, std::abs(sunk - moved(i, 1)) / size);
   }
   out.rotation = std::abs(-double{built.pieces[0]->GetAngle()} - plastic_rotation());
   out.yardstick_us = 1e6 * median(yard) / few;
