@@ -20,15 +20,11 @@ static void to_json(Json& j, const Series& s) {
        {"high", s.high}, {"told", s.told}, {"marked", s.marked}, {"line", s.line}};
 }
 static void to_json(Json& j, const Figure& f) {
-  j = {{"name", f.name},
-       {"group", f.group.empty() ? f.name : f.group},
-       {"tab", f.tab},
-       {"title", f.title},
-       {"caption", f.caption},
-       {"x", f.x},
-       {"y", f.y},
-       {"floor", f.floor},
-       {"series", f.series}};
+  j = {{"name", f.name},   {"group", f.group.empty() ? f.name : f.group},
+       {"tab", f.tab},     {"first", f.first},
+       {"title", f.title}, {"caption", f.caption},
+       {"x", f.x},         {"y", f.y},
+       {"floor", f.floor}, {"series", f.series}};
 }
 static void to_json(Json& j, const Matrix::Cell& c) { j = {{"verdict", c.verdict}, {"told", c.told}}; }
 static void to_json(Json& j, const Matrix::Row& r) {
