@@ -166,8 +166,7 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
 }
 
 std::string run(const Options& options) {
-  Plan plan =
-      plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
+  Plan plan = plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
   std::string left_out;
   if (options.leave_out) {
     if (!options.to.empty() && options.to != "json")

@@ -30,8 +30,8 @@ struct NotYet : std::runtime_error {
 };
 
 /// The plan of a scene file, with another target error for its automatic splits if one is given, or of a
-/// R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can hold is an
-/// error, unless the caller keeps it elsewhere.
+/// R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can hold is
+/// an error, unless the caller keeps it elsewhere.
 Plan plan_of(const std::string& scene_file, bool kept_elsewhere = false,
              std::optional<double> target_error = std::nullopt);
 

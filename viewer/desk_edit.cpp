@@ -20,6 +20,7 @@ void Desk::commit(bool changed, SceneDef scene) {
 }
 
 void Desk::edit() {
+  if (!bench_.editable()) return ImGui::TextWrapped("A level is edited in the editor that it comes from.");
   SceneDef scene = bench_.scene();
   const Plan& plan = bench_.plan();
   // The body that was clicked on, or else the one of the joint in focus.

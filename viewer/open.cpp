@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ductile/files.h"
+#include "ductile/level.h"
 #include "geometry.h"
 
 namespace ductile::viewer {
@@ -97,12 +98,21 @@ bool is_drawing(std::string_view text) {
   return first != text.end() && *first == '<';
 }
 
+Opened level_of(std::string_view text, const std::filesystem::path& file) {
+  std::vector<Problem> beyond;
+  Plan plan = parse_plan(text, file.string(), file.parent_path(), &beyond);
+  std::string note = "A level is run and looked into here; what it is made of is edited where it comes from.";
+  if (!beyond.empty()) note += " Not shown: " + std::to_string(beyond.size()) + " of its parts.";
+  return {{}, file, std::move(note), std::move(plan)};
+}
+
 }  // namespace
 
 Opened open_file(const std::filesystem::path& file) {
   const std::string text = read_text(file);
   if (is_drawing(text)) return scene_of(Drawing(text, file.string()), file);
-  return {parse_scene(text, file.string(), file.parent_path()), file, ""};
+  if (is_rube(text)) return level_of(text, file);
+  return {parse_scene(text, file.string(), file.parent_path()), file, "", {}};
 }
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "ductile/calibrate.h"
 
@@ -11,10 +12,11 @@ struct Opened {
   SceneDef scene;
   std::filesystem::path file;  ///< where saving goes: the scene file itself, or a new one beside a drawing
   std::string note;            ///< what a user should know of how it was read
+  std::optional<Plan> level;   ///< of a R.U.B.E. level, which has no scene to edit
 };
 
-/// A scene file, or a drawing, whose shapes become steel bodies above a floor. Throws InvalidInput and
-/// std::system_error.
+/// A scene file, a R.U.B.E. level, or a drawing, whose shapes become steel bodies above a floor. Throws
+/// InvalidInput and std::system_error.
 Opened open_file(const std::filesystem::path& file);
 
 /// Files of scenes in a folder, by name. None where there is no such folder.

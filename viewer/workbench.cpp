@@ -45,7 +45,7 @@ void Workbench::open(const std::filesystem::path& file) {
   Plan plan;
   std::unique_ptr<Timeline> run;
   try {
-    plan = calibrate(opened.scene);
+    plan = opened.level ? *opened.level : calibrate(opened.scene);
     run = std::make_unique<Timeline>(plan, solver());
     if (const double hz = usual_hz(opened.file); hz > 0) run->act(act::Set{{.dt = 1 / hz}});
   } catch (const InvalidInput& error) {
@@ -58,6 +58,7 @@ void Workbench::open(const std::filesystem::path& file) {
   run_ = std::move(run);
   before_ = std::move(plan);
   versions_ = {std::move(opened.scene)};
+  editable_ = !opened.level;
   version_ = saved_ = 0;
   warned_.clear();
   file_ = std::move(opened.file);
@@ -97,7 +98,13 @@ void Workbench::open_neighbour(int by) {
   try_open(scenes_[static_cast<std::size_t>(next)]);
 }
 
+void Workbench::require_editable() const {
+  if (editable_) return;
+  throw InvalidInput({{file_.string(), "is a level of another editor", "edit and save it there"}});
+}
+
 void Workbench::save(const std::filesystem::path& file) {
+  require_editable();
   write_text(file, scene_text(scene()));
   file_ = file;
   saved_ = version_;
@@ -105,6 +112,7 @@ void Workbench::save(const std::filesystem::path& file) {
 }
 
 void Workbench::edit(SceneDef scene, bool continued) {
+  require_editable();
   Plan plan = calibrate(scene);
   // What was done to pieces that are no longer there is forgotten.
   std::vector<Timeline::Entry> acts{{0, act::Set{run_->stepping()}}};

@@ -29,7 +29,9 @@ class Workbench {
   bool may_discard(const std::string& what);
   /// The next or the previous of the list, around its ends.
   void open_neighbour(int by);
-  /// Throws std::system_error.
+  /// Whether there is a scene to edit and save; a R.U.B.E. level has none.
+  bool editable() const { return editable_; }
+  /// Throws std::system_error; InvalidInput where it is not editable.
   void save(const std::filesystem::path& file);
   /// Puts another scene in the place of this one and runs it from the start; undo() takes it back. Throws
   /// InvalidInput, with everything as it was. `continued`: it replaces the last edit, as a slider does while
@@ -87,11 +89,13 @@ class Workbench {
  private:
   void show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts);
   void start_stock();
+  void require_editable() const;
 
   std::vector<std::filesystem::path> scenes_;
   std::filesystem::path file_;
   std::vector<SceneDef> versions_;
   std::size_t version_ = 0, saved_ = 0;
+  bool editable_ = true;
   std::string warned_;  // of losing edits by this
   Plan before_;
   int edition_ = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "ductile/definitions.h"
 #include "ductile/files.h"
 #include "open.h"
 #include "pick.h"
@@ -152,6 +153,28 @@ TEST(Workbench, ADrawingBecomesBodies) {
   EXPECT_NE(bench.message.find("10 m"), std::string::npos);
 }
 
+TEST(Workbench, ALevelRunsAsTheSceneThatItWasMadeOf) {
+  const Folder folder;
+  const SceneDef scene = cantilever(4, 3e6);
+  Workbench bench, level;
+  bench.open(write_scene(folder, scene));
+  const fs::path file = folder.write("level.json", rube_text(calibrate(scene)));
+  level.open(file);
+  for (Workbench* each : {&bench, &level}) each->run().go_to(60);
+  ASSERT_EQ(level.plan().joints.size(), bench.plan().joints.size());
+  for (std::size_t i = 0; i < level.plan().pieces.size(); ++i) {
+    // Coordinates went through a file of floats.
+    EXPECT_NEAR(level.frame().pieces[i].position.x, bench.frame().pieces[i].position.x, 1e-3);
+    EXPECT_NEAR(level.frame().pieces[i].position.y, bench.frame().pieces[i].position.y, 1e-3);
+  }
+  EXPECT_FALSE(level.editable());
+  EXPECT_THROW(level.edit(scene), InvalidInput);
+  const std::string before = read_text(file);
+  EXPECT_THROW(level.save(file), InvalidInput);
+  EXPECT_EQ(read_text(file), before);
+  level.open(folder / "a.scene.json");
+  EXPECT_TRUE(level.editable());
+}
 TEST(Workbench, EditsAreUndoneAndRedone) {
   const Folder folder;
   Workbench bench;
