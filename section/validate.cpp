@@ -615,6 +615,19 @@ std::vector<Problem> validate(std::span<const Region> regions) {
       problems.push_back({place(), "has no Young's modulus although another region has one",
                           "give it for all regions or for none"});
   }
+  if (problems.empty()) {
+    // The neutral axis lies so near the fibre that balances them that the rest cancels.
+    double least = largest, most = 0;
+    for (const Region& region : regions) {
+      for (const double stress : {region.material.yield_stress, region.material.compression()}) {
+        least = std::min(least, stress);
+        most = std::max(most, stress);
+      }
+    }
+    if (most > 1e9 * least)
+      problems.push_back({"regions", "yield at " + number(least) + " Pa and at " + number(most) + " Pa",
+                          "yield stresses must be within a factor of 1e9 of each other"});
+  }
   if (outlines_sound) {
     std::vector<Loop> loops;
     for (std::size_t r = 0; r < regions.size(); ++r) add_loops(loops, regions[r].outline, loop_like(r));

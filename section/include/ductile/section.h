@@ -46,7 +46,7 @@ std::vector<Problem> validate(const Outline& outline, const std::string& place =
 
 /// The same for a section: every region's outline and material, and regions that overlap in area; Young's
 /// modulus on all regions or on none; an area below 1e-9 of the square of the extent, too thin to compute
-/// with.
+/// with; yield stresses more than a factor of 1e9 apart.
 std::vector<Problem> validate(std::span<const Region> regions);
 
 /// The same for a material: stresses and moduli finite and not negative, yield stress above zero.
