@@ -4,14 +4,6 @@
 
 namespace ductile {
 
-double doubled_area(const Ring& ring) {
-  double sum = 0;
-  if (ring.empty()) return sum;
-  const Point origin = ring.front();
-  for (std::size_t i = 2; i < ring.size(); ++i) sum += cross(ring[i - 1] - origin, ring[i] - origin);
-  return sum;
-}
-
 AreaMoments moments(const Outline& outline) {
   // Green's theorem over the edges, about a vertex of the outline itself.
   AreaMoments m;

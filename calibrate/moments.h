@@ -16,7 +16,4 @@ struct AreaMoments {
 /// distance from the origin.
 AreaMoments moments(const Outline& outline);
 
-/// Doubled signed area of a ring, positive counter-clockwise.
-double doubled_area(const Ring& ring);
-
 }  // namespace ductile

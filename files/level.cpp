@@ -366,18 +366,6 @@ Level level_of_plan(b2World& world, Plan plan, const StructureDef& def) {
   return level;
 }
 
-/// Runs `work`; what is wrong with its input is reported as being in `file`.
-template <class Work>
-auto in_file(const std::string& file, Work work) {
-  try {
-    return work();
-  } catch (const InvalidInput& error) {
-    auto problems = error.problems();
-    for (Problem& problem : problems) problem.place = file + ":" + problem.place;
-    throw InvalidInput(std::move(problems));
-  }
-}
-
 }  // namespace
 
 Level load_text(b2World& world, std::string_view text, const std::string& name,

@@ -25,15 +25,6 @@ namespace {
 /// A directed edge; equal coordinates are equal bits, as the editor cuts a polygon into parts.
 using Edge = std::array<double, 4>;
 
-double doubled_area(const Ring& ring) {
-  double area = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
-    area += a.x * b.y - b.x * a.y;
-  }
-  return area;
-}
-
 }  // namespace
 
 std::optional<Outline> joined(const std::vector<Ring>& polygons) {

@@ -16,15 +16,6 @@ namespace {
 
 constexpr int most_pieces = 10'000;
 
-double doubled_area(const Ring& ring) {
-  double area = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
-    area += a.x * b.y - b.x * a.y;
-  }
-  return area;
-}
-
 /// A text that holds JSON: an outline or a section.
 std::optional<Json> embedded(const Item& item, const std::string& name, Problems& problems) {
   const auto value = item.custom(name, {"string"});

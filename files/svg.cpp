@@ -130,15 +130,6 @@ int winding(const Ring& ring, const Point& p) {
   return turns;
 }
 
-double doubled_area(const Ring& ring) {
-  double sum = 0;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    sum +=
-        (ring[j].x - ring[0].x) * (ring[i].y - ring[0].y) - (ring[i].x - ring[0].x) * (ring[j].y - ring[0].y);
-  }
-  return sum;
-}
-
 /// A point inside the ring, away from its edges: the middle of the widest span on a line through the widest
 /// gap between the heights of its vertices.
 Point inner_point(const Ring& ring) {

@@ -1,4 +1,4 @@
-// The only file that knows Box2D's insides: how a joint of ours lives in a slot that b2World made for a weld,
+// Living inside Box2D: how a joint of ours lives in a slot that b2World made for a weld,
 // and how a component reads and writes the island it is in. Written against Box2D 2.4.1.
 
 #include <algorithm>
@@ -6,22 +6,16 @@
 #include <new>
 #include <utility>
 
+#include "reveal.h"
 #include "structure.h"
 
 namespace ductile {
 
-namespace {
+// The index in the island at hand. b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine,
+// a cosine and a matrix inverse per joint; so it is a load per body.
+DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 
-// A body's index in the island at hand is private to b2Body and its friends.
-// b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine, a cosine and a matrix inverse
-// per joint; explicit instantiation may name private members ([temp.spec.general]/6) and fetches it at the
-// cost of a load per body.
-template <int32 b2Body::*member>
-struct Reveal {
-  friend int32 island_index(const b2Body* body) { return body->*member; }
-};
-int32 island_index(const b2Body* body);
-template struct Reveal<&b2Body::m_islandIndex>;
+namespace {
 
 // Floats that differ by no more than their own rounding say the same: nothing pushed the body.
 bool same(float a, float b) { return std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
@@ -241,7 +235,7 @@ bool Component::as_before(const b2SolverData& data) {
       if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
       continue;
     }
-    m.island_index = island_index(m.body);
+    m.island_index = of(*m.body, b2Body_m_islandIndex{});
     const b2Velocity& v = data.velocities[m.island_index];
     alone_ &= i >= solver.free_bodies() || only_ours(m);
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
@@ -271,7 +265,7 @@ void Component::first_velocity(const b2SolverData& data) {
       m.left = at;
       continue;
     }
-    m.island_index = island_index(m.body);
+    m.island_index = of(*m.body, b2Body_m_islandIndex{});
     const b2Position& at = data.positions[m.island_index];
     goal[i] = b.pose;
     if (!same(at, m.left)) {
@@ -318,11 +312,11 @@ void Component::first_velocity(const b2SolverData& data) {
 }
 
 void Component::next_velocity(const b2SolverData& data) {
-  bool touched = false;
   if (alone_) {
     ++report->skipped;
     return;
   }
+  bool touched = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const b2Velocity& now = data.velocities[mirrors[i].island_index];
     b2Velocity& given = mirrors[i].given;

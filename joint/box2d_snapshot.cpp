@@ -8,50 +8,33 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reveal.h"
 #include "structure.h"
 
 namespace ductile {
 
-namespace {
-
-// Explicit instantiation may name private members ([temp.spec.general]/6).
-template <class Tag, typename Tag::Type member>
-struct Reveal {
-  friend typename Tag::Type reveal(Tag) { return member; }
-};
-#define REVEAL(Class, member, ...)        \
-  struct Class##_##member {               \
-    using Type = __VA_ARGS__ Class::*;    \
-    friend Type reveal(Class##_##member); \
-  };                                      \
-  template struct Reveal<Class##_##member, &Class::member>
-
 using FreeLists = b2Block* [b2_blockSizeCount];
-REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
-REVEAL(b2World, m_bodyList, b2Body*);
-REVEAL(b2World, m_destructionListener, b2DestructionListener*);
-REVEAL(b2World, m_inv_dt0, float);
-REVEAL(b2World, m_profile, b2Profile);
-REVEAL(b2BlockAllocator, m_chunks, b2Chunk*);
-REVEAL(b2BlockAllocator, m_chunkCount, int32);
-REVEAL(b2BlockAllocator, m_freeLists, FreeLists);
-REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
-REVEAL(b2BroadPhase, m_proxyCount, int32);
-REVEAL(b2BroadPhase, m_moveBuffer, int32*);
-REVEAL(b2BroadPhase, m_moveCount, int32);
-REVEAL(b2DynamicTree, m_root, int32);
-REVEAL(b2DynamicTree, m_nodes, b2TreeNode*);
-REVEAL(b2DynamicTree, m_nodeCount, int32);
-REVEAL(b2DynamicTree, m_nodeCapacity, int32);
-REVEAL(b2DynamicTree, m_freeList, int32);
-REVEAL(b2DynamicTree, m_insertionCount, int32);
-REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
-#undef REVEAL
+DUCTILE_REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
+DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
+DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
+DUCTILE_REVEAL(b2World, m_inv_dt0, float);
+DUCTILE_REVEAL(b2World, m_profile, b2Profile);
+DUCTILE_REVEAL(b2BlockAllocator, m_chunks, b2Chunk*);
+DUCTILE_REVEAL(b2BlockAllocator, m_chunkCount, int32);
+DUCTILE_REVEAL(b2BlockAllocator, m_freeLists, FreeLists);
+DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
+DUCTILE_REVEAL(b2BroadPhase, m_proxyCount, int32);
+DUCTILE_REVEAL(b2BroadPhase, m_moveBuffer, int32*);
+DUCTILE_REVEAL(b2BroadPhase, m_moveCount, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_root, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_nodes, b2TreeNode*);
+DUCTILE_REVEAL(b2DynamicTree, m_nodeCount, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_nodeCapacity, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_freeList, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_insertionCount, int32);
+DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 
-template <class Tag, class Object>
-auto& of(Object& object, Tag tag) {
-  return object.*reveal(tag);
-}
+namespace {
 
 // b2_block_allocator.cpp
 constexpr std::size_t chunk_size = 16 * 1024;

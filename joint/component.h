@@ -26,11 +26,10 @@ struct Member {
   ElasticPlasticJoint* joint = nullptr;
   Structure::Impl* structure = nullptr;
   std::uint32_t id = 0;
-  Component* component = nullptr;     // where it is solved, or nullptr while it is in no island
-  std::size_t index = 0;              // in component->solver.joints
-  SolverJoint own;                    // configuration and state while it is in no component
-  Rows last_force{}, last_elastic{};  // likewise: as of the last step
-  bool fresh = true;                  // never solved: its neutral position is where it is first seen
+  Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
+  std::size_t index = 0;           // in component->solver.joints
+  SolverJoint own;                 // configuration and state while it is in no component
+  bool fresh = true;               // never solved: its neutral position is where it is first seen
   bool broken = false;
   bool yielded = false;
   double told = 0;  // capacity_used() of the last flow event

@@ -80,11 +80,7 @@ b2Vec2 ElasticPlasticJoint::axis() const {
   return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-double ElasticPlasticJoint::force(Row row) const {
-  if (member_ == nullptr) return 0;
-  return member_->component != nullptr ? member_->component->solver.force(state())[row]
-                                       : member_->last_force[row];
-}
+double ElasticPlasticJoint::force(Row row) const { return Solver::force(state())[row]; }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
   return (reverse ? state().cap_reverse : state().cap)[row];
@@ -96,12 +92,7 @@ double ElasticPlasticJoint::usage(Row row) const {
   return limit > 0 ? std::abs(f) / limit : 0;
 }
 
-double ElasticPlasticJoint::elastic(Row row) const {
-  if (member_ == nullptr) return 0;
-  return member_->component != nullptr
-             ? member_->component->solver.elastic(state(), static_cast<unsigned>(row))
-             : member_->last_elastic[row];
-}
+double ElasticPlasticJoint::elastic(Row row) const { return Solver::elastic(state(), row); }
 double ElasticPlasticJoint::plastic(Row row) const { return state().plastic[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {

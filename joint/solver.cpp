@@ -829,14 +829,15 @@ void Solver::displace(SolverBody& b, const Vec3& by) {
 }
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, b = hk·e/G.
-double Solver::elastic(const SolverJoint& j, unsigned i) const {
+double Solver::elastic(const SolverJoint& j, unsigned i) {
   return j.law.G[i] > 0 ? j.law.h * j.impulse[i] / j.law.G[i] + j.damping[i] * j.law.bias[i] / j.spring[i]
                         : 0;
 }
 
-Rows Solver::force(const SolverJoint& j) const {
-  if (!(h_ > 0)) return {};
-  return {j.impulse[0] / h_, j.impulse[1] / h_, j.impulse[2] / h_};
+Rows Solver::force(const SolverJoint& j) {
+  const double h = j.law.h;
+  if (!(h > 0)) return {};
+  return {j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h};
 }
 
 std::size_t Solver::bytes() const {

@@ -165,10 +165,10 @@ class Solver {
   static void place(SolverBody& body, const Pose& at);
   void locate();
   /// Of the last solve, N, N, N m.
-  Rows force(const SolverJoint& joint) const;
+  static Rows force(const SolverJoint& joint);
   /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies
   /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
-  double elastic(const SolverJoint& joint, unsigned row) const;
+  static double elastic(const SolverJoint& joint, unsigned row);
   double step() const { return h_; }
   std::size_t bytes() const;
 

@@ -90,10 +90,7 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   gone_.numerical += component.solver.ledger.numerical;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
-    m->last_force = m->broken ? Rows{} : component.solver.force(m->own);
-    for (const Row row : {axial, shear, rotation}) {
-      m->last_elastic[row] = component.solver.elastic(m->own, static_cast<unsigned>(row));
-    }
+    if (m->broken) m->own.impulse = {};
     m->component = nullptr;
   }
   for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
@@ -198,7 +195,7 @@ void Structure::Impl::look_for_breaks(Component& component) {
   for (Member* m : component.members) {
     SolverJoint& j = component.solver.joints[m->index];
     if (j.piece == 0 || m->broken) continue;
-    const Rows force = component.solver.force(j);
+    const Rows force = Solver::force(j);
     const unsigned row =
         j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
     const double energy = j.dissipated[0] + j.dissipated[1] + j.dissipated[2];

@@ -159,6 +159,15 @@ PrincipalAxes Section::principal_axes() const {
   return {.strong = {std::cos(angle), std::sin(angle)}, .weak = {-std::sin(angle), std::cos(angle)}};
 }
 
+double doubled_area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    const Point o = ring[0], a = ring[i - 1], b = ring[i];
+    sum += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  }
+  return sum;
+}
+
 std::pair<double, double> Section::extent(Point direction) const {
   require_direction(direction);
   const auto d = unit<double>(direction);

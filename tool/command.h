@@ -24,28 +24,11 @@ void add_limit(CLI::App& app, std::string& output);
 void add_report(CLI::App& app, std::string& output);
 void add_view(CLI::App& app, std::string& output);
 
-/// Part of the contract that is still to be built.
-struct NotYet : std::runtime_error {
-  explicit NotYet(const std::string& what) : std::runtime_error(what + " is not there yet") {}
-};
-
 /// The plan of a scene file, with another target error for its automatic splits if one is given, or of a
 /// R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can hold is
 /// an error, unless the caller keeps it elsewhere.
 Plan plan_of(const std::string& scene_file, bool kept_elsewhere = false,
              std::optional<double> target_error = std::nullopt);
-
-/// Runs `work`; what is wrong with its input is reported as being in `file`.
-template <class Work>
-auto in_file(const std::string& file, Work work) {
-  try {
-    return work();
-  } catch (const InvalidInput& error) {
-    auto problems = error.problems();
-    for (Problem& problem : problems) problem.place = file + ":" + problem.place;
-    throw InvalidInput(std::move(problems));
-  }
-}
 
 /// "ground" for −1.
 std::string piece_name(const Plan& plan, int piece);

@@ -44,15 +44,11 @@ void Workbench::open(const std::filesystem::path& file) {
   Opened opened = open_file(file);
   Plan plan;
   std::unique_ptr<Timeline> run;
-  try {
+  in_file(file.string(), [&] {
     plan = opened.level ? *opened.level : calibrate(opened.scene);
     run = std::make_unique<Timeline>(plan, solver());
     if (const double hz = usual_hz(opened.file); hz > 0) run->act(act::Set{{.dt = 1 / hz}});
-  } catch (const InvalidInput& error) {
-    auto problems = error.problems();
-    for (Problem& problem : problems) problem.place = file.string() + ":" + problem.place;
-    throw InvalidInput(std::move(problems));
-  }
+  });
   // Nothing can fail from here on.
   ++edition_;
   run_ = std::move(run);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "../world_state.h"
 #include "ductile/box2d.h"
 #include "ductile/files.h"
 #include "pasted/worlds.h"
@@ -19,17 +20,6 @@ Plan plan_of(const std::string& scene) {
   return calibrate(read_scene(DUCTILE_SOURCE_DIR "/scenes/" + scene + ".scene.json"));
 }
 
-/// Every number that a step changes, of all bodies.
-std::vector<float> state(const b2World& world) {
-  std::vector<float> list;
-  for (const b2Body* body = world.GetBodyList(); body; body = body->GetNext()) {
-    const b2Vec2 p = body->GetWorldCenter(), v = body->GetLinearVelocity();
-    for (const float value : {p.x, p.y, body->GetAngle(), v.x, v.y, body->GetAngularVelocity()})
-      list.push_back(value);
-  }
-  return list;
-}
-
 class Pasted : public testing::TestWithParam<std::pair<const char*, Structure (*)(b2World&)>> {};
 
 // 240 steps, in which the car falls on its wheels and the crane's jib bends: not one bit differs.
@@ -40,14 +30,14 @@ TEST_P(Pasted, SourceMakesTheSameWorld) {
   Structure structure = build(world, plan), pasted = make(copy);
   EXPECT_EQ(copy.GetGravity(), world.GetGravity());
   ASSERT_EQ(pasted.joints().size(), structure.joints().size());
-  const std::vector<float> start = state(world);
+  const std::vector<float> start = world_state(world);
   for (int i = 0; i < 240; ++i) {
     for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
     structure.update();
     pasted.update();
-    ASSERT_EQ(state(copy), state(world)) << "step " << i;
+    ASSERT_EQ(world_state(copy), world_state(world)) << "step " << i;
   }
-  EXPECT_NE(state(world), start);
+  EXPECT_NE(world_state(world), start);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Pasted,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "../world_state.h"
 #include "ductile/definitions.h"
 #include "ductile/files.h"
 #include "ductile/level.h"
@@ -30,16 +31,6 @@ std::string error_of(const std::string& text) {
   } catch (const InvalidInput& error) {
     return error.what();
   }
-}
-
-std::vector<float> state(const b2World& world) {
-  std::vector<float> list;
-  for (const b2Body* body = world.GetBodyList(); body; body = body->GetNext()) {
-    const b2Vec2 p = body->GetWorldCenter(), v = body->GetLinearVelocity();
-    for (const float value : {p.x, p.y, body->GetAngle(), v.x, v.y, body->GetAngularVelocity()})
-      list.push_back(value);
-  }
-  return list;
 }
 
 /// An IEEE float as the editor writes it.
@@ -206,12 +197,12 @@ TEST_P(WhatWeWrite, LoadsAsTheSameWorld) {
   Structure structure = build(world, plan);
   Level level = load_text(copy, text);
   ASSERT_EQ(level.structure.joints().size(), structure.joints().size());
-  ASSERT_EQ(state(copy), state(world));
+  ASSERT_EQ(world_state(copy), world_state(world));
   for (int i = 0; i < 120; ++i) {
     for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
     structure.update();
     level.structure.update();
-    const std::vector<float> a = state(world), b = state(copy);
+    const std::vector<float> a = world_state(world), b = world_state(copy);
     if (!plan.interaction) {
       ASSERT_EQ(b, a) << "step " << i;
     }
@@ -258,7 +249,7 @@ TEST(Rube, PiecesThatShareABodyAreOne) {
     for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
     structure.update();
     level.structure.update();
-    ASSERT_EQ(state(copy), state(world)) << "step " << i;
+    ASSERT_EQ(world_state(copy), world_state(world)) << "step " << i;
   }
 }
 

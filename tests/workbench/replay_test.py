@@ -12,21 +12,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from chromium import Page, chromium  # noqa: E402
+from breaking_bar import breaking_bar  # noqa: E402
 
 COMMAND = sys.argv.pop(1)
 
-# The root carries 4e6 N m at rest and gives way at 3.8e6; the piece that hangs on the tip breaks off at once.
-SCENE = {
-    "gravity": [0, -10],
-    "joint": {"elastic": "rigid"},
-    "materials": {"steel": {"density": 8000, "E": 200e9, "fy": 400e6}},
-    "bodies": [
-        {"name": "wall", "type": "static", "outline": [[-1, -1], [0, -1], [0, 2], [-1, 2]]},
-        {"name": "bar", "outline": [[0, 0], [10, 0], [10, 1], [0, 1]], "material": "steel", "split": {"pieces": 4}},
-        {"name": "tag <script>", "outline": [[10, 0], [10.5, 0], [10.5, 1], [10, 1]], "material": "steel"}],
-    "joints": [
-        {"between": ["wall", "bar"], "moment": 3.8e6},
-        {"between": ["bar", "tag <script>"], "moment": 1e3, "max_rotation": 0.02}]}
+SCENE = breaking_bar("tag <script>")
 PREFIX = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1, "k": 1e3, "M": 1e6, "G": 1e9}
 READY = "document.documentElement?.dataset.ready === 'yes'"
 SHOWN = "document.getElementById('time').textContent"

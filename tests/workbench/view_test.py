@@ -14,21 +14,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import xwindow  # noqa: E402
+from breaking_bar import breaking_bar  # noqa: E402
 
 COMMAND, SCENES, PART, SLOW = sys.argv[1], Path(sys.argv[2]), sys.argv[3:4], "slow" in sys.argv[4:]
 
-# The root carries 4e6 N m at rest and gives way at 3.8e6; what hangs on the tip breaks off at once.
-SCENE = {
-    "gravity": [0, -10],
-    "joint": {"elastic": "rigid"},
-    "materials": {"steel": {"density": 8000, "E": 200e9, "fy": 400e6}},
-    "bodies": [
-        {"name": "wall", "type": "static", "outline": [[-1, -1], [0, -1], [0, 2], [-1, 2]]},
-        {"name": "bar", "outline": [[0, 0], [10, 0], [10, 1], [0, 1]], "material": "steel", "split": {"pieces": 4}},
-        {"name": "tag", "outline": [[10, 0], [10.5, 0], [10.5, 1], [10, 1]], "material": "steel"}],
-    "joints": [
-        {"between": ["wall", "bar"], "moment": 3.8e6},
-        {"between": ["bar", "tag"], "moment": 1e3, "max_rotation": 0.02}]}
+SCENE = breaking_bar()
 JOINTS = ["bar/0-bar/1", "bar/1-bar/2", "bar/2-bar/3", "wall-bar/0", "bar/3-tag"]
 
 

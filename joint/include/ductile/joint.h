@@ -36,7 +36,7 @@ struct Member;
 struct SolverJoint;
 
 /// Index of a row.
-enum Row : int { axial, shear, rotation };
+enum Row : unsigned { axial, shear, rotation };
 
 /// The law of one row.
 struct RowDef {
@@ -112,8 +112,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double slip() const;                  ///< m: Σ|plastic shear|
   /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break.
   double capacity_used() const;
-  /// 0 unloaded … below 1 the largest usage() of its rows; from 1 on it has yielded, 1 + capacity_used(); 2
-  /// where it broke. What has yielded stays at 1 or above when its load goes.
+  /// 0 unloaded … 1 yields … 2 broken: stage_of() in stage.h.
   double stage() const;
   bool broken() const;  ///< carries nothing any more; gone after Structure::update()
 
@@ -161,8 +160,7 @@ struct JointDrawing {
   const ElasticPlasticJoint* selected = nullptr;  ///< has a white point on its own
 };
 
-/// Colour of a stage: pale to deep blue below yield, yellow to dark purple from it to breaking; safe for the
-/// colour-blind.
+/// stage_colour() of stage.h, as Box2D has it.
 b2Color stage_color(double stage);
 
 /// How a structure finds its joints' impulses.

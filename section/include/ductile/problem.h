@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ductile {
@@ -26,5 +27,17 @@ class InvalidInput : public std::invalid_argument {
  private:
   std::vector<Problem> problems_;
 };
+
+/// Runs `work`; what is wrong with its input is reported as being in `file`: `file:place`.
+template <class Work>
+auto in_file(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    auto problems = error.problems();
+    for (Problem& problem : problems) problem.place = file + ":" + problem.place;
+    throw InvalidInput(std::move(problems));
+  }
+}
 
 }  // namespace ductile

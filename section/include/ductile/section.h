@@ -27,6 +27,10 @@ struct Point {
 /// legal.
 using Ring = std::vector<Point>;
 
+/// m²: twice the area that a ring encloses, positive counter-clockwise. Rounding grows with the ring's size,
+/// not with its distance from the origin.
+double doubled_area(const Ring& ring);
+
 /// A simple polygon with holes.
 struct Outline {
   Ring outer;
