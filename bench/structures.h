@@ -259,4 +259,11 @@ struct Built {
   StepReport sum;                // over all steps
 };
 
+/// Before a step: ground that shakes sideways, as seen from it, at 2 Hz with 3 m/s². No step is the last
+/// again.
+inline void shake(Built& b) {
+  const double t = b.steps / 60.0;
+  b.world.SetGravity(Built::vec(3 * std::cos(4 * std::numbers::pi * t), -10));
+}
+
 }  // namespace ductile::bench

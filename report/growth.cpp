@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "case.h"
 #include "clock.h"
@@ -15,12 +14,6 @@ namespace {
 
 using bench::Built;
 using bench::Layout;
-
-/// Ground that shakes sideways, at 2 Hz with 3 m/s²: no step is the last one again.
-void shake(Built& b) {
-  const double t = b.steps / 60.0;
-  b.world.SetGravity(Built::vec(3 * std::cos(4 * std::numbers::pi * t), -10));
-}
 
 struct Family {
   const char* name;
@@ -79,7 +72,7 @@ Result run_growth(const Context& context) {
                                     : 10,
                 settle = size > 10000 ? 10 : 60, pairs = size > 1000 ? 9 : 21;
       for (int i = 0; i < settle; ++i) {
-        shake(*built);
+        bench::shake(*built);
         built->step();
         still.step();
       }
@@ -88,7 +81,7 @@ Result run_growth(const Context& context) {
       for (int p = 0; p < pairs; ++p) {
         double a = 0;
         for (int i = 0; i < few; ++i) {
-          shake(*built);
+          bench::shake(*built);
           a += seconds([&] { built->step(); });
         }
         const double s = seconds([&] {
