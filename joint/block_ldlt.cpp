@@ -8,12 +8,16 @@ namespace ductile {
 
 namespace {
 
-// target −= l tᵀ
-inline void subtract_product(double* target, const double* l, const double* t) {
+inline Block transposed(const Block& block) {
+  const double* a = block.a;
+  return {{a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}};
+}
+
+// target −= l t. Row by row, and with t nowhere else: so the compiler takes entries in pairs.
+inline void subtract_product(double* __restrict target, const double* l, const double* __restrict t) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      target[3 * i + j] -= l[3 * i] * t[3 * j] + l[3 * i + 1] * t[3 * j + 1] + l[3 * i + 2] * t[3 * j + 2];
-    }
+    const double x = l[3 * i], y = l[3 * i + 1], w = l[3 * i + 2];
+    for (int j = 0; j < 3; ++j) target[3 * i + j] -= x * t[j] + y * t[3 + j] + w * t[6 + j];
   }
 }
 
@@ -92,7 +96,7 @@ void BlockLdlt::factor() {
     const int count = column_[j + 1] - column_[j];
     for (int p = 0; p < count; ++p) {
       double* l = column[p].a;
-      unscaled_[z(p)] = column[p];
+      unscaled_[z(p)] = transposed(column[p]);
       for (int i = 0; i < 3; ++i) solve_block(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
       for (int q = 0; q <= p; ++q) {
         const int place = *target++;

@@ -77,7 +77,7 @@ class BlockLdlt {
   // For each column and each pair p ≥ q of its blocks, where L_p D L_qᵀ is subtracted: a slot of lower_, or
   // −1 − row for a diagonal block.
   std::vector<int> targets_;
-  std::vector<Block> unscaled_;  // the column at hand before it is divided by D
+  std::vector<Block> unscaled_;  // the column at hand before it is divided by D, each block transposed
 };
 
 }  // namespace ductile
