@@ -223,7 +223,7 @@ void Structure::Impl::say(const Member& member, const JointEvent& event) {
 // Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
 void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row) {
   const auto let_go = [&](Member& m) {
-    m.broken = true;
+    m.broken = broke_ = true;
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
     SolverJoint& j = m.data();
     for (unsigned i = 0; i < 3; ++i) {
@@ -272,6 +272,7 @@ void Structure::Impl::update() {
     if (world == nullptr) return;
   }
   pending_.clear();
+  if (!std::exchange(broke_, false)) return;
   for (std::size_t i = members.size(); i-- > 0;) {
     if (i < members.size() && members[i]->broken) world->DestroyJoint(members[i]->joint);
   }
@@ -325,6 +326,7 @@ void Structure::Impl::restore(const State& s) {
   gone_ = s.gone;
   known_ = s.known;
   pending_.assign(s.pending.begin(), s.pending.end());
+  broke_ = true;  // update() looks for itself
   enlisted_.clear();
   active_.clear();
   enlisting_ = false;

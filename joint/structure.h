@@ -60,6 +60,7 @@ struct Structure::Impl {
   bool enlisting_ = false;
   bool incomplete_ = false;  // some enlisted joint is in no component
   bool stepped_ = true;      // since the last update()
+  bool broke_ = false;       // some joint, since then
 
   JointEnergy gone_;  // of components and joints that are no more
   KnownPoses known_;  // of bodies whose component was dissolved
