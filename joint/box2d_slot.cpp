@@ -177,6 +177,8 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     const b2Vec2 b = m.joint->GetLocalAnchorB() - m.joint->GetBodyB()->GetLocalCenter();
     j.ax = a.x, j.ay = a.y, j.bx = b.x, j.by = b.y;
   }
+  // Iterations that end before they converge would give energy to faster oscillations than ωh = 1.
+  if (kind == SolverKind::iterative) solver.elastic_ratio = 1;
   solver.form(free_bodies);
   solver.locate();
   for (std::size_t i = 0; i < members.size(); ++i) {

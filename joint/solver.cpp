@@ -139,7 +139,7 @@ void Solver::set_law(SolverJoint& j) const {
       continue;
     }
     double k = j.stiffness[i], c = 0;
-    if (h_ * h_ * k < limit) {
+    if (h_ * h_ * k < elastic_ratio * j.m_eff[i]) {
       c = std::min(2 * j.damping_ratio[i] * std::sqrt(k * j.m_eff[i]), (limit - h_ * h_ * k) / h_);
     } else {
       k = limit / (h_ * h_);
@@ -165,6 +165,7 @@ void Solver::begin(double h) {
   const bool changed = h != h_ || !laws_set_;
   if (changed) factored_ = false;
   laws_set_ = true;
+  const double longer = h_ > 0 ? h / h_ : 0;
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
   // once it would be a blow.
@@ -180,6 +181,7 @@ void Solver::begin(double h) {
       const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
+        j.impulse[i] *= std::min(1.0, longer);  // of the same force, or less: it is as rough as the short step's
         if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
         if (j.spring[i] < spring[i] && !(was_rigid[i] && is_rigid(j, i))) continue;
         j.neutral[i] += strain[i] * (1 - spring[i] / j.spring[i]);

@@ -107,6 +107,8 @@ class Solver {
   static constexpr double rigid_ratio = 1e9;
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   static constexpr double tolerance = 1e-8;
+  /// Rows that are stiffer than so many m_eff/h² are taken as rigid.
+  double elastic_ratio = rigid_ratio;
   int round_bound = 100;
   static constexpr int newton_rounds = 5;
 

@@ -158,6 +158,6 @@ void Solver::sweep_positions(std::span<const Pose> at) {
   locate();
 }
 
-bool Solver::is_rigid(const SolverJoint& j, unsigned i) const { return j.spring[i] < j.stiffness[i]; }
+bool Solver::is_rigid(const SolverJoint& j, unsigned i) const { return j.spring[i] != j.stiffness[i]; }
 
 }  // namespace ductile
