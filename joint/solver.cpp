@@ -534,7 +534,7 @@ void Solver::coast() {
 }
 
 void Solver::advance() {
-  if (keeps_ledger && !coasting_) open_ledger();
+  if (keeps_ledger) open_ledger();
   for (SolverBody& b : bodies) displace(b, h_ * b.v);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
@@ -545,7 +545,7 @@ void Solver::advance() {
     }
     const Rows booked = j.dissipated;
     if (!coasting_ && j.piece != 0) flow(j);
-    if (keeps_ledger) account(j, gaps_[k], booked);
+    if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
   }
   coasting_ = false;
 }
@@ -605,7 +605,7 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
     }
     const double k = j.spring[i], R = j.impulse[i] / h_;
     const double v = j.x[i] - j.law.bias[i];
-    const double after = coasting_ ? strain[i] : flows(j.piece, i) ? elastic(j, i) : strain[i] + h_ * v;
+    const double after = flows(j.piece, i) ? elastic(j, i) : strain[i] + h_ * v;
     const double change = after - strain[i];
     j.stored[i] = k * after * after / 2;
     ledger.damping += j.damping[i] * change * change / h_;
