@@ -252,6 +252,7 @@ void Component::first_velocity(const b2SolverData& data) {
   if (resting) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i)
       data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    open = solver.keeps_ledger;  // something may strike it before the step is over
     ++report->resting;
     return;
   }

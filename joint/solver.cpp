@@ -181,7 +181,8 @@ void Solver::begin(double h) {
       const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
-        j.impulse[i] *= std::min(1.0, longer);  // of the same force, or less: it is as rough as the short step's
+        // The same force, but none larger than the step: what was rough in a short one would be a blow.
+        j.impulse[i] *= std::min(1.0, longer);
         if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
         if (j.spring[i] < spring[i] && !(was_rigid[i] && is_rigid(j, i))) continue;
         j.neutral[i] += strain[i] * (1 - spring[i] / j.spring[i]);
@@ -575,9 +576,16 @@ void Solver::flow(SolverJoint& j) const {
   }
 }
 
+// The part of a body's velocity that joints do not change.
+Vec3 Solver::told_velocity(std::size_t i) const {
+  const SolverBody& b = bodies[i];
+  if (i >= free_) return b.v;
+  return {0, 0, b.inverse_inertia == 0 ? b.v.w : 0};
+}
+
 // The part of a row's numerical loss that needs the step's own J: with R = s/h the row takes s·J v̄ from the
-// bodies, v̄ the mean of the velocities before and after; implicit Euler counts with those after. Strains
-// before go to gaps_.
+// bodies, v̄ the mean of the velocities before and after, which may have been slowed down; implicit Euler
+// counts with those after, as solved. Strains before go to gaps_.
 void Solver::open_ledger() {
   opened_ = joints;
   for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = bodies[i].turn;
@@ -586,8 +594,10 @@ void Solver::open_ledger() {
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
       gaps_[k][i] = j.relaxation[i] > 0 ? j.law.bias[i] / j.relaxation[i] : 0;
-      ledger.numerical -= j.impulse[i] * (j.x[i] - j.law.bias[i] - v0[i]) / 2;
+      ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.law.bias[i]) - v0[i]) / 2;
     }
+    const Rows told = relative_velocity(j, told_velocity(z(j.a)), told_velocity(z(j.b)));
+    for (unsigned i = 0; i < 3; ++i) ledger.driven += j.impulse[i] * told[i];
   }
 }
 

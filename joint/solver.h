@@ -97,6 +97,7 @@ struct SolveReport {
 struct Ledger {
   double damping = 0;    // c ė² h of the rows
   double numerical = 0;  // what implicit Euler, the motion of J within a step, and pushes by contacts take
+  double driven = 0;     // what bodies give whose motion is not the solver's to find
 };
 
 class Solver {
@@ -195,6 +196,7 @@ class Solver {
   double objective() const;
   void coast();
   void flow(SolverJoint& joint) const;
+  Vec3 told_velocity(std::size_t body) const;
   void open_ledger();
   void account(SolverJoint& joint, const Rows& strain_before, const Rows& booked);
   static void displace(SolverBody& body, const Vec3& by);

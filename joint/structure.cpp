@@ -88,6 +88,7 @@ void Structure::Impl::forget(Member& member) {
 void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   gone_.damping += component.solver.ledger.damping;
   gone_.numerical += component.solver.ledger.numerical;
+  gone_.driven += component.solver.ledger.driven;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
     if (m->broken) m->own.impulse = {};
@@ -251,6 +252,7 @@ JointEnergy Structure::Impl::energy() const {
   for (const auto& c : components) {
     sum.damping += c->solver.ledger.damping;
     sum.numerical += c->solver.ledger.numerical;
+    sum.driven += c->solver.ledger.driven;
   }
   return sum;
 }

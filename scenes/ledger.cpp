@@ -8,6 +8,21 @@
 namespace ductile {
 namespace {
 
+// The pose from which a body was last moved, in a step or in what is left of it after an impact, is that in
+// which its contacts were solved. It is private to b2Body; explicit instantiation may name private members
+// ([temp.spec.general]/6).
+template <b2Sweep b2Body::*member>
+struct Reveal {
+  friend const b2Sweep& sweep(const b2Body& body) { return body.*member; }
+};
+const b2Sweep& sweep(const b2Body& body);
+template struct Reveal<&b2Body::m_sweep>;
+
+b2Transform start_of(const b2Sweep& sweep) {
+  const b2Rot turn(sweep.a0);
+  return {sweep.c0 - b2Mul(turn, sweep.localCenter), turn};
+}
+
 double operator*(const Wrench& w, const Speed& v) { return w.x * v.x + w.y * v.y + w.moment * v.turn; }
 Wrench operator*(double s, const Wrench& w) { return {s * w.x, s * w.y, s * w.moment}; }
 Wrench& operator+=(Wrench& a, const Wrench& b) {
@@ -85,7 +100,6 @@ double EnergyLedger::stored_in_springs() const {
 void EnergyLedger::before_step(double dt, const std::vector<AppliedLoad>& loads) {
   dt_ = dt;
   motions_.clear();
-  manifolds_.clear();
   holds_.clear();
   each(world_.GetBodyList(), [&](b2Body& body) {
     origins_.emplace(&body, body.GetWorldCenter());
@@ -126,6 +140,7 @@ void EnergyLedger::sum_up(const Structure* structure) {
     now_.damping += joints.damping;
     now_.numerical += joints.numerical;
     now_.clamped += joints.clamped;
+    now_.external += joints.driven;
   }
   const double stored = now_.kinetic + now_.potential + now_.elastic;
   const double taken = now_.dissipated + now_.damping + now_.numerical + now_.clamped;
@@ -156,7 +171,7 @@ void EnergyLedger::account(b2Body& body, const Motion& motion) {
     sums_.contacts += taken;
     sums_.external -= taken;
   }
-  if (!is_dynamic(body)) return;
+  if (!is_dynamic(body) || !body.IsEnabled()) return;
   Speed after = speed_of(body);
   const Speed moving = after;  // what the pose was integrated with
   sums_.clamped += clamped(body, motion, after);
@@ -233,16 +248,16 @@ std::optional<EnergyLedger::Spring> EnergyLedger::spring_of(b2Joint& joint) cons
 
 void EnergyLedger::account(b2Joint& joint) {
   const auto found = holds_.find(&joint);
-  if (found == holds_.end()) return;
+  if (found == holds_.end() || ElasticPlasticJoint::cast(&joint)) return;
   const Hold& hold = found->second;
-  const bool ductile = ElasticPlasticJoint::cast(&joint) != nullptr, judged = judged_.contains(&joint);
+  const bool judged = judged_.contains(&joint);
   const auto work_on = [&](const b2Body& body, const Wrench& force) {
     if (body.GetType() == b2_staticBody) return 0.;
     const Motion& motion = motions_[&body];
     const double work = dt_ * (force * mean(motion.before, speed_of(body)));
-    // A joint that is accounted for row by row takes what it takes; what a kinematic body gives it is
+    // A joint that is accounted for on its own takes what it takes; what a kinematic body gives it is
     // outside's.
-    if (ductile || judged) return is_dynamic(body) ? 0. : -work;
+    if (judged) return is_dynamic(body) ? 0. : -work;
     return is_dynamic(body) ? work : 0.;
   };
   const auto [on_a, on_b] = reaction(joint, hold);
@@ -256,33 +271,26 @@ void EnergyLedger::account(b2Joint& joint) {
   sums_.numerical += k * change * change / 2 + R * dt_ * (before - speed) / 2;
 }
 
-void EnergyLedger::PreSolve(b2Contact* contact, const b2Manifold*) {
-  b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
-  Manifold& manifold = manifolds_[contact];
-  contact->GetWorldManifold(&manifold.world);
-  manifold.center_a = a.GetWorldCenter();
-  manifold.center_b = b.GetWorldCenter();
-  for (const b2Body* body : {&a, &b}) {
-    const auto motion = motions_.find(body);
-    if (motion != motions_.end() && body->GetWorldCenter() != motion->second.place) {
-      motion->second.sub_stepped = true;
-    }
-  }
-}
-
 void EnergyLedger::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-  const auto found = manifolds_.find(contact);
-  if (found == manifolds_.end()) return;
-  const Manifold& manifold = found->second;
-  const b2Vec2 normal = manifold.world.normal, tangent = b2Cross(normal, 1.0f);
-  touch(*contact->GetFixtureA()->GetBody());
-  touch(*contact->GetFixtureB()->GetBody());
+  b2Fixture &a = *contact->GetFixtureA(), &b = *contact->GetFixtureB();
+  const b2Sweep &from_a = sweep(*a.GetBody()), &from_b = sweep(*b.GetBody());
+  b2WorldManifold manifold;
+  manifold.Initialize(contact->GetManifold(), start_of(from_a), a.GetShape()->m_radius, start_of(from_b),
+                      b.GetShape()->m_radius);
+  const b2Vec2 normal = manifold.normal, tangent = b2Cross(normal, 1.0f);
+  Motion &motion_a = motions_[a.GetBody()], &motion_b = motions_[b.GetBody()];
+  touch(*a.GetBody());
+  touch(*b.GetBody());
+  // One of the two has come to the impact, and both go on from there.
+  const bool sub_stepped = from_a.c0 != motion_a.place || from_b.c0 != motion_b.place;
+  motion_a.sub_stepped |= sub_stepped;
+  motion_b.sub_stepped |= sub_stepped;
   for (int i = 0; i < impulse->count; ++i) {
-    const b2Vec2 point = manifold.world.points[i];
+    const b2Vec2 point = manifold.points[i];
     const double n = impulse->normalImpulses[i], t = impulse->tangentImpulses[i];
     const double x = n * normal.x + t * tangent.x, y = n * normal.y + t * tangent.y;
-    motions_[contact->GetFixtureA()->GetBody()].contacts += acting(point - manifold.center_a, -x, -y);
-    motions_[contact->GetFixtureB()->GetBody()].contacts += acting(point - manifold.center_b, x, y);
+    motion_a.contacts += acting(point - from_a.c0, -x, -y);
+    motion_b.contacts += acting(point - from_b.c0, x, y);
   }
 }
 

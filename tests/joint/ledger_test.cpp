@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "beam.h"
+#include "bodies.h"
 
 namespace ductile {
 namespace {
@@ -34,7 +35,7 @@ struct Balance {
   double error() const {
     const JointEnergy e = beam.structure.energy();
     return mechanical() + e.elastic + e.dissipated + e.damping + e.numerical + e.clamped + gravity_loss -
-           start;
+           e.driven - start;
   }
   Beam& beam;
   double start, gravity_loss = 0, turnover = 0;
@@ -80,7 +81,39 @@ TEST(Ledger, SpinWithAPlasticSet) {
     p->SetAngularVelocity(5);
     p->SetLinearVelocity(b2Cross(5.0f, p->GetWorldCenter() - b2Vec2(5, 0)));
   }
+  // The middle is pulled with ρhω²L²/8 = 2.4e6 N at first.
+  for (ElasticPlasticJoint* j : beam.structure.joints()) j->set_caps(axial, 2e6, 2e6);
   expect_balanced(beam, 5, 1.0 / 60, "spin");
+  EXPECT_GT(beam.structure.joints()[4]->elongation(), 0.01);
+}
+
+// What a moving wall does to the beam, while it holds, and in the step in which it breaks.
+TEST(Ledger, AWallThatMovesDrivesTheBeam) {
+  for (const double capacity : {unlimited, 1e7}) {
+    Beam beam({.pieces = 5, .length = 10, .youngs_modulus = 210e9, .moment_cap = capacity});
+    beam.joints[0]->set_limits(0.1, unlimited, unlimited, unlimited);
+    beam.wall->SetType(b2_kinematicBody);
+    Balance balance(beam);
+    for (int i = 0; i < 240; ++i) {
+      beam.wall->SetLinearVelocity({0, static_cast<float>(3 * std::sin(0.1 * i))});
+      beam.wall->SetAngularVelocity(static_cast<float>(2 * std::cos(0.07 * i)));
+      balance.step(1.0 / 60);
+      ASSERT_LE(std::abs(balance.error()), 1e-4 * balance.turnover) << i;
+    }
+    EXPECT_GT(std::abs(beam.structure.energy().driven), 1e5);
+    EXPECT_EQ(beam.structure.joints().size(), capacity < unlimited ? 4u : 5u);
+  }
+}
+
+// A tip of a million times a piece's weight whirls the beam around faster than Box2D lets it.
+TEST(Ledger, SlowedByTheSpeedLimit) {
+  Beam beam({.pieces = 6, .length = 6, .height = 0.5, .density = 1000, .youngs_modulus = 210e9});
+  beam.pieces.push_back(add_box(beam.world, {.x = 6.5, .height = 0.5, .mass = 5e8}));
+  ElasticPlasticJointDef weld;
+  weld.Initialize(beam.pieces[5], beam.pieces[6], {6, 0}, {1, 0});
+  beam.structure.create_joint(weld);
+  expect_balanced(beam, 5, 1.0 / 60, "slowed");
+  EXPECT_GT(beam.structure.energy().clamped, 1e9);
 }
 
 TEST(Ledger, StepsOfChangingLength) {

@@ -186,13 +186,15 @@ struct StructureDef {
 };
 
 /// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
-/// the bodies since the start is elastic + dissipated + damping + numerical.
+/// the bodies since the start is elastic + dissipated + damping + numerical, of which `driven` came from
+/// bodies that move as they are told.
 struct JointEnergy {
   double elastic = 0;  ///< stored now: ½ Σ k e²
   double dissipated =
       0;  ///< plastic work since the start, of joints that are gone too; what broke sets free counts in
   double damping = 0;    ///< of the rows' dampers, since the start
   double numerical = 0;  ///< what implicit integration took since the start (negative: gave)
+  double driven = 0;     ///< work of kinematic bodies, and of turning ones with fixed rotation, on the joints
   double clamped = 0;    ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 

@@ -45,7 +45,8 @@ struct Speed {
 /// the step, exactly, however many impulses act. So every source is booked with P·v̄ (contacts by the impulses
 /// that Box2D reports, the structure's joints row by row in itself); and where the true work is another one,
 /// because a body moves with its velocity after the step, the difference is numerical. What stock joints do
-/// besides their springs and motors, above all by correcting positions, is not booked: it is their error.
+/// besides their springs and motors, above all by correcting positions, is not booked: it is their error; and
+/// pulleys, gears and mouse joints exert more than they tell.
 class EnergyLedger final : public b2ContactListener {
  public:
   /// Becomes the world's contact listener. What is in the world now is there from the start.
@@ -73,11 +74,6 @@ class EnergyLedger final : public b2ContactListener {
     bool touched = false;      // by a contact, itself or through the structure
     bool sub_stepped = false;  // continuous collision cut its step
   };
-  /// A contact's points as its solver sees them.
-  struct Manifold {
-    b2WorldManifold world;
-    b2Vec2 center_a, center_b;
-  };
   /// The spring of a soft weld.
   struct Spring {
     double stiffness, damping;  // N m/rad, N m s/rad
@@ -89,7 +85,6 @@ class EnergyLedger final : public b2ContactListener {
     std::optional<Spring> spring;
   };
 
-  void PreSolve(b2Contact* contact, const b2Manifold* old) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
   std::optional<Spring> spring_of(b2Joint& joint) const;
@@ -106,7 +101,6 @@ class EnergyLedger final : public b2ContactListener {
   b2World& world_;
   std::unordered_map<const b2Body*, b2Vec2> origins_;  // where a body's potential energy is 0
   std::unordered_map<const b2Body*, Motion> motions_;
-  std::unordered_map<const b2Contact*, Manifold> manifolds_;
   std::unordered_set<const b2Joint*> judged_;
   std::unordered_map<const b2Joint*, Hold> holds_;
   double dt_ = 0, turnover_ = 0;
