@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <queue>
 
 #include "axis.h"
@@ -45,12 +47,11 @@ Place on(const std::vector<Place>& line, double s) {
   return between(*(after - 1), *after, s);
 }
 
-Point middle(const Chord& c) { return middle(c.left, c.right); }
-double width(const Chord& c) { return length(c.left - c.right); }
-
 // A member's line from end to end.
 std::vector<Place> line_of(const Member& m) {
-  std::vector<Place> line{{0, m.start, width(m.stations.front().chord)}};
+  std::vector<Place> line;
+  line.reserve(m.stations.size() + 2);
+  line.push_back({0, m.start, width(m.stations.front().chord)});
   for (const Member::Station& station : m.stations)
     line.push_back({station.s, middle(station.chord), width(station.chord)});
   line.push_back({m.length, m.end, width(m.stations.back().chord)});
@@ -66,147 +67,133 @@ struct PlacedCut {
 
 // --- the error of a chain of rigid pieces ---
 
-// Rotations at places along a line, which the chain has at its joints and the beam everywhere.
+// A place at which a line bends: rotation = length · curvature.
 struct Hinge {
   Place place;
-  double length;  // ℓ: rotation = length · curvature
+  double length;  // ℓ
 };
 
-// The line in equal parts, from a to b; backwards where b < a.
-std::vector<Hinge> parts_of(const std::vector<Place>& line, double a, double b, int n) {
-  std::vector<Hinge> result;
-  const double ds = std::abs(b - a) / n;
-  result.reserve(static_cast<std::size_t>(n));
-  std::size_t after = 1;  // of the line's places
-  for (int i = 0; i < n; ++i) {
-    const double s = std::min(a, b) + (i + 0.5) * ds;
-    while (after + 1 < line.size() && line[after].s < s) ++after;
-    Place p = between(line[after - 1], line[after], s);
-    p.s = std::abs(s - a);
-    result.push_back({p, ds});
-  }
-  if (b < a) std::reverse(result.begin(), result.end());
-  return result;
-}
+// A stretch of the line, s from 0 where it is held on, as a beam: hinges so close that they are one. What it
+// weighs beyond its parts, and where: weight and first moment.
+struct Beam {
+  std::vector<Hinge> parts;
+  std::vector<double> weight;
+  std::vector<Point> first;
 
-struct Span {
-  std::vector<Hinge> beam, chain;  // s from 0 at the span's start
-};
-
-// u at the beam's parts, of the rotations θ of hinges: u(s) = Σ_{s_i < s} θ_i · left(r(s) − r_i).
-std::vector<Point> displacements(const std::vector<Hinge>& at, const std::vector<Hinge>& hinges,
-                                 const std::vector<double>& rotations) {
-  std::vector<Point> result;
-  result.reserve(at.size());
-  double turn = 0;
-  Point moment{};
-  std::size_t k = 0;
-  for (const Hinge& h : at) {
-    for (; k < hinges.size() && hinges[k].place.s <= h.place.s; ++k) {
-      turn += rotations[k];
-      moment = moment + rotations[k] * hinges[k].place.at;
+  // In n equal parts from a to b, backwards where b < a; `straight`: as if it ran along x.
+  Beam(const std::vector<Place>& line, double a, double b, std::size_t n, bool straight)
+      : weight(n + 1), first(n + 1) {
+    const double ds = std::abs(b - a) / static_cast<double>(n);
+    parts.reserve(n);
+    std::size_t after = 1;  // of the line's places
+    for (std::size_t i = 0; i < n; ++i) {
+      const double s = std::min(a, b) + (static_cast<double>(i) + 0.5) * ds;
+      while (after + 1 < line.size() && line[after].s < s) ++after;
+      Place p = between(line[after - 1], line[after], s);
+      p.s = std::abs(s - a);
+      if (straight) p.at = {p.s, 0};
+      parts.push_back({p, ds});
     }
-    result.push_back(left(turn * h.place.at - moment));
+    if (b < a) std::reverse(parts.begin(), parts.end());
+    for (std::size_t i = n; i-- > 0;) {
+      const double w = parts[i].place.width * ds;
+      weight[i] = weight[i + 1] + w;
+      first[i] = first[i + 1] + w * parts[i].place.at;
+    }
+  }
+
+  double extent() const { return static_cast<double>(parts.size()) * parts.front().length; }
+
+  // The moments about a place of what weighs beyond it along x and along y.
+  Point moments(const Place& p) const {
+    const double x = std::clamp(p.s / parts.front().length, 0.0, static_cast<double>(parts.size()));
+    const std::size_t i = std::min(static_cast<std::size_t>(x), parts.size() - 1);
+    const double share = x - static_cast<double>(i);
+    const double w = weight[i] + share * (weight[i + 1] - weight[i]);
+    return left(first[i] + share * (first[i + 1] - first[i]) - w * p.at);
+  }
+};
+
+double compliance(const Hinge& h) {
+  const double w = h.place.width;
+  return w > 0 ? h.length / (w * w * w) : 0;  // EI ~ w³
+}
+
+// Of a beam's parts, but for a quarter turn, under weight along x and along y.
+struct Displacement {
+  Point x, y;
+};
+
+// Clamped at the start, free at its end, bending at `hinges`: u(s) = Σ_{s_i < s} θ_i · (r(s) − r_i).
+std::vector<Displacement> cantilever(const Beam& beam, const std::vector<Hinge>& hinges) {
+  std::vector<Displacement> result(beam.parts.size());
+  Point turn{};  // Σ θ, under weight along x and along y
+  Displacement moment{};
+  auto hinge = hinges.begin();
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Place& part = beam.parts[i].place;
+    for (; hinge != hinges.end() && hinge->place.s <= part.s; ++hinge) {
+      const Point rotation = compliance(*hinge) * beam.moments(hinge->place);
+      turn = turn + rotation;
+      moment = {moment.x + rotation.x * hinge->place.at, moment.y + rotation.y * hinge->place.at};
+    }
+    result[i] = {turn.x * part.at - moment.x, turn.y * part.at - moment.y};
   }
   return result;
 }
 
-double rotation(const Hinge& h, double moment) {
-  const double w = h.place.width;
-  return w > 0 ? moment * h.length / (w * w * w) : 0;  // EI ~ w³
+// Held at both ends of a straight beam, clamped or not, under weight across it.
+std::vector<Displacement> held_at_both_ends(const Beam& beam, const std::vector<Hinge>& hinges,
+                                            bool clamped) {
+  // M = M_cantilever + X1 + X2 (extent − s), with ∫ κ ds = 0 and ∫ κ s ds = 0, or with no moment at the ends.
+  const double extent = beam.extent();
+  double a = 0, b = 0, c = 0, p = 0, q = 0;
+  std::vector<double> moments, rotations;
+  for (const Hinge& h : hinges) {
+    const double k = compliance(h), x = extent - h.place.s, m = beam.moments(h.place).y;
+    moments.push_back(m);
+    a += k, b += k * x, c += k * x * x;
+    p -= k * m, q -= k * x * m;
+  }
+  double x1 = 0, x2 = -beam.moments({}).y / extent;
+  if (const double det = a * c - b * b; clamped && det > 0) {
+    x1 = (p * c - q * b) / det;
+    x2 = (a * q - b * p) / det;
+  }
+  double end = 0;  // of a beam that is clamped at its start only
+  for (std::size_t i = 0; i < hinges.size(); ++i) {
+    const double x = extent - hinges[i].place.s;
+    rotations.push_back(compliance(hinges[i]) * (moments[i] + x1 + x2 * x));
+    end += rotations[i] * x;
+  }
+  const double turned = clamped ? 0 : end / extent;  // so that the far end stays
+  std::vector<Displacement> result(beam.parts.size());
+  double turn = 0, moment = 0;
+  for (std::size_t i = 0, hinge = 0; i < result.size(); ++i) {
+    const double s = beam.parts[i].place.s;
+    for (; hinge < hinges.size() && hinges[hinge].place.s <= s; ++hinge) {
+      turn += rotations[hinge];
+      moment += rotations[hinge] * hinges[hinge].place.s;
+    }
+    result[i].y.x = (turn - turned) * s - moment;
+  }
+  return result;
 }
 
 struct Deviation {
   double most = 0, error = 0;  // displacement, and how far the chain's is from it
 };
 
-Deviation compare(const std::vector<Point>& beam, const std::vector<Point>& chain) {
-  Deviation d;
+// Under weight along x or y, whichever is worse, unless that hardly bends it.
+Deviation compare(const std::vector<Displacement>& beam, const std::vector<Displacement>& chain) {
+  Deviation x, y;
   for (std::size_t i = 0; i < beam.size(); ++i) {
-    d.most = std::max(d.most, dot(beam[i], beam[i]));
-    d.error = std::max(d.error, dot(beam[i] - chain[i], beam[i] - chain[i]));
+    const Point dx = beam[i].x - chain[i].x, dy = beam[i].y - chain[i].y;
+    x = {std::max(x.most, dot(beam[i].x, beam[i].x)), std::max(x.error, dot(dx, dx))};
+    y = {std::max(y.most, dot(beam[i].y, beam[i].y)), std::max(y.error, dot(dy, dy))};
   }
-  return {std::sqrt(d.most), std::sqrt(d.error)};
-}
-
-// What is beyond s weighs and where: weight and first moment, per part of the beam.
-struct Beyond {
-  std::vector<double> weight;
-  std::vector<Point> first;
-  explicit Beyond(const std::vector<Hinge>& beam) : weight(beam.size() + 1), first(beam.size() + 1) {
-    for (std::size_t i = beam.size(); i-- > 0;) {
-      const double w = beam[i].place.width * beam[i].length;
-      weight[i] = weight[i + 1] + w;
-      first[i] = first[i + 1] + w * beam[i].place.at;
-    }
-  }
-  // The moment about a place of what weighs beyond it along d.
-  double moment(const Place& p, Point d, double ds) const {
-    const double x = std::clamp(p.s / ds, 0.0, static_cast<double>(weight.size() - 1));
-    const std::size_t i = std::min(static_cast<std::size_t>(x), weight.size() - 2);
-    const double share = x - static_cast<double>(i);
-    const double w = weight[i] + share * (weight[i + 1] - weight[i]);
-    const Point f = first[i] + share * (first[i + 1] - first[i]);
-    return cross(f - w * p.at, d);
-  }
-};
-
-// Clamped at the span's start, free at its end; weight along x or y, whichever is worse, unless that hardly
-// bends it.
-Deviation cantilever(const Span& span) {
-  Deviation worst;
-  const Beyond beyond(span.beam);
-  for (const Point d : {Point{1, 0}, Point{0, 1}}) {
-    const auto rotations = [&](const std::vector<Hinge>& hinges) {
-      std::vector<double> result;
-      for (const Hinge& h : hinges)
-        result.push_back(rotation(h, beyond.moment(h.place, d, span.beam.front().length)));
-      return result;
-    };
-    const Deviation own = compare(displacements(span.beam, span.beam, rotations(span.beam)),
-                                  displacements(span.beam, span.chain, rotations(span.chain)));
-    if (own.most > 5 * worst.most ||
-        (own.most > worst.most / 5 && own.error * worst.most > worst.error * own.most))
-      worst = own;
-  }
-  return worst;
-}
-
-// Held at both ends, as a straight beam under its own weight across it.
-Deviation held_at_both_ends(Span span, bool clamped) {
-  for (auto* hinges : {&span.beam, &span.chain})
-    for (Hinge& h : *hinges) h.place.at = {h.place.s, 0};
-  const Beyond beyond(span.beam);
-  const double extent = static_cast<double>(span.beam.size()) * span.beam.front().length;
-  const auto shape = [&](const std::vector<Hinge>& hinges) {
-    // M = M_cantilever + X1 + X2 (extent − s), with ∫ κ ds = 0 and ∫ κ s ds = 0, or with no moment at the
-    // ends.
-    double a = 0, b = 0, c = 0, p = 0, q = 0;
-    std::vector<double> moments, compliances;
-    for (const Hinge& h : hinges) {
-      const double k = rotation(h, 1), x = extent - h.place.s;
-      moments.push_back(beyond.moment(h.place, {0, 1}, span.beam.front().length));
-      compliances.push_back(k);
-      a += k, b += k * x, c += k * x * x;
-      p -= k * moments.back(), q -= k * x * moments.back();
-    }
-    double x1 = 0, x2 = -beyond.moment({}, {0, 1}, span.beam.front().length) / extent;
-    if (const double det = a * c - b * b; clamped && det > 0) {
-      x1 = (p * c - q * b) / det;
-      x2 = (a * q - b * p) / det;
-    }
-    std::vector<double> rotations;
-    for (std::size_t i = 0; i < hinges.size(); ++i)
-      rotations.push_back(compliances[i] * (moments[i] + x1 + x2 * (extent - hinges[i].place.s)));
-    std::vector<Point> u = displacements(span.beam, hinges, rotations);
-    if (!clamped) {  // turn it so that the far end stays
-      double end = 0;
-      for (std::size_t i = 0; i < hinges.size(); ++i) end += rotations[i] * (extent - hinges[i].place.s);
-      for (std::size_t i = 0; i < u.size(); ++i) u[i].y -= end * span.beam[i].place.s / extent;
-    }
-    return u;
-  };
-  return compare(shape(span.beam), shape(span.chain));
+  for (Deviation* d : {&x, &y}) *d = {std::sqrt(d->most), std::sqrt(d->error)};
+  return y.most > 5 * x.most || (y.most > x.most / 5 && y.error * x.most > x.error * y.most) ? y : x;
 }
 
 // --- the whole body ---
@@ -219,6 +206,7 @@ class Automatic {
     for (const Member& m : axis_.members) lines_.push_back(line_of(m));
     find_longest_path();
     find_holds(holds);
+    find_stretches();
   }
 
   AutomaticSplit run(Splitter& splitter, const std::string& place) {
@@ -240,7 +228,7 @@ class Automatic {
       const double wanted = std::ceil(n * std::min(std::sqrt(own / (margin * target_)), 2.0));
       n = std::min(std::max(wanted, n + 1 + std::floor(0.05 * round++ * n)), most_parts);
     }
-    return divide(splitter, std::move(best), place);
+    return divide(splitter, std::move(best), error, place);
   }
 
  private:
@@ -480,8 +468,9 @@ class Automatic {
 
   // --- error ---
 
-  double error_of(const std::vector<PlacedCut>& cuts) const {
+  double error_of(const std::vector<PlacedCut>& cuts) {
     std::vector<Hinge> joints;
+    joints.reserve(cuts.size());
     for (const auto& [way, backwards, offset] : steps_)
       for (const PlacedCut& c : cuts_of(cuts, way)) {
         const double s = offset + (backwards ? axis_.members[way].length - c.s : c.s);
@@ -489,53 +478,85 @@ class Automatic {
       }
     std::sort(joints.begin(), joints.end(),
               [](const Hinge& a, const Hinge& b) { return a.place.s < b.place.s; });
-    const double extent = line_.back().s;
     if (joints.empty()) return 1;
-    std::vector<Deviation> all;
-    if (holds_.empty()) {
-      // Free: clamped at its wider end, or at either where both are wide.
-      const double first = line_.front().width, last = line_.back().width;
-      if (first >= last / 2) all.push_back(cantilever(span(joints, 0, extent)));
-      if (last >= first / 2) all.push_back(cantilever(span(joints, extent, 0)));
-    } else {
-      const double start = holds_.front().first, end = holds_.back().first;
-      if (start > 0) all.push_back(cantilever(span(joints, start, 0)));
-      if (end < extent) all.push_back(cantilever(span(joints, end, extent)));
-      for (std::size_t i = 1; i < holds_.size(); ++i)
-        all.push_back(held_at_both_ends(span(joints, holds_[i - 1].first, holds_[i].first), clamped_both_));
-    }
     Deviation worst;
-    for (const Deviation& d : all) worst = {std::max(worst.most, d.most), std::max(worst.error, d.error)};
+    for (Stretch& stretch : stretches_) {
+      const Deviation d = deviation(stretch, joints);
+      worst = {std::max(worst.most, d.most), std::max(worst.error, d.error)};
+    }
     return worst.most > 0 ? worst.error / worst.most : 1;
   }
 
-  // From a to b along the longest line; where it ends there, with joints to what holds it.
-  Span span(const std::vector<Hinge>& joints, double a, double b) const {
-    Span result;
-    result.beam = parts_of(line_, a, b, std::max<int>(64, 4 * static_cast<int>(joints.size())));
-    for (const Hinge& j : joints) {
-      Hinge own = j;
-      own.place.s = (b > a ? 1 : -1) * (j.place.s - a);
-      if (own.place.s > 0 && own.place.s < std::abs(b - a)) result.chain.push_back(own);
+  // Part of the longest way that bends on its own.
+  struct Stretch {
+    double from, to;                  // m along it, `from` is held
+    bool held_at_end = false;         // so is `to`
+    std::optional<Beam> beam;         // as fine as the last chain asked
+    std::vector<Displacement> exact;  // the beam's
+  };
+
+  void find_stretches() {
+    const double extent = line_.back().s;
+    if (holds_.empty()) {
+      // Free: clamped at its wider end, or at either where both are wide.
+      const double first = line_.front().width, last = line_.back().width;
+      if (first >= last / 2) stretches_.push_back({0, extent});
+      if (last >= first / 2) stretches_.push_back({extent, 0});
+      return;
     }
-    if (b < a) std::reverse(result.chain.begin(), result.chain.end());
-    if (result.chain.empty()) return result;
-    const auto add_end = [&](double s, double to, bool at_front) {
-      Place p = on(line_, s);
-      p.s = at_front ? 0 : std::abs(b - a);
-      result.chain.insert(at_front ? result.chain.begin() : result.chain.end(), {p, to / 2});
+    const double start = holds_.front().first, end = holds_.back().first;
+    if (start > 0) stretches_.push_back({start, 0});
+    if (end < extent) stretches_.push_back({end, extent});
+    for (std::size_t i = 1; i < holds_.size(); ++i)
+      stretches_.push_back({holds_[i - 1].first, holds_[i].first, true});
+  }
+
+  Deviation deviation(Stretch& stretch, const std::vector<Hinge>& joints) const {
+    const auto bent = [&](const std::vector<Hinge>& hinges) {
+      return stretch.held_at_end ? held_at_both_ends(*stretch.beam, hinges, clamped_both_)
+                                 : cantilever(*stretch.beam, hinges);
     };
-    const auto ends = [&](double s) { return (s == 0 && !node_[0]) || (s == line_.back().s && !node_[1]); };
-    if (ends(a)) add_end(a, result.chain.front().place.s, true);
-    if (ends(b)) add_end(b, std::abs(b - a) - result.chain.back().place.s, false);
+    // Three parts to a piece and more: the beam's own error is an eighteenth of the chain's, and adds to it.
+    const std::size_t parts = std::bit_ceil(std::max<std::size_t>(64, 3 * joints.size()));
+    if (!stretch.beam || stretch.beam->parts.size() != parts) {
+      stretch.beam.emplace(line_, stretch.from, stretch.to, parts, stretch.held_at_end);
+      stretch.exact = bent(stretch.beam->parts);
+    }
+    return compare(stretch.exact, bent(chain(stretch, joints)));
+  }
+
+  // The joints of a stretch and, where the line ends, to what holds it.
+  std::vector<Hinge> chain(const Stretch& stretch, const std::vector<Hinge>& joints) const {
+    const double extent = std::abs(stretch.to - stretch.from), sign = stretch.to > stretch.from ? 1 : -1;
+    std::vector<Hinge> result;
+    result.reserve(joints.size() + 2);
+    for (const Hinge& j : joints)
+      if (const double s = sign * (j.place.s - stretch.from); s > 0 && s < extent) {
+        result.push_back(j);
+        result.back().place.s = s;
+      }
+    if (sign < 0) std::reverse(result.begin(), result.end());
+    if (result.empty()) return result;
+    const auto add_end = [&](auto where, double at, double s, double length) {
+      if ((at > 0 || node_[0]) && (at < line_.back().s || node_[1])) return;
+      Place p = on(line_, at);
+      p.s = s;
+      result.insert(where, {p, length});
+    };
+    add_end(result.begin(), stretch.from, 0, result.front().place.s / 2);
+    add_end(result.end(), stretch.to, extent, (extent - result.back().place.s) / 2);
+    if (stretch.held_at_end)  // seen straight, as its beam
+      for (Hinge& h : result) h.place.at = {h.place.s, 0};
     return result;
   }
 
   // --- pieces ---
 
   // Cuts until every piece is one that Box2D takes, leaving out cuts that prevent it.
-  AutomaticSplit divide(Splitter& splitter, std::vector<PlacedCut> cuts, const std::string& place) const {
+  AutomaticSplit divide(Splitter& splitter, std::vector<PlacedCut> cuts, double error,
+                        const std::string& place) {
     AutomaticSplit result;
+    const std::size_t before = cuts.size();
     for (int round = 0;; ++round) {
       result.cuts.clear();
       for (const PlacedCut& c : cuts) result.cuts.push_back({c.chord.left, c.chord.right});
@@ -551,7 +572,7 @@ class Automatic {
     }
     for (const PlacedCut& c : cuts) result.lengths.push_back(c.length);
     for (int w = 0; w < std::ssize(lines_); ++w) add_ends(result.ends, w, cuts);
-    result.error = cuts.empty() ? 1 : error_of(cuts);
+    result.error = cuts.size() == before ? error : error_of(cuts);
     return result;
   }
 
@@ -577,6 +598,18 @@ class Automatic {
 
   // As shapes() asks of a piece, with a little to spare.
   static bool collides(const Outline& piece) {
+    // Area is at most width times diameter, of the piece and of the largest of its triangles alike: most
+    // pieces are so fat that this decides.
+    double area = doubled_area(piece.outer) / 2;
+    std::size_t triangles = piece.outer.size();  // or fewer
+    for (const Ring& hole : piece.holes) {
+      area -= std::abs(doubled_area(hole)) / 2;
+      triangles += hole.size() + 2;
+    }
+    const double diameter = box_of(piece.outer).diagonal();
+    const double least = std::max(1.01 * thinnest, 1e-3 * diameter);
+    if (area > static_cast<double>(triangles) * diameter * least) return true;
+
     if (least_width(hull(piece.outer)) < 1.01 * thinnest) return false;
     const Point centre = moments(piece).centroid;
     for (std::vector<Point>& part : convex_parts(piece, 8)) {
@@ -614,6 +647,7 @@ class Automatic {
   std::vector<Step> steps_;
   std::vector<std::pair<double, bool>> holds_;  // along line_, and whether they clamp
   bool clamped_both_ = false;
+  std::vector<Stretch> stretches_;
 };
 
 }  // namespace

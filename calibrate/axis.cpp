@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "moments.h"
-#include "plane.h"
 
 namespace ductile {
 namespace {
@@ -19,6 +18,10 @@ constexpr double stub = 1.5;
 constexpr double parting = 3.5;
 // Sine of the least angle between a chord and the sides of its strip.
 constexpr double least_sine = 0.7;
+// Of a width: stations at corners nearer than this would not tell more.
+constexpr double crowded = 0.05;
+// Of a width: along the line, corners of both sides that are no farther apart are opposite.
+constexpr double opposite = 0.15;
 // From one station to the next, half a width on, a strip does not widen more than this.
 constexpr double widening = 1.35;
 
@@ -28,25 +31,14 @@ double perimeter(const Ring& ring) {
   return sum;
 }
 
-double diagonal(const Ring& ring) {
-  Point low = ring.front(), high = low;
-  for (const Point& p : ring) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return length(high - low);
-}
-
 Outline without_small_holes(const Outline& outline) {
   const double most = parting * std::abs(doubled_area(outline.outer)) / 2 / perimeter(outline.outer);
   Outline result{outline.outer, {}};
   for (const Ring& hole : outline.holes)
-    if (diagonal(hole) > most) result.holes.push_back(hole);
+    if (box_of(hole).diagonal() > most) result.holes.push_back(hole);
   return result;
 }
 
-Point middle(const Chord& c) { return middle(c.left, c.right); }
-double width(const Chord& c) { return length(c.left - c.right); }
 Point ahead(const Chord& c) { return unit(right(c.left - c.right)); }
 Point direction(Point v) { return length(v) > 0 ? unit(v) : Point{}; }
 
@@ -67,7 +59,9 @@ struct Axis::Walk {
 };
 constexpr int arrived = -1, lost = -2;  // lost: between triangles that rounding has turned over
 
-Axis::Axis(const Outline& outline) : triangulation_(triangulate(without_small_holes(outline))) {
+Axis::Axis(const Outline& outline)
+    : triangulation_(triangulate(without_small_holes(outline))),
+      corners_(static_cast<int>(triangulation_.points.size())) {
   add_feet(triangulation_);
   const std::vector<HalfEdge>& edges = triangulation_.edges;
   const std::vector<Point>& points = triangulation_.points;
@@ -190,6 +184,15 @@ void Axis::add_member(const std::vector<int>& way, int first, int last, const Gr
   if (m.stations.empty()) return;
   drop_wide_ends(m);
   extend(m, apart);
+  std::vector<Point> corners;
+  const auto add_triangle = [&](int t) {
+    for (int k = 0, e = g.first[t]; k < 3; ++k, e = edges[e].next)
+      if (edges[e].from < corners_) corners.push_back(triangulation_.points[edges[e].from]);
+    corners.insert(corners.end(), g.beyond[t].begin(), g.beyond[t].end());
+  };
+  add_triangle(first);
+  for (const int e : way) add_triangle(triangle_[edges[e].twin]);
+  add_corners(m, corners);
   members.push_back(std::move(m));
 }
 
@@ -347,6 +350,90 @@ bool Axis::follows(const Member::Station& a, const Member::Station& b, double si
          dot(a.chord.right - b.chord.right, on) > 0;
 }
 
+// Further stations, whose chords end in corners of the sides, so that between two of them the sides are
+// straight. The corners come in about their order along the line.
+void Axis::add_corners(Member& m, const std::vector<Point>& corners) const {
+  const std::vector<Member::Station>& all = m.stations;
+  struct Corner {
+    std::size_t after;  // the station before it
+    double share;       // of the way to the next one
+    Point at;
+    bool on_left;
+  };
+  std::vector<Corner> places;
+  places.reserve(corners.size());
+  std::size_t k = 0;
+  for (const Point& corner : corners) {
+    const auto beyond = [&](const Chord& c) { return dot(corner - middle(c), ahead(c)) > 0; };
+    while (k + 2 < all.size() && beyond(all[k + 1].chord)) ++k;
+    while (k > 0 && !beyond(all[k].chord)) --k;
+    if (k + 1 >= all.size() || !all[k + 1].follows) continue;
+    const Chord &a = all[k].chord, &b = all[k + 1].chord;
+    if (!beyond(a) || beyond(b)) continue;
+    const bool on_left = cross(middle(b) - middle(a), corner - middle(a)) > 0;
+    const Point from = on_left ? a.left : a.right, along = (on_left ? b.left : b.right) - from;
+    places.push_back({k, dot(corner - from, along) / dot(along, along), corner, on_left});
+  }
+  std::sort(places.begin(), places.end(), [](const Corner& x, const Corner& y) {
+    return x.after != y.after ? x.after < y.after : x.share < y.share;
+  });
+  places.erase(std::unique(places.begin(), places.end(),
+                           [](const Corner& x, const Corner& y) { return x.at == y.at; }),
+               places.end());
+  std::vector<Member::Station> result;
+  result.reserve(all.size() + places.size());
+  auto place = places.begin();
+  bool straight = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    result.push_back(all[i]);
+    result.back().straight = straight;
+    straight = i + 1 < all.size() && all[i + 1].follows;
+    const std::size_t first = result.size();
+    for (; place != places.end() && place->after == i; ++place) {
+      const Member::Station &last = result.back(), &next = all[i + 1];
+      const Point u = direction((1 - place->share) * ahead(all[i].chord) + place->share * ahead(next.chord));
+      std::optional<Member::Station> found;
+      // Corners of both sides that are almost opposite share a chord.
+      if (const auto other = place + 1;
+          other != places.end() && other->after == i && other->on_left != place->on_left &&
+          std::abs(dot(other->at - place->at, u)) < opposite * width(last.chord)) {
+        found = place->on_left ? chord_between(place->at, other->at, all[i])
+                               : chord_between(other->at, place->at, all[i]);
+        ++place;
+      } else {
+        const double w = (1 - place->share) * width(all[i].chord) + place->share * width(next.chord);
+        const Point inwards = place->on_left ? right(u) : left(u);
+        if (const auto at = step_to(all[i], place->at + w / 2 * inwards)) found = chord_across(*at, u);
+      }
+      const auto apart = [&](const Member::Station& x, const Member::Station& y) {
+        return length(middle(x.chord) - middle(y.chord)) > crowded * width(y.chord) && follows(x, y);
+      };
+      if (found && apart(*found, last) && apart(next, *found)) {
+        found->follows = true;
+        result.push_back(*found);
+      } else {
+        straight = false;
+      }
+    }
+    for (std::size_t r = first; r < result.size(); ++r) result[r].straight = straight;
+  }
+  m.stations = std::move(result);
+}
+
+std::optional<Member::Station> Axis::chord_between(Point left, Point right,
+                                                   const Member::Station& near) const {
+  const auto at = step_to(near, middle(left, right));
+  if (!at) return std::nullopt;
+  return Member::Station{.chord = {left, right}, .triangle = at->triangle};
+}
+
+std::optional<Axis::Step> Axis::step_to(const Member::Station& from, Point at) const {
+  const Point start = middle(from.chord);
+  const Walk way = walk(from.triangle, start, direction(at - start), length(at - start));
+  if (way.edge != arrived) return std::nullopt;
+  return Step{at, way.triangle};
+}
+
 // Where members begin and end, and how long they are.
 void Axis::measure() {
   // A node is in the middle of the faces of its members.
@@ -391,10 +478,17 @@ Member::Station Axis::at(const Member& m, double s) const {
   const Member::Station &a = *(after - 1), &b = *after, &nearest = s - a.s < b.s - s ? a : b;
   if (!b.follows) return nearest;
   const double share = (s - a.s) / (b.s - a.s);
+  if (b.straight) {
+    Member::Station result = nearest;
+    result.s = s;
+    result.chord = {a.chord.left + share * (b.chord.left - a.chord.left),
+                    a.chord.right + share * (b.chord.right - a.chord.right)};
+    return result;
+  }
   const Point from = middle(a.chord), along = middle(b.chord) - from;
-  const Walk way = walk(a.triangle, from, direction(along), share * length(along));
-  if (way.edge != arrived) return nearest;
-  auto found = chord_at({from + share * along, way.triangle}, direction(along));
+  const auto step = step_to(a, from + share * along);
+  if (!step) return nearest;
+  auto found = chord_at(*step, direction(along));
   const double most = 1.5 * std::max(width(a.chord), width(b.chord));
   if (!found || width(found->chord) > most) return nearest;
   found->s = std::clamp(a.s + dot(middle(found->chord) - from, direction(along)), a.s, b.s);
@@ -424,15 +518,29 @@ std::optional<Member::Station> Axis::chord_at(Step start, Point along) const {
     }
     if (dot(better, u) < 0.95) return std::nullopt;  // from a corner to another side
     if (std::min(std::abs(dot(side(l), u)), std::abs(dot(side(r), u))) < least_sine) return std::nullopt;
-    Member::Station result;
-    result.chord = {at + l.distance * left(u), at + r.distance * right(u)};
-    if (!(l.distance + r.distance > 0)) return std::nullopt;
-    const double off = (l.distance - r.distance) / 2;
-    const Walk to_middle = walk(triangle, at, off > 0 ? left(u) : right(u), std::abs(off));
-    if (to_middle.edge != arrived) return std::nullopt;
-    result.triangle = to_middle.triangle;
-    return result;
+    return station(start, u, l.distance, r.distance);
   }
+}
+
+// The chord across a direction.
+std::optional<Member::Station> Axis::chord_across(Step start, Point u) const {
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  const Walk l = walk(start.triangle, start.at, left(u), everything),
+             r = walk(start.triangle, start.at, right(u), everything);
+  if (l.edge < 0 || r.edge < 0) return std::nullopt;
+  return station(start, u, l.distance, r.distance);
+}
+
+std::optional<Member::Station> Axis::station(Step start, Point u, double to_left, double to_right) const {
+  const auto [at, triangle] = start;
+  if (!(to_left + to_right > 0)) return std::nullopt;
+  const double off = (to_left - to_right) / 2;
+  const Walk to_middle = walk(triangle, at, off > 0 ? left(u) : right(u), std::abs(off));
+  if (to_middle.edge != arrived) return std::nullopt;
+  Member::Station result;
+  result.chord = {at + to_left * left(u), at + to_right * right(u)};
+  result.triangle = to_middle.triangle;
+  return result;
 }
 
 // Straight on through triangles, as far as `most` or to the boundary.
@@ -446,12 +554,18 @@ Axis::Walk Axis::walk(int triangle, Point from, Point direction, double most) co
     int leaves = -1;
     double distance = -1;
     int e = entered >= 0 ? edges[entered].next : first_[result.triangle];
-    for (int k = entered >= 0 ? 2 : 3; k > 0; --k, e = edges[e].next) {
-      const Point a = points[edges[e].from] - from, b = points[edges[edges[e].next].from] - from;
-      const double right_of = cross(direction, a), left_of = cross(direction, b);
-      if (right_of > 0 || left_of < 0 || left_of - right_of <= 0) continue;
-      const double d = cross(a, b - a) / cross(direction, b - a);
-      if (leaves < 0 || d > distance) leaves = e, distance = d;
+    Point a = points[edges[e].from] - from;
+    double side = cross(direction, a);  // > 0: left of the line
+    for (int k = entered >= 0 ? 2 : 3; k > 0; --k) {
+      const int next = edges[e].next;
+      const Point b = points[edges[next].from] - from;
+      const double side_of_b = cross(direction, b);
+      if (side <= 0 && side_of_b >= 0 && side_of_b > side)
+        if (const double d = cross(a, b) / (side_of_b - side); leaves < 0 || d > distance)
+          leaves = e, distance = d;
+      a = b;
+      side = side_of_b;
+      e = next;
     }
     if (leaves < 0) return {result.triangle, lost, 0};
     if (distance >= most) return {result.triangle, arrived, most};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ductile/section.h"
+#include "plane.h"
 #include "triangulation.h"
 
 namespace ductile {
@@ -14,6 +15,8 @@ namespace ductile {
 struct Chord {
   Point left, right;
 };
+inline Point middle(const Chord& c) { return middle(c.left, c.right); }
+inline double width(const Chord& c) { return length(c.left - c.right); }
 
 /// A strip between two ends, as a line with places where chords are known.
 struct Member {
@@ -21,7 +24,8 @@ struct Member {
     double s = 0;  ///< m along the line from `start`
     Chord chord;   ///< the line goes through its middle
     int triangle = -1;
-    bool follows = false;  ///< between the station before and this one a chord may lie anywhere
+    bool follows = false;   ///< between the station before and this one a chord may lie anywhere
+    bool straight = false;  ///< and both sides are straight between them
   };
   std::vector<Station> stations;
   Point start, end;
@@ -59,14 +63,20 @@ class Axis {
   void extend(Member& member, double apart) const;
   std::vector<Member::Station> march(Member::Station from, double sign, double apart,
                                      const Member::Station* up_to, int node) const;
+  void add_corners(Member& member, const std::vector<Point>& corners) const;
+  std::optional<Member::Station> chord_between(Point left, Point right, const Member::Station& near) const;
+  std::optional<Step> step_to(const Member::Station& from, Point at) const;
   static bool is_after(const Member::Station& a, const Member::Station& b);
   static bool follows(const Member::Station& a, const Member::Station& b, double sign = 1);
   void measure();
   std::optional<Member::Station> chord_at(Step start, Point along) const;
+  std::optional<Member::Station> chord_across(Step start, Point along) const;
+  std::optional<Member::Station> station(Step start, Point along, double to_left, double to_right) const;
   Walk walk(int triangle, Point from, Point direction, double most) const;
   Point points_to(int edge) const;
 
   Triangulation triangulation_;
+  int corners_;                // its first points; feet follow
   std::vector<int> triangle_;  // of every half-edge
   std::vector<int> first_;     // half-edge of every triangle
 };

@@ -39,20 +39,6 @@ struct Placement {
   }
 };
 
-struct Box {
-  Point low, high;
-  double diagonal() const { return length(high - low); }
-};
-
-Box box_of(const Outline& outline) {
-  Box box{outline.outer.front(), outline.outer.front()};
-  for (const Point& p : outline.outer) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  }
-  return box;
-}
-
 // From end to end of the outline through its centroid, along the axis about which its area is most slender;
 // in the direction of x, then of y.
 std::array<Point, 2> long_axis(const Outline& outline) {
@@ -367,7 +353,8 @@ class Planner {
       const auto other = std::find_if(scene_.bodies.begin(), scene_.bodies.end(),
                                       [&](const BodyDef& b) { return b.name == other_name; });
       if (other->circle > 0) continue;
-      const double size = std::min(box_of(body.outline).diagonal(), box_of(other->outline).diagonal());
+      const double size =
+          std::min(box_of(body.outline.outer).diagonal(), box_of(other->outline.outer).diagonal());
       for (const Contact& c : touching(own, in_world(*other), j.gap > 0 ? j.gap : 1e-6 * size))
         holds.push_back({place.back(middle(c.from, c.to)), j.overrides.moment != 0.0});
     }
@@ -447,7 +434,7 @@ class Planner {
                               : middle_of(cuts.back()) - middle_of(cuts.front());
     if (body.automatic || u == Point{}) u = {std::cos(body.angle), -std::sin(body.angle)};  // the world's x
     u = unit(u);
-    const double level = 1e-6 * box_of(body.outline).diagonal();
+    const double level = 1e-6 * box_of(body.outline.outer).diagonal();
     std::vector<std::pair<double, double>> key;
     for (const AreaMoments& m : area)
       key.emplace_back(std::round(dot(m.centroid, u) / level), std::round(dot(m.centroid, left(u)) / level));
@@ -543,7 +530,7 @@ class Planner {
     double size = unlimited;
     for (const int piece : {a, b}) {
       const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
-      size = std::min(size, body.circle > 0 ? 2 * body.circle : box_of(body.outline).diagonal());
+      size = std::min(size, body.circle > 0 ? 2 * body.circle : box_of(body.outline.outer).diagonal());
     }
     const double gap = def.gap > 0 ? def.gap : 1e-6 * size;
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
@@ -563,7 +550,7 @@ class Planner {
   }
 
   static bool near(const Outline& a, const Outline& b, double gap) {
-    const Box p = box_of(a), q = box_of(b);
+    const Box p = box_of(a.outer), q = box_of(b.outer);
     return p.low.x <= q.high.x + gap && q.low.x <= p.high.x + gap && p.low.y <= q.high.y + gap &&
            q.low.y <= p.high.y + gap;
   }

@@ -19,12 +19,7 @@ class Parts {
  public:
   Parts(const std::vector<Point>& points, std::vector<HalfEdge> triangles)
       : points_(points), edges_(std::move(triangles)) {
-    Point low = points.front(), high = low;
-    for (const Point& p : points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    straight_ = 1e-12 * length(high - low);
+    straight_ = 1e-12 * box_of(points).diagonal();
   }
 
   // Hertel and Mehlhorn: leave out every edge whose absence leaves its ends convex, the longest first, which
@@ -145,11 +140,15 @@ double least_width(const Ring& convex) {  // rotating calipers: the vertex oppos
   const std::size_t n = convex.size();
   if (n < 3) return 0;
   double least = std::numeric_limits<double>::infinity();
+  const double size = box_of(convex).diagonal();
   for (std::size_t i = 0, opposite = 1; i < n; ++i) {
     const Point p = convex[i], along = convex[(i + 1) % n] - p;
     const auto height = [&](std::size_t k) { return cross(along, convex[k % n] - p); };
-    if (opposite <= i) opposite = i + 1;
-    while (height(opposite + 1) > height(opposite)) ++opposite;
+    opposite = std::max(opposite, i + 1);
+    // Of vertices almost in line with the edge, rounding decides which is higher.
+    const double flat = 1e-12 * length(along) * size;
+    while (opposite + 1 < i + n && (height(opposite) <= flat || height(opposite + 1) > height(opposite)))
+      ++opposite;
     least = std::min(least, height(opposite) / length(along));
   }
   return least;

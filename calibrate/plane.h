@@ -1,7 +1,9 @@
 // Vectors of the plane, for the .cpp files of this room.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "ductile/section.h"
@@ -19,6 +21,20 @@ constexpr Point right(Point a) { return {a.y, -a.x}; }
 constexpr Point middle(Point a, Point b) { return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}; }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }  // of what does not over- or underflow: metres
 inline Point unit(Point a) { return (1 / length(a)) * a; }
+
+struct Box {
+  Point low, high;
+  double diagonal() const { return length(high - low); }
+};
+/// Around a point at least.
+inline Box box_of(std::span<const Point> points) {
+  Box box{points.front(), points.front()};
+  for (const Point& p : points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
 
 namespace exact {
 int orientation(Point a, Point b, Point c);

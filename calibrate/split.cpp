@@ -85,12 +85,7 @@ class PlanarMap {
     events_.clear();
     add_ring(outline.outer, false);
     for (const Ring& hole : outline.holes) add_ring(hole, true);
-    Point low = points_.front(), high = low;
-    for (const Point& p : points_) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    size_ = length(high - low);
+    size_ = box_of(points_).diagonal();
   }
 
   void add_ring(const Ring& ring, bool clockwise) {

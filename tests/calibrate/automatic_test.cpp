@@ -195,4 +195,18 @@ TEST(Automatic, ClosedFormsOfAStraightBeam) {
   }
 }
 
+// Depths that go up and down every 1.8 m: the estimate must know the corners, or it finds fault with what it
+// compares to, whatever the number of pieces.
+TEST(Automatic, AJaggedGirderReachesItsTarget) {
+  const double heights[] = {1.0, 0.8, 1.1, 0.85, 1.2, 0.9, 0.8, 1.15, 0.95, 1.2, 0.8, 1.0};
+  Ring ring;
+  for (int k = 0; k < 12; ++k) ring.push_back({20.0 / 11 * k, -heights[k]});
+  for (int k = 11; k >= 0; --k) ring.push_back({20.0 / 11 * k, heights[(5 * k + 3) % 12]});
+  for (const double target : {0.05, 0.02, 0.01, 0.005, 0.002}) {
+    const Plan plan = calibrate(clamped({ring, {}}, target));
+    EXPECT_EQ(plan.split_errors.at(0).governed_by, "target error") << target;
+    EXPECT_LE(plan.pieces.size() - 1, std::ceil(2 / std::sqrt(target))) << target;
+  }
+}
+
 }  // namespace

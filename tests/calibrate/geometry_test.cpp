@@ -147,6 +147,28 @@ TEST(Split, RefusesCutsThatDoNotCut) {
   EXPECT_NO_THROW(split(ring, std::vector{Cut{{-1, 2}, {5, 2}}}, "ring"));
 }
 
+// Where rounding puts a vertex that is almost in line with an edge below it, the calipers still find the
+// other side.
+TEST(LeastWidth, AlmostStraightSides) {
+  const Ring ring = hull({{-21.396765879850513, 28.188002244584862},
+                          {-21.84212969794255, 27.966828507229437},
+                          {-23.571405701396518, 26.260958220142335},
+                          {-6.466481955266886, 10.018157500443612},
+                          {-5.3435464862207649, 10.435045663569575},
+                          {-2.7666546876115108, 7.8826389878421912},
+                          {-3.1835741472791943, 6.9007149384238442},
+                          {26.288825593616949, -21.086215773909561},
+                          {27.996015044544656, -18.715281830459329}});
+  double least = unlimited;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point p = ring[i], u = unit(ring[(i + 1) % ring.size()] - p);
+    double most = 0;
+    for (const Point& q : ring) most = std::max(most, cross(u, q - p));
+    least = std::min(least, most);
+  }
+  EXPECT_NEAR(least_width(ring), least, 1e-12);
+}
+
 TEST(ConvexParts, FewForPlainShapes) {
   EXPECT_EQ(convex_parts({rectangle(0, 0, 4, 1), {}}, 8).size(), 1u);
   const Ring l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
