@@ -1,29 +1,15 @@
 #include "compare.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
+
+#include "clock.h"
 
 namespace ductile {
 namespace {
 
-// Seconds of this thread, which stand still while others have the processor; where there is no such clock
-// (POSIX has it), of the wall's.
-double now() {
-#ifdef CLOCK_THREAD_CPUTIME_ID
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-#else
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-#endif
-}
-
 double time_of_step(Simulation& simulation) {
-  const double start = now();
-  simulation.step();
-  return now() - start;
+  return seconds([&] { simulation.step(); });
 }
 
 // Where the piece is that was centred on `at`: whatever body carries it.
@@ -62,10 +48,7 @@ Comparison compare(const Plan& full, JointSolver full_solver, const Plan& lean, 
       result.error = std::max(result.error, error);
     }
   }
-  if (ratios.empty()) return result;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  result.time_saved = 1 - *middle;
+  if (!ratios.empty()) result.time_saved = 1 - median(ratios);
   return result;
 }
 

@@ -2,23 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "ductile/joint.h"
+#include "groups.h"
 #include "plane.h"
+#include "yield.h"
 
 namespace ductile {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-bool is_free(const PlannedJoint& joint, Row row) {
-  return row == axial   ? joint.N == 0 && joint.Nc == 0
-         : row == shear ? joint.Q == 0
-                        : joint.M == 0 && joint.M_reverse == 0;
-}
 
 double stiffness_of(const PlannedJoint& joint, Row row) {
   return row == axial ? joint.stiffness.N : row == shear ? joint.stiffness.Q : joint.stiffness.M;
@@ -53,25 +48,21 @@ Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
 void Equilibrium::find_loose() {
   const std::size_t n = plan_.pieces.size();
   const auto stands = [&](std::size_t i) { return i == n || !plan_.is_dynamic(static_cast<int>(i)); };
-  std::vector<std::size_t> group(n + 1);  // the last one: all that stands still
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](std::size_t i) {
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
+  Groups groups(n + 1);  // the last one: all that stands still
   const auto index = [&](int piece) { return piece < 0 ? n : static_cast<std::size_t>(piece); };
   for (std::size_t i = 0; i < n; ++i) {
-    if (stands(i)) group[root(i)] = root(n);
-    if (plan_.pieces[i].part_of >= 0) group[root(i)] = root(index(plan_.pieces[i].part_of));
+    if (stands(i)) groups.unite(n, i);
+    if (plan_.pieces[i].part_of >= 0) groups.unite(index(plan_.pieces[i].part_of), i);
   }
   for (const PlannedJoint& j : plan_.joints)
     if (!is_free(j, axial) || !is_free(j, shear) || !is_free(j, rotation))
-      group[root(index(j.a))] = root(index(j.b));
+      groups.unite(index(j.b), index(j.a));
+  const auto is_held = [&](std::size_t i) { return groups.of(i) == groups.of(n); };
   column.assign(n, -1);
   int columns = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (stands(i)) continue;
-    if (root(i) == root(n)) {
+    if (is_held(i)) {
       const int carrier = plan_.pieces[i].part_of;  // comes before its parts
       column[i] = carrier >= 0 ? column[static_cast<std::size_t>(carrier)] : columns;
       if (carrier < 0) columns += 3;
@@ -79,7 +70,7 @@ void Equilibrium::find_loose() {
       loose.push_back(static_cast<int>(i));
     }
   }
-  for (const PlannedJoint& j : plan_.joints) held.push_back(root(index(j.b)) == root(n));
+  for (const PlannedJoint& j : plan_.joints) held.push_back(is_held(index(j.b)));
 }
 
 std::array<double, 3> Equilibrium::scale(int piece) const {
@@ -142,21 +133,29 @@ void Equilibrium::add(VectorXd& f, int piece, Point force, double moment) const 
   f[c + 2] += s[2] * moment;
 }
 
+VectorXd Equilibrium::gravity() const {
+  VectorXd f = VectorXd::Zero(B.cols());
+  for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
+    if (plan_.pieces[i].part_of < 0) add(f, static_cast<int>(i), plan_.pieces[i].mass * plan_.gravity, 0);
+  return f;
+}
+
+VectorXd Equilibrium::load(const Plan::Load& load) const {
+  VectorXd f = VectorXd::Zero(B.cols());
+  const Point arm = load.at - plan_.carrier(load.piece).center;
+  add(f, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
+  return f;
+}
+
 std::vector<LoadCase> Equilibrium::cases() const {
   std::set<double> starts{0};
   for (const Plan::Load& load : plan_.loads)
     if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
   std::vector<LoadCase> result;
   for (const double time : starts) {
-    LoadCase& now = result.emplace_back(LoadCase{time, VectorXd::Zero(B.cols()), VectorXd::Zero(B.cols())});
-    for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
-      if (plan_.pieces[i].part_of < 0)
-        add(now.gravity, static_cast<int>(i), plan_.pieces[i].mass * plan_.gravity, 0);
-    for (const Plan::Load& load : plan_.loads) {
-      if (load.def.from > time || load.def.to <= time) continue;
-      const Point arm = load.at - plan_.carrier(load.piece).center;
-      add(now.loads, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
-    }
+    LoadCase& now = result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols())});
+    for (const Plan::Load& each : plan_.loads)
+      if (each.def.from <= time && each.def.to > time) now.loads += load(each);
   }
   return result;
 }

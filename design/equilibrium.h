@@ -34,6 +34,8 @@ class Equilibrium {
 
   /// A force with its moment about the piece's centre, added to loads by columns.
   void add(Eigen::VectorXd& f, int piece, Point force, double moment) const;
+  Eigen::VectorXd gravity() const;
+  Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
 
   bool is_mechanism() const { return qr_.rank() < B.cols(); }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include "around.h"
 #include "compare.h"
 #include "ductile/design.h"
 #include "merge.h"
@@ -19,21 +18,12 @@ constexpr double resolution = 1e-6;  // of a structure's size: what Box2D's floa
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 std::string joints(std::size_t n) { return std::to_string(n) + (n == 1 ? " joint" : " joints"); }
 
-// Null where all stands still.
-std::unique_ptr<Response> response_of(const Plan& plan, double impact) {
-  const bool any = std::any_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& j) {
-    return (j.a >= 0 && plan.is_dynamic(j.a)) || plan.is_dynamic(j.b);
-  });
-  return any ? std::make_unique<Response>(plan, impact) : nullptr;
-}
-
 class Leaner {
  public:
   Leaner(const Plan& plan, const LeaveOut& options)
       : options_(options),
-        impact_(options.impact + energy_around(plan, Equilibrium(plan).loose)),
         plan_(plan),
-        full_(plan, impact_),
+        full_(plan, options.impact),
         quiet_(index(full_.structures()), true),
         lean_{.plan = plan} {
     measure_structures();
@@ -136,7 +126,7 @@ class Leaner {
   Judged judge(int i) const {
     const PlannedJoint& joint = plan_.joints[index(i)];
     const int s = structure_of(joint);
-    if (s < 0 || (!quiet_[index(s)] && impact_ > 0)) return {s, 0, false, false};
+    if (s < 0 || (!quiet_[index(s)] && full_.impact() > 0)) return {s, 0, false, false};
     const Yield yield(plan_, joint);
     const auto force = forces(i, yield, [&](int row) {
       return quiet_[index(s)] ? full_.force(row) : 2 * at_most_ * full_.rest(row);
@@ -156,9 +146,16 @@ class Leaner {
 
   // --- trying a leaner plan ---
 
+  // Null where nothing of a structure moves any more.
+  std::unique_ptr<Response> response_of(const Plan& leaner) const {
+    const bool any = std::any_of(leaner.joints.begin(), leaner.joints.end(),
+                                 [&](const PlannedJoint& j) { return structure_of(j) >= 0; });
+    return any ? std::make_unique<Response>(leaner, options_.impact) : nullptr;
+  }
+
   // By structure: how far a piece may be from where it is in `plan`, over the structure's size.
   std::vector<double> promises(const Response& now, const Plan& leaner) const {
-    const auto then = response_of(leaner, impact_);
+    const auto then = response_of(leaner);
     std::vector<double> result(quiet_.size());
     for (std::size_t i = 0; i < plan_.pieces.size(); ++i) {
       const int s = full_.structure()[i];
@@ -266,7 +263,7 @@ class Leaner {
       joint.stiffness.N = joint.stiffness.Q = unlimited;
     }
     if (rows == 0) return;
-    const std::vector<double> promised = promises(*response_of(lean_.plan, impact_), leaner);
+    const std::vector<double> promised = promises(*response_of(lean_.plan), leaner);
     offer(std::move(leaner), lean_.solver, *std::max_element(promised.begin(), promised.end()),
           std::to_string(rows) + " rows rigid that would stretch or shear");
   }
@@ -310,7 +307,6 @@ class Leaner {
   }
 
   const LeaveOut& options_;
-  double impact_;       // J
   double at_most_ = 1;  // of the loads
   const Plan& plan_;
   Response full_;

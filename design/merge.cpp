@@ -1,27 +1,26 @@
 #include "merge.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "groups.h"
 #include "plane.h"
 
 namespace ductile {
 namespace {
 
-// Groups of pieces; those that stand still are all in the last one.
-class Groups {
+// Pieces that move as one; those that stand still are all in the last group.
+class Bodies {
  public:
-  explicit Groups(const Plan& plan) : plan_(plan), parent_(plan.pieces.size() + 1) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+  explicit Bodies(const Plan& plan) : groups_(plan.pieces.size() + 1), still_(plan.pieces.size()) {
     for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
       const Piece& piece = plan.pieces[i];
       if (piece.part_of >= 0) unite(i, index(piece.part_of));
       if (piece.stands_still || plan.bodies[index(piece.body)].type == BodyType::static_body)
-        unite(i, still());
+        unite(i, still_);
     }
   }
-  std::size_t still() const { return parent_.size() - 1; }
-  std::size_t of(int piece) const { return root(piece < 0 ? still() : index(piece)); }
+  std::size_t still() const { return still_; }
+  std::size_t of(int piece) const { return groups_.of(piece < 0 ? still_ : index(piece)); }
   bool inside(const PlannedJoint& joint) const { return of(joint.a) == of(joint.b); }
 
   // False, and nothing done, where that would put one of `kept` inside a group.
@@ -38,20 +37,16 @@ class Groups {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  std::size_t root(std::size_t i) const {
-    while (parent_[i] != i) i = parent_[i];
-    return i;
-  }
   // The lower one leads, but for what stands still.
   void unite(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (b == still() || (b < a && a != still())) std::swap(a, b);
-    parent_[b] = a;
+    a = groups_.of(a);
+    b = groups_.of(b);
+    if (b == still_ || (b < a && a != still_)) std::swap(a, b);
+    groups_.unite(a, b);
   }
 
-  const Plan& plan_;
-  std::vector<std::size_t> parent_;
+  Groups groups_;
+  std::size_t still_;
 };
 
 // Mass, inertia and centre of the leading piece become those of all.
@@ -85,15 +80,15 @@ Plan merged(const Plan& plan, const std::vector<int>& fused) {
   std::vector<const PlannedJoint*> kept;
   for (std::size_t i = 0; i < plan.joints.size(); ++i)
     if (!is_fused[i]) kept.push_back(&plan.joints[i]);
-  Groups groups(plan);
-  for (const int i : fused) groups.fuse(plan.joints[static_cast<std::size_t>(i)], kept);
+  Bodies bodies(plan);
+  for (const int i : fused) bodies.fuse(plan.joints[static_cast<std::size_t>(i)], kept);
 
   Plan result = plan;
   std::vector<std::vector<std::size_t>> parts(plan.pieces.size());
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     if (!plan.is_dynamic(static_cast<int>(i))) continue;
-    const std::size_t group = groups.of(static_cast<int>(i));
-    if (group != groups.still()) {
+    const std::size_t group = bodies.of(static_cast<int>(i));
+    if (group != bodies.still()) {
       parts[group].push_back(i);
       continue;
     }
@@ -104,7 +99,7 @@ Plan merged(const Plan& plan, const std::vector<int>& fused) {
   }
   for (const auto& group : parts)
     if (group.size() > 1) carry(result, group);
-  std::erase_if(result.joints, [&](const PlannedJoint& joint) { return groups.inside(joint); });
+  std::erase_if(result.joints, [&](const PlannedJoint& joint) { return bodies.inside(joint); });
   return result;
 }
 

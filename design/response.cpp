@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "around.h"
 #include "buckling.h"
+#include "groups.h"
 #include "plane.h"
 
 namespace ductile {
@@ -12,10 +13,11 @@ namespace ductile {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Response::Response(const Plan& plan, double impact) : plan_(plan), statics_(plan) {
+Response::Response(const Plan& plan, double impact)
+    : plan_(plan), statics_(plan), impact_(impact + energy_around(plan, statics_.loose)) {
   find_structures();
   leverage_ = VectorXd::Constant(statics_.B.rows(), -1);
-  double energy = impact;  // a structure that is thrown is not bounded
+  double energy = impact_;  // a structure that is thrown is not bounded
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     if (statics_.column[i] < 0 || plan.pieces[i].part_of >= 0) continue;
     const BodyDef& body = plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)];
@@ -24,17 +26,8 @@ Response::Response(const Plan& plan, double impact) : plan_(plan), statics_(plan
   swing_.assign(swing_.size(), std::sqrt(2 * energy));
   strain_.assign(swing_.size(), 0);
 
-  VectorXd gravity = VectorXd::Zero(statics_.B.cols());
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
-    if (plan.pieces[i].part_of < 0)
-      statics_.add(gravity, static_cast<int>(i), plan.pieces[i].mass * plan.gravity, 0);
-  add(gravity, plan.gravity_ramp, false);
-  for (const Plan::Load& load : plan.loads) {
-    VectorXd f = VectorXd::Zero(statics_.B.cols());
-    const Point arm = load.at - plan.carrier(load.piece).center;
-    statics_.add(f, load.piece, load.def.force, cross(arm, load.def.force) + load.def.moment);
-    add(f, load.def.ramp, load.def.to < unlimited);
-  }
+  add(statics_.gravity(), plan.gravity_ramp, false);
+  for (const Plan::Load& load : plan.loads) add(statics_.load(load), load.def.ramp, load.def.to < unlimited);
   lean();
 }
 
@@ -55,28 +48,22 @@ void Response::lean() {
 
 void Response::find_structures() {
   const std::size_t n = plan_.pieces.size();
-  std::vector<std::size_t> group(n);
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](std::size_t i) {
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
+  Groups groups(n);
   const auto moves = [&](int piece) {
     return piece >= 0 && statics_.column[static_cast<std::size_t>(piece)] >= 0;
   };
   for (const PlannedJoint& j : plan_.joints)
-    if (moves(j.a) && moves(j.b))
-      group[root(static_cast<std::size_t>(j.b))] = root(static_cast<std::size_t>(j.a));
+    if (moves(j.a) && moves(j.b)) groups.unite(static_cast<std::size_t>(j.a), static_cast<std::size_t>(j.b));
   for (std::size_t i = 0; i < n; ++i)
     if (moves(static_cast<int>(i)) && plan_.pieces[i].part_of >= 0)
-      group[root(i)] = root(static_cast<std::size_t>(plan_.pieces[i].part_of));
+      groups.unite(static_cast<std::size_t>(plan_.pieces[i].part_of), i);
   structure_.assign(n, -1);
   of_column_.assign(static_cast<std::size_t>(statics_.B.cols()), -1);
   std::vector<int> number(n, -1);
   int count = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (!moves(static_cast<int>(i))) continue;
-    int& own = number[root(i)];
+    int& own = number[groups.of(i)];
     if (own < 0) own = count++;
     structure_[i] = own;
     for (int c = 0; c < 3; ++c) of_column_[static_cast<std::size_t>(statics_.column[i] + c)] = own;

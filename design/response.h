@@ -13,7 +13,6 @@
 // (1 − μ)^−3/2 at most. Nothing is bounded where μ ≥ 1.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "equilibrium.h"
@@ -22,7 +21,8 @@ namespace ductile {
 
 class Response {
  public:
-  /// `impact`: J that contacts may bring into each structure. Throws InvalidInput as Equilibrium does.
+  /// `impact`: J that contacts may bring into each structure beside what is loose around (around.h). Throws
+  /// InvalidInput as Equilibrium does.
   Response(const Plan& plan, double impact);
 
   /// Of a row, 3·joint + row: the largest |force| that statics and swing give.
@@ -38,6 +38,8 @@ class Response {
   /// none of them moves), m.
   double apart(const Response* lean, int piece, Point at) const;
 
+  /// J that may hit each structure, all in all.
+  double impact() const { return impact_; }
   const Equilibrium& statics() const { return statics_; }
 
  private:
@@ -53,6 +55,7 @@ class Response {
 
   const Plan& plan_;
   Equilibrium statics_;
+  double impact_;
   std::vector<int> structure_;        // of pieces
   std::vector<int> of_column_;        // structure of each column of B
   std::vector<Answer> answers_;       // gravity, then the loads

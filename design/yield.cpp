@@ -7,6 +7,16 @@
 
 namespace ductile {
 
+double cap(const PlannedJoint& joint, Row row, bool reverse) {
+  return row == axial      ? (reverse ? joint.Nc : joint.N)
+         : row == rotation ? (reverse ? joint.M_reverse : joint.M)
+                           : joint.Q;
+}
+
+bool is_free(const PlannedJoint& joint, Row row) {
+  return cap(joint, row, false) == 0 && cap(joint, row, true) == 0;
+}
+
 Yield::Yield(const Plan& plan, const PlannedJoint& joint) : joint_(joint) {
   if (!plan.interaction) return;
   const std::vector<AxialMoment> polygon = interaction_of(plan, joint);
@@ -15,12 +25,6 @@ Yield::Yield(const Plan& plan, const PlannedJoint& joint) : joint_(joint) {
     const double twice_area = p.N * q.M - p.M * q.N;
     facets.push_back({(q.M - p.M) / twice_area, (p.N - q.N) / twice_area});
   }
-}
-
-double Yield::cap(Row row, bool reverse) const {
-  return row == axial      ? (reverse ? joint_.Nc : joint_.N)
-         : row == rotation ? (reverse ? joint_.M_reverse : joint_.M)
-                           : joint_.Q;
 }
 
 double Yield::usage(Row row, double value) const {

@@ -9,12 +9,16 @@
 
 namespace ductile {
 
+/// 0 in a free row; `reverse`: where the force is negative.
+double cap(const PlannedJoint& joint, Row row, bool reverse);
+bool is_free(const PlannedJoint& joint, Row row);
+
 class Yield {
  public:
   Yield(const Plan& plan, const PlannedJoint& joint);
 
-  double cap(Row row, bool reverse) const;
-  bool is_free(Row row) const { return cap(row, false) == 0 && cap(row, true) == 0; }
+  double cap(Row row, bool reverse) const { return ductile::cap(joint_, row, reverse); }
+  bool is_free(Row row) const { return ductile::is_free(joint_, row); }
 
   /// Of one row: |value| / cap of its sign. NaN where unlimited, 0 where free, infinite against a cap of 0.
   double usage(Row row, double value) const;
