@@ -56,6 +56,14 @@ def with_bomb(scene, mass, speed, radius=0.5):
     return scene
 
 
+def pushed(scene, storeys, force):
+    """Slowly, at the left end of every storey's beam."""
+    scene["gravity_ramp"] = 2
+    scene["loads"] = [{"body": f"beam_{s}", "at": [-HEIGHT / 2, number(BAY * (s + 1))], "force": [force, 0], "ramp": 2}
+                      for s in range(storeys)]
+    return scene
+
+
 def text(scene):
     """JSON with one line a body, a joint, a material; 200e9 rather than 200000000000.0."""
     parts = []
@@ -63,7 +71,7 @@ def text(scene):
         if key == "materials":
             inner = ",\n".join(f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
             parts.append(f'  "{key}": {{\n{inner}\n  }}')
-        elif key in ("bodies", "joints"):
+        elif key in ("bodies", "joints", "loads"):
             inner = ",\n".join("    " + json.dumps(v) for v in value)
             parts.append(f'  "{key}": [\n{inner}\n  ]')
         else:
@@ -75,6 +83,7 @@ def text(scene):
 SCENES = {
     "frame": lambda: frame(4, 4),
     "frame_large": lambda: frame(15, 15),
+    "frame_pushed": lambda: pushed(frame(4, 4), 4, 435_000),
     "frame_bomb": lambda: with_bomb(frame(4, 4), 2000, 30),
     "frame_heavy_bomb": lambda: with_bomb(frame(4, 4), 20000, 30),
 }

@@ -30,6 +30,8 @@ inline constexpr SceneEntry scene_list[] = {
      Outcome::bends},
     {"frame", "Four storeys of four bays stand: 160 joints.", 10, Outcome::stands},
     {"frame_large", "Fifteen storeys of fifteen bays stand: 2085 joints.", 5, Outcome::stands},
+    {"frame_pushed", "The frame is pushed sideways with a little less than half of what makes it sway.", 6,
+     Outcome::stands},
     {"frame_bomb", "A bomb of 2 t at 30 m/s bends a column of the frame.", 5, Outcome::bends, 240},
     {"frame_heavy_bomb", "A bomb of 20 t at 30 m/s breaks through columns of the frame.", 5, Outcome::breaks,
      240},
