@@ -1,5 +1,6 @@
 #include "equilibrium.h"
 
+#include <Eigen/SPQRSupport>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,6 +14,7 @@ namespace ductile {
 namespace {
 
 using Eigen::Index;
+using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 
 double stiffness_of(const PlannedJoint& joint, Row row) {
@@ -28,21 +30,40 @@ std::array<double, 3> row_on_piece(Row row, Point axis, Point arm) {
 
 }  // namespace
 
+// A = √k B = Q [Lᵀ …] Pᵀ; what is not shown belongs to mechanisms. L Lᵀ = Pᵀ K P without squaring A's
+// condition. SPQR, for its fronts: Eigen's own sparse QR took a thousand times as long on a frame of 2000
+// joints.
+struct Equilibrium::Factors {
+  explicit Factors(const SparseMatrix<double>& A) {
+    // A column that keeps less of itself than rounding leaves is a motion that no row resists.
+    double largest = 0;
+    for (Index i = 0; i < A.outerSize(); ++i) largest = std::max(largest, A.col(i).norm());
+    qr.setPivotThreshold(1e-11 * largest);
+    qr.setSPQROrdering(SPQR_ORDERING_AMD);
+    qr.compute(A);
+    L = qr.matrixR().topLeftCorner(qr.rank(), qr.rank()).transpose();
+  }
+  // L⁻¹ Pᵀ f. Skips what comes before f's first entry.
+  VectorXd forward(const VectorXd& f) const {
+    const VectorXd permuted = qr.colsPermutation().transpose() * f;
+    return L.triangularView<Eigen::Lower>().solve(permuted.head(L.cols()));
+  }
+
+  Eigen::SPQR<SparseMatrix<double>> qr;
+  SparseMatrix<double> L;
+};
+
+Equilibrium::~Equilibrium() = default;
+
 Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
   find_loose();
-  if (std::find(held.begin(), held.end(), true) == held.end())
-    throw InvalidInput({{"joints", "no joint holds anything to the ground or to a body that stands still",
-                         "add a support, or a joint to a static body"}});
+  if (std::all_of(column.begin(), column.end(), [](int c) { return c < 0; }))
+    throw InvalidInput(
+        {{"joints", "no joint holds anything that could move to the ground or to a body that stands still",
+          "add a support, or a joint to a static body"}});
   fill();
   set_stiffness();
-  Eigen::SparseMatrix<double> A = k_.cwiseSqrt().asDiagonal() * B;
-  A.makeCompressed();
-  // A column that keeps less of itself than rounding leaves is a motion that no row resists.
-  double largest = 0;
-  for (Index i = 0; i < A.outerSize(); ++i) largest = std::max(largest, A.col(i).norm());
-  qr_.setPivotThreshold(1e-11 * largest);
-  qr_.compute(A);
-  R_ = qr_.matrixR().topLeftCorner(qr_.rank(), qr_.rank());
+  factors_ = std::make_unique<Factors>(k_.cwiseSqrt().asDiagonal() * B);
 }
 
 void Equilibrium::find_loose() {
@@ -97,8 +118,7 @@ void Equilibrium::fill() {
       }
     }
   }
-  const int last = *std::max_element(column.begin(), column.end());  // −1 or the first of the last three
-  B.resize(3 * static_cast<Index>(plan_.joints.size()), last < 0 ? 0 : last + 3);
+  B.resize(3 * static_cast<Index>(plan_.joints.size()), *std::max_element(column.begin(), column.end()) + 3);
   B.setFromTriplets(entries.begin(), entries.end());
 }
 
@@ -109,8 +129,7 @@ constexpr double all_rigid = 1e9 * 60 * 60;
 void Equilibrium::set_stiffness() {
   VectorXd squares = VectorXd::Zero(B.rows());
   for (Index c = 0; c < B.outerSize(); ++c)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(B, c); it; ++it)
-      squares[it.row()] += it.value() * it.value();
+    for (SparseMatrix<double>::InnerIterator it(B, c); it; ++it) squares[it.row()] += it.value() * it.value();
   k_ = VectorXd::Zero(B.rows());
   double fastest = 0;  // k / m_eff of the stiffest elastic row, 1/s²
   for (const bool elastic : {true, false})
@@ -160,13 +179,13 @@ std::vector<LoadCase> Equilibrium::cases() const {
   return result;
 }
 
-// With A = √k B = Q R Pᵀ and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q R⁻ᵀ Pᵀ f.
+bool Equilibrium::is_mechanism() const { return factors_->L.cols() < B.cols(); }
+
+// With A = √k B and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q L⁻¹ Pᵀ f.
 VectorXd Equilibrium::least_energy(const VectorXd& f) const {
-  const Index rank = qr_.rank();
   VectorXd y = VectorXd::Zero(B.rows());
-  const VectorXd permuted = qr_.colsPermutation().transpose() * f;
-  y.head(rank) = R_.transpose().triangularView<Eigen::Lower>().solve(permuted.head(rank));
-  const VectorXd Y = qr_.matrixQ() * y;
+  y.head(factors_->L.cols()) = factors_->forward(f);
+  const VectorXd Y = factors_->qr.matrixQ() * y;
   return k_.cwiseSqrt().cwiseProduct(Y);
 }
 
@@ -177,13 +196,13 @@ VectorXd Equilibrium::forces(const VectorXd& f) const {
 }
 
 VectorXd Equilibrium::motions(const VectorXd& f) const {
-  const Index rank = qr_.rank();
-  const VectorXd permuted = qr_.colsPermutation().transpose() * f;
+  const auto& [qr, L] = *factors_;
   VectorXd x = VectorXd::Zero(B.cols());
-  const VectorXd y = R_.transpose().triangularView<Eigen::Lower>().solve(permuted.head(rank));
-  x.head(rank) = R_.triangularView<Eigen::Upper>().solve(y);
-  return qr_.colsPermutation() * x;
+  x.head(L.cols()) = L.transpose().triangularView<Eigen::Upper>().solve(factors_->forward(f));
+  return qr.colsPermutation() * x;
 }
+
+double Equilibrium::flexibility(const VectorXd& c) const { return factors_->forward(c).squaredNorm(); }
 
 VectorXd Equilibrium::balanced(const VectorXd& f) const {
   const VectorXd kept = B.transpose() * forces(f);

@@ -7,8 +7,8 @@
 #pragma once
 
 #include <Eigen/Sparse>
-#include <Eigen/SparseQR>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "ductile/calibrate.h"
@@ -23,8 +23,9 @@ struct LoadCase {
 
 class Equilibrium {
  public:
-  /// Throws InvalidInput where no joint holds anything.
+  /// Throws InvalidInput where no joint holds anything that could move.
   explicit Equilibrium(const Plan& plan);
+  ~Equilibrium();
 
   Eigen::SparseMatrix<double> B;
   std::vector<int> column;  // of pieces: 3 columns from here on; −1: stands still or is loose
@@ -38,7 +39,7 @@ class Equilibrium {
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
 
-  bool is_mechanism() const { return qr_.rank() < B.cols(); }
+  bool is_mechanism() const;
 
   /// Stiffness of every row (0: free), rigid ones replaced.
   const Eigen::VectorXd& stiffness() const { return k_; }
@@ -47,6 +48,8 @@ class Equilibrium {
   Eigen::VectorXd forces(const Eigen::VectorXd& f) const;
   /// Motions x with Bᵀ k B x = f; 0 in the directions of a mechanism.
   Eigen::VectorXd motions(const Eigen::VectorXd& f) const;
+  /// cᵀ x of those motions for f = c: what a functional c of the motion gives way to a unit load on it.
+  double flexibility(const Eigen::VectorXd& c) const;
   /// f without what would drive a mechanism. Throws InvalidInput, naming the piece, where that is more than
   /// rounding: 1e-6 of the load on it.
   Eigen::VectorXd balanced(const Eigen::VectorXd& f) const;
@@ -59,8 +62,8 @@ class Equilibrium {
 
   const Plan& plan_;
   Eigen::VectorXd k_;
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr_;  // of √k B
-  Eigen::SparseMatrix<double> R_;  // of it, without the directions of mechanisms
+  struct Factors;
+  std::unique_ptr<const Factors> factors_;
 };
 
 }  // namespace ductile

@@ -109,7 +109,7 @@ double Response::force(int row) const {
   double& h = leverage_[row];
   if (h < 0) {
     const VectorXd b = statics_.B.row(row).transpose();
-    h = std::clamp(k * b.dot(statics_.motions(b)), 0.0, 1.0);
+    h = std::min(k * statics_.flexibility(b), 1.0);
   }
   return rest(row) + swing_[static_cast<std::size_t>(structure)] * std::sqrt(k * h);
 }
@@ -123,8 +123,7 @@ VectorXd Response::functional(int piece, Point at, bool along_y) const {
 
 double Response::swing(const VectorXd& c, int piece) const {
   const int s = structure_[static_cast<std::size_t>(piece)];
-  return s < 0 ? 0
-               : swing_[static_cast<std::size_t>(s)] * std::sqrt(std::max(0.0, c.dot(statics_.motions(c))));
+  return s < 0 ? 0 : swing_[static_cast<std::size_t>(s)] * std::sqrt(statics_.flexibility(c));
 }
 
 double Response::apart(const Response* lean, int piece, Point at) const {

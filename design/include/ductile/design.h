@@ -6,8 +6,8 @@
 // and left out. SI units, signs as everywhere: N positive in tension, +M turns the second piece
 // counter-clockwise against the first.
 //
-// For design time: limit analysis uses GLPK, which is under the GPL-3, and so is a program that links this.
-// What a game links (section, joint, calibrate) does not need it.
+// For design time: limit analysis uses GLPK, under the GPL-3, and statics SPQR, under the GPL-2 or later; a
+// program that links this is under the GPL-3. What a game links (section, joint, calibrate) needs neither.
 #pragma once
 
 #include <vector>
