@@ -33,13 +33,13 @@ class Leaner {
   }
 
   LeanPlan run() {
-    merge_where_nothing_yields();
-    merge_where_little_bends();
-    make_rigid();
-    drop_caps();
-    drop_solver();
+    for (const auto part : {&Leaner::merge_where_nothing_yields, &Leaner::merge_where_little_bends,
+                            &Leaner::make_rigid, &Leaner::drop_caps, &Leaner::drop_solver}) {
+      (this->*part)();
+      ++parts_done_;
+    }
     if (!lean_.plan.left_out.empty()) {
-      const Comparison all = compared(plan_, JointSolver::direct, lean_.plan, lean_.solver);
+      const Comparison all = compared(plan_, JointSolver::direct, lean_.plan, lean_.solver, "all together");
       lean_.all = {.what = "all",
                    .error = options_.tolerance - budget_,
                    .measured = all.error,
@@ -166,17 +166,23 @@ class Leaner {
     return result;
   }
 
-  Comparison compared(const Plan& a, JointSolver with, const Plan& b, JointSolver instead) const {
-    return compare(a, with, b, instead, options_.seconds, options_.stepping, full_.structure(), size_);
+  Comparison compared(const Plan& a, JointSolver with, const Plan& b, JointSolver instead,
+                      const std::string& what) const {
+    return compare(a, with, b, instead, options_.seconds, options_.stepping, full_.structure(), size_,
+                   [&](double share) { tell(share, what); });
+  }
+  void tell(double share, const std::string& what) const {
+    constexpr int parts = 6;
+    if (options_.progress) options_.progress((parts_done_ + share) / parts, what);
   }
 
   // Takes what keeps its promise and saves time.
   void offer(Plan leaner, JointSolver solver, double promise, const std::string& what) {
     promise = std::max(promise, resolution);
     if (promise > budget_) return;
-    const Comparison run = compared(lean_.plan, lean_.solver, leaner, solver);
+    const Comparison run = compared(lean_.plan, lean_.solver, leaner, solver, what);
     const LeftOut item{what, promise, run.error, run.time_saved};
-    if (run.error > promise || run.time_saved <= 0) {
+    if (run.error > promise || run.saved_at_least <= 0) {
       lean_.kept.push_back(item);
       return;
     }
@@ -221,7 +227,9 @@ class Leaner {
       return merged(plan_, fused);
     };
     double promise = 0;
-    while (next != good) {
+    const double rounds = std::log2(static_cast<double>(order.size()) + 1) + 1;
+    for (int round = 0; next != good; ++round) {
+      tell(std::min(1., round / rounds), "what may be merged");
       const std::vector<double> promised = promises(full_, with(next));
       for (std::size_t s = 0; s < quiet_.size(); ++s) {
         if (next[s] == good[s]) continue;
@@ -314,6 +322,7 @@ class Leaner {
   std::vector<double> size_;    // m, of structures
   std::vector<Judged> judged_;  // by Plan::joints
   double budget_ = 0;
+  int parts_done_ = 0;  // of run()
   LeanPlan lean_;
 };
 

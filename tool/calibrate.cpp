@@ -12,6 +12,7 @@
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/picture.h"
+#include "progress.h"
 
 namespace ductile::tool {
 namespace {
@@ -174,6 +175,8 @@ std::string run(const Options& options) {
                            "leave one of them out, or use --to json"}});
     LeaveOut leaving = options.leaving;
     leaving.tolerance = *options.leave_out;
+    Progress progress;
+    leaving.progress = [&](double share, const std::string& what) { progress.show(share, what); };
     LeanPlan lean = in_file(options.scene, [&] { return leave_out(plan, leaving); });
     left_out = left_out_table(lean, plan);
     plan = std::move(lean.plan);

@@ -10,6 +10,8 @@
 // program that links this is under the GPL-3. What a game links (section, joint, calibrate) needs neither.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "ductile/calibrate.h"
@@ -62,14 +64,16 @@ struct LeaveOut {
   double impact = 0;        ///< J that may hit a structure beside what is loose in the scene
   double seconds = 0;  ///< of the runs that confirm it; 0: 5 s more than until all loads have come and gone
   Stepping stepping = {};
+  std::function<void(double share, const std::string& what)> progress = {};  ///< told now and then
 };
 
 /// A plan that does without what its scene does not need, and what to run it with.
 struct LeanPlan {
   Plan plan;  ///< with Plan::left_out
   JointSolver solver = JointSolver::direct;
-  LeftOut all;                ///< the whole against the plan as it was
-  std::vector<LeftOut> kept;  ///< tried, and not left out: the run showed more error, or saved no time
+  LeftOut all;  ///< the whole against the plan as it was
+  std::vector<LeftOut>
+      kept;  ///< tried, and not left out: the run showed more error, or did not surely save time
 };
 
 /// Merges pieces whose joints nothing in the scene can bring to yield, makes rows rigid whose elasticity is
