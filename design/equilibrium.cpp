@@ -43,7 +43,7 @@ struct Equilibrium::Factors {
     qr.compute(A);
     L = qr.matrixR().topLeftCorner(qr.rank(), qr.rank()).transpose();
   }
-  // L⁻¹ Pᵀ f. Skips what comes before f's first entry.
+  // L⁻¹ Pᵀ f. Eigen passes over the columns of L whose unknown is 0.
   VectorXd forward(const VectorXd& f) const {
     const VectorXd permuted = qr.colsPermutation().transpose() * f;
     return L.triangularView<Eigen::Lower>().solve(permuted.head(L.cols()));
@@ -202,7 +202,9 @@ VectorXd Equilibrium::motions(const VectorXd& f) const {
   return qr.colsPermutation() * x;
 }
 
-double Equilibrium::flexibility(const VectorXd& c) const { return factors_->forward(c).squaredNorm(); }
+double Equilibrium::flexibility(const Eigen::SparseVector<double>& c) const {
+  return factors_->forward(c).squaredNorm();
+}
 
 VectorXd Equilibrium::balanced(const VectorXd& f) const {
   const VectorXd kept = B.transpose() * forces(f);

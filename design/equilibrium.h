@@ -49,7 +49,7 @@ class Equilibrium {
   /// Motions x with Bᵀ k B x = f; 0 in the directions of a mechanism.
   Eigen::VectorXd motions(const Eigen::VectorXd& f) const;
   /// cᵀ x of those motions for f = c: what a functional c of the motion gives way to a unit load on it.
-  double flexibility(const Eigen::VectorXd& c) const;
+  double flexibility(const Eigen::SparseVector<double>& c) const;
   /// f without what would drive a mechanism. Throws InvalidInput, naming the piece, where that is more than
   /// rounding: 1e-6 of the load on it.
   Eigen::VectorXd balanced(const Eigen::VectorXd& f) const;

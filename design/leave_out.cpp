@@ -109,8 +109,10 @@ class Leaner {
         quiet_[index(s)] = false;
     }
     const bool any_loud = std::find(quiet_.begin(), quiet_.end(), false) != quiet_.end();
-    // Where only one structure is there, its collapse bounds what it carries.
-    if (any_loud && quiet_.size() == 1) at_most_ = std::min(1., limit_analysis(plan_).load_factor);
+    // Where only one structure is there, its collapse bounds what it carries; where nothing yields at rest,
+    // it does not collapse.
+    if (any_loud && quiet_.size() == 1 && static_check(plan_).reserve < 1)
+      at_most_ = std::min(1., limit_analysis(plan_).load_factor);
   }
 
   struct Judged {

@@ -11,10 +11,11 @@
 namespace ductile {
 
 using Eigen::Index;
+using Eigen::SparseVector;
 using Eigen::VectorXd;
 
 Response::Response(const Plan& plan, double impact)
-    : plan_(plan), statics_(plan), impact_(impact + energy_around(plan, statics_.loose)) {
+    : plan_(plan), statics_(plan), rows_(statics_.B), impact_(impact + energy_around(plan, statics_.loose)) {
   find_structures();
   leverage_ = VectorXd::Constant(statics_.B.rows(), -1);
   double energy = impact_;  // a structure that is thrown is not bounded
@@ -108,20 +109,23 @@ double Response::force(int row) const {
   if (swing_[static_cast<std::size_t>(structure)] == unlimited) return unlimited;
   double& h = leverage_[row];
   if (h < 0) {
-    const VectorXd b = statics_.B.row(row).transpose();
-    h = std::min(k * statics_.flexibility(b), 1.0);
+    h = std::min(k * statics_.flexibility(rows_.row(row).transpose()), 1.0);
   }
   return rest(row) + swing_[static_cast<std::size_t>(structure)] * std::sqrt(k * h);
 }
 
-VectorXd Response::functional(int piece, Point at, bool along_y) const {
-  VectorXd c = VectorXd::Zero(statics_.B.cols());
+SparseVector<double> Response::functional(int piece, Point at, bool along_y) const {
+  SparseVector<double> c(statics_.B.cols());
+  const int column = statics_.column[static_cast<std::size_t>(piece)];
+  if (column < 0) return c;
   const Point arm = at - plan_.carrier(piece).center;
-  statics_.add(c, piece, along_y ? Point{0, 1} : Point{1, 0}, along_y ? arm.x : -arm.y);
+  const auto s = statics_.scale(piece);
+  c.insert(column + along_y) = s[along_y];
+  c.insert(column + 2) = s[2] * (along_y ? arm.x : -arm.y);
   return c;
 }
 
-double Response::swing(const VectorXd& c, int piece) const {
+double Response::swing(const SparseVector<double>& c, int piece) const {
   const int s = structure_[static_cast<std::size_t>(piece)];
   return s < 0 ? 0 : swing_[static_cast<std::size_t>(s)] * std::sqrt(statics_.flexibility(c));
 }
@@ -129,8 +133,8 @@ double Response::swing(const VectorXd& c, int piece) const {
 double Response::apart(const Response* lean, int piece, Point at) const {
   double square = 0;
   for (const bool along_y : {false, true}) {
-    const VectorXd c = functional(piece, at, along_y);
-    const VectorXd d = lean ? lean->functional(piece, at, along_y) : VectorXd();
+    const SparseVector<double> c = functional(piece, at, along_y);
+    const SparseVector<double> d = lean ? lean->functional(piece, at, along_y) : SparseVector<double>();
     double low = 0, high = 0;
     for (std::size_t i = 0; i < answers_.size(); ++i) {
       const double value = c.dot(answers_[i].motion) - (lean ? d.dot(lean->answers_[i].motion) : 0);

@@ -50,11 +50,12 @@ class Response {
   void add(const Eigen::VectorXd& f, double ramp, bool ends);
   void lean();
   /// The displacement of a point along x or y, as a functional of the motion.
-  Eigen::VectorXd functional(int piece, Point at, bool along_y) const;
-  double swing(const Eigen::VectorXd& functional, int piece) const;
+  Eigen::SparseVector<double> functional(int piece, Point at, bool along_y) const;
+  double swing(const Eigen::SparseVector<double>& functional, int piece) const;
 
   const Plan& plan_;
   Equilibrium statics_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // of its B
   double impact_;
   std::vector<int> structure_;        // of pieces
   std::vector<int> of_column_;        // structure of each column of B
