@@ -29,16 +29,14 @@ Result run_leaving_out(const Context& context) {
                 .floor = 1e-9};
   int kept_promises = 0, items = 0;
   std::vector<SceneEntry> scenes(std::begin(scene_list), std::end(scene_list));
-  // Its 2085 joints take minutes, item by item; it stands as the smaller frame does.
-  std::erase_if(scenes, [](auto& s) { return s.name == "frame_large"; });
   if (context.quick)
     std::erase_if(scenes, [](auto& s) { return s.name != "cantilever" && s.name != "B2-1"; });
   double done = 0;
   for (const SceneEntry& entry : scenes) {
     const Plan plan = calibrate(
         read_scene(std::filesystem::path(DUCTILE_SCENES) / fmt::format("{}.scene.json", entry.name)));
-    const LeanPlan lean = leave_out(plan, {.seconds = std::min(entry.seconds, context.quick ? 1. : 2.),
-                                           .stepping = {.dt = 1 / entry.hz}});
+    const LeanPlan lean =
+        leave_out(plan, {.seconds = context.quick ? 1. : entry.seconds, .stepping = {.dt = 1 / entry.hz}});
     const auto add = [&](const std::string& what, const LeftOut& item) {
       table.rows.push_back({entry.name, what, item.error, item.measured, item.time_saved});
     };
@@ -47,8 +45,11 @@ Result run_leaving_out(const Context& context) {
       ++items;
       kept_promises += item.measured <= item.error ? 1 : 0;
     }
-
-    add("all together", lean.all);
+    add(lean.plan.left_out.empty() ? "nothing" : "all together", lean.all);
+    for (const LeftOut& item : lean.kept)
+      add(item.what +
+              (item.measured > item.error ? " (kept: more error)" : " (kept: no time is surely saved)"),
+          item);
     figure.series.push_back({.name = std::string(entry.name),
                              .look = entry.outcome == Outcome::stands  ? "stands"
                                      : entry.outcome == Outcome::bends ? "bends"
@@ -68,7 +69,8 @@ Result run_leaving_out(const Context& context) {
       "are alone. Each item "
       "comes with the displacement error that it may bring, is run with and without, and stays out only "
       "where the run shows no "
-      "more, and saves time. Colours: what becomes of the scene (stands, bends, breaks)."};
+      "more, and is 98 % sure to save time. The table names what was tried and kept, too. Colours: what "
+      "becomes of the scene (stands, bends, breaks)."};
   result.claims = {{"What was left out brings no more error than promised",
                     fmt::format("{} of {} items", kept_promises, items), kept_promises == items}};
   result.figures = {std::move(figure)};
