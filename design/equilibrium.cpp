@@ -207,7 +207,7 @@ double Equilibrium::flexibility(const Eigen::SparseVector<double>& c) const {
 }
 
 VectorXd Equilibrium::balanced(const VectorXd& f) const {
-  const VectorXd kept = B.transpose() * forces(f);
+  VectorXd kept = B.transpose() * forces(f);
   Index worst = 0;
   const double rest = (f - kept).cwiseAbs().maxCoeff(&worst);
   if (rest > 1e-6 * f.cwiseAbs().maxCoeff()) {

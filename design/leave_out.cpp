@@ -80,7 +80,7 @@ class Leaner {
   std::array<double, 3> forces(int joint, const Yield& yield, const Force& force) const {
     std::array<double, 3> result{};
     for (const Row row : {axial, shear, rotation})
-      if (!yield.is_free(row)) result[row] = force(3 * joint + row);
+      if (!yield.is_free(row)) result[index(row)] = force(3 * joint + row);
     return result;
   }
 
@@ -135,9 +135,8 @@ class Leaner {
     });
     double bends = 0;
     for (const Row row : {axial, shear, rotation})
-      if (force[row] > 0)
-        bends +=
-            force[row] / full_.statics().stiffness()[3 * i + row] * (row == rotation ? size_[index(s)] : 1);
+      if (const double f = force[index(row)]; f > 0)
+        bends += f / full_.statics().stiffness()[3 * i + row] * (row == rotation ? size_[index(s)] : 1);
     const auto is_driven = [&](int piece) {
       return piece >= 0 &&
              plan_.bodies[index(plan_.pieces[index(piece)].body)].type == BodyType::kinematic_body;
@@ -273,7 +272,8 @@ class Leaner {
       joint.stiffness.N = joint.stiffness.Q = unlimited;
     }
     if (rows == 0) return;
-    const std::vector<double> promised = promises(*response_of(lean_.plan), leaner);
+    const std::unique_ptr<Response> now = response_of(lean_.plan);
+    const std::vector<double> promised = promises(*now, leaner);
     offer(std::move(leaner), lean_.solver, *std::max_element(promised.begin(), promised.end()),
           std::to_string(rows) + " rows rigid that would stretch or shear");
   }

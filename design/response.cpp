@@ -67,7 +67,7 @@ void Response::find_structures() {
     int& own = number[groups.of(i)];
     if (own < 0) own = count++;
     structure_[i] = own;
-    for (int c = 0; c < 3; ++c) of_column_[static_cast<std::size_t>(statics_.column[i] + c)] = own;
+    std::fill_n(of_column_.begin() + statics_.column[i], 3, own);
   }
   swing_.resize(static_cast<std::size_t>(count));
 }
