@@ -45,11 +45,13 @@ void leaving_out(benchmark::State& state, const SceneDef& scene, double seconds_
 
 void frame(benchmark::State& state) { leaving_out(state, scene_of("frame"), 5); }
 void frame_pushed(benchmark::State& state) { leaving_out(state, scene_of("frame_pushed"), 5); }
+void frame_large(benchmark::State& state) { leaving_out(state, scene_of("frame_large"), 5); }
 void car(benchmark::State& state) { leaving_out(state, scene_of("car"), 10); }
 void crane(benchmark::State& state) { leaving_out(state, scene_of("harbour_crane"), 6); }
 void viaduct(benchmark::State& state) { leaving_out(state, scene_of("viaduct"), 5); }
 BENCHMARK(frame)->Name("leaving_out/frame")->UseManualTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(frame_pushed)->Name("leaving_out/frame_pushed")->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(frame_large)->Name("leaving_out/frame_large")->UseManualTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(car)->Name("leaving_out/car")->UseManualTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(crane)->Name("leaving_out/harbour_crane")->UseManualTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(viaduct)->Name("leaving_out/viaduct")->UseManualTime()->Unit(benchmark::kMicrosecond);
