@@ -15,9 +15,9 @@ inline Block transposed(const Block& block) {
 
 // target −= l t. Row by row, and with t nowhere else: so the compiler takes entries in pairs.
 inline void subtract_product(double* __restrict target, const double* l, const double* __restrict t) {
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const double x = l[3 * i], y = l[3 * i + 1], w = l[3 * i + 2];
-    for (int j = 0; j < 3; ++j) target[3 * i + j] -= x * t[j] + y * t[3 + j] + w * t[6 + j];
+    for (std::size_t j = 0; j < 3; ++j) target[3 * i + j] -= x * t[j] + y * t[3 + j] + w * t[6 + j];
   }
 }
 
@@ -27,6 +27,7 @@ constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>> edges) {
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(z(n) + 2 * edges.size());
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
   for (const auto& [i, j] : edges) {
     entries.emplace_back(i, j, 1.0);
@@ -97,7 +98,7 @@ void BlockLdlt::factor() {
     for (int p = 0; p < count; ++p) {
       double* l = column[p].a;
       unscaled_[z(p)] = transposed(column[p]);
-      for (int i = 0; i < 3; ++i) solve_block(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
+      for (std::size_t i = 0; i < 3; ++i) solve_block(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
       for (int q = 0; q <= p; ++q) {
         const int place = *target++;
         subtract_product(place < 0 ? diagonal_[z(-1 - place)].a : lower_[z(place)].a, l, unscaled_[z(q)].a);

@@ -131,6 +131,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   }
   const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
   std::vector<b2Body*> ordered;
+  ordered.reserve(free_bodies + others.size());
   for (const int i : order) ordered.push_back(bodies[z(i)]);
   ordered.insert(ordered.end(), others.begin(), others.end());
 

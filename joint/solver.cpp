@@ -50,7 +50,7 @@ struct JacobianRows {
 inline void add_product(Block& block, const JacobianRows& left, const JacobianRows& right) {
   const Vec3 rows[3] = {left.u.x * right.u + left.v.x * right.v, left.u.y * right.u + left.v.y * right.v,
                         left.u.w * right.u + left.v.w * right.v + left.w.w * right.w};
-  for (int r = 0; r < 3; ++r) {
+  for (std::size_t r = 0; r < 3; ++r) {
     block.a[3 * r] += rows[r].x;
     block.a[3 * r + 1] += rows[r].y;
     block.a[3 * r + 2] += rows[r].w;

@@ -59,11 +59,11 @@ EffectiveMass effective_mass(const Solver& solver, const SolverJoint& j) {
 Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r, unsigned held, Rows x) {
   Block m{};
   Rows rhs{};
-  for (unsigned i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     m.a[4 * i] = 1;
     if ((held >> i & 1u) == 0) continue;
     rhs[i] = r[i];
-    for (unsigned c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < 3; ++c) {
       if ((held >> c & 1u) != 0) {
         m.a[3 * i + c] = k[i][c] + (i == c ? compliance[i] : 0);
       } else {
@@ -73,7 +73,7 @@ Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r,
   }
   factor_block(m);
   solve_block(m, rhs[0], rhs[1], rhs[2]);
-  for (unsigned i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     if ((held >> i & 1u) != 0) x[i] = rhs[i];
   }
   return x;

@@ -14,6 +14,7 @@ namespace {
   char line[300];
   std::va_list values;
   va_start(values, format);
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start() has
   std::vsnprintf(line, sizeof line, format, values);
   va_end(values);
   return line;
