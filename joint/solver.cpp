@@ -142,7 +142,7 @@ void Solver::set_law(SolverJoint& j) const {
     if (h_ * h_ * k < elastic_ratio * j.m_eff[i]) {
       c = std::min(2 * j.damping_ratio[i] * std::sqrt(k * j.m_eff[i]), (limit - h_ * h_ * k) / h_);
     } else {
-      k = limit / (h_ * h_);
+      k = (softened_ && j.surface != nullptr ? soft_ratio * j.m_eff[i] : limit) / (h_ * h_);
     }
     const double G = h_ * h_ * k + h_ * c;
     j.spring[i] = k;
@@ -162,6 +162,7 @@ void Solver::set_law(SolverJoint& j) const {
 void Solver::begin(double h) {
   newton_ = false;
   slowed_ = 1;
+  if (softened_ && !flows_) softened_ = laws_set_ = false;
   const bool changed = h != h_ || !laws_set_;
   if (changed) factored_ = false;
   laws_set_ = true;
@@ -173,7 +174,7 @@ void Solver::begin(double h) {
   drift_time_ = std::max(h, drift_time_ - h);
   for (SolverJoint& j : joints) {
     Rows strain{};
-    if (changed || share < 1) strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
+    if (changed || share < 1 || j.surface != nullptr) strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
     if (changed) {
       // A rigid row's spring goes with the step, and keeps its force. One that was edited keeps its force
       // where it became stiffer, its strain where it became softer: no energy comes of it.
@@ -193,6 +194,26 @@ void Solver::begin(double h) {
       double e = j.gap[i] - j.neutral[i];
       if (share < 1) e = strain[i] + share * (e - strain[i]);
       j.law.bias[i] = j.relaxation[i] * e;
+    }
+    gaps_[static_cast<std::size_t>(&j - joints.data())] = strain;  // for soften()
+  }
+}
+
+// Rigid rows of joints with a yield surface keep their forces, and lose stiffness until nothing flows any
+// more.
+void Solver::soften() {
+  softened_ = true;
+  factored_ = false;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    SolverJoint& j = joints[k];
+    if (j.surface == nullptr) continue;
+    const Rows spring = j.spring;
+    set_law(j);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!(j.spring[i] < spring[i])) continue;
+      const double more = gaps_[k][i] * (spring[i] / j.spring[i] - 1);
+      j.neutral[i] -= more;
+      j.law.bias[i] += j.relaxation[i] * more;
     }
   }
 }
@@ -310,7 +331,8 @@ void Solver::factor_holding() {
   for (SolverJoint& j : joints) {
     for (unsigned i = 0; i < 3; ++i) {
       const bool holds = j.law.G[i] > 0 && !flows(j.piece, i);
-      const double stiff = !holds ? 0 : is_rigid(j, i) ? j.law.G[i] : rigid_ratio * j.m_eff[i];
+      const bool stiffest = is_rigid(j, i) && !softened_;
+      const double stiff = !holds ? 0 : stiffest ? j.law.G[i] : rigid_ratio * j.m_eff[i];
       at_hand &= j.slope[i] == stiff;
       j.slope[i] = stiff;
     }
@@ -462,6 +484,10 @@ bool Solver::solve(SolveReport& report) {
       norm = evaluate();
       smoothed = true;
       searched = conjugate = false;
+    }
+    if (round == soften_round && curved_ && !softened_) {
+      soften();
+      norm = evaluate();
     }
     if (!factored_ || holding_ || searched || curved_ ||
         (stale && (expected - 1) * round_work > factor_work)) {

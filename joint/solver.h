@@ -106,6 +106,10 @@ class Solver {
   /// size, any E and any dt. Below 1e8 a rigid cantilever of 80 pieces is soft enough to overshoot and flow
   /// at 0.999 of its cap when gravity sets in at once; at 1e10 nothing is lost yet in double precision.
   static constexpr double rigid_ratio = 1e9;
+  /// The facet of a yield surface that a joint flows on is a needle of width 1/κ among the directions of
+  /// flow. Where so many rounds have not found it, those that follow look for one that is wide enough.
+  static constexpr int soften_round = 20;
+  static constexpr double soft_ratio = 1e5;
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   static constexpr double tolerance = 1e-8;
   /// Rows that are stiffer than so many m_eff/h² are taken as rigid.
@@ -178,6 +182,7 @@ class Solver {
  private:
   void locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint) const;
+  void soften();
   void factor_tangents();
   void factor_holding();
   void factor();
@@ -209,6 +214,7 @@ class Solver {
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
+  bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round

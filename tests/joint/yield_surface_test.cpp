@@ -176,5 +176,22 @@ TEST(YieldSurface, AxialForceLowersTheMomentThatTheRootCarries) {
   }
 }
 
+// Rigid joints, all of them on their surfaces by and by.
+TEST(YieldSurface, ACollapsingChainIsSolvedInTime) {
+  Beam beam({.pieces = 6, .length = 6, .height = 0.5, .density = 1000});
+  const double M = 0.75 * beam.mass() * 10 * 3, N = 4 * M / 0.5;
+  for (ElasticPlasticJoint*& j : beam.joints) {
+    ElasticPlasticJointDef def;
+    def.Initialize(j->GetBodyA(), j->GetBodyB(), j->GetAnchorA(), {1, 0});
+    def.rows[shear].cap = def.rows[shear].cap_reverse = N / 2;
+    def.interaction = rectangle(N, M, 16);
+    beam.world.DestroyJoint(j);
+    j = beam.structure.create_joint(def);
+  }
+  beam.run(5);
+  EXPECT_EQ(beam.bounds_hit, 0);
+  EXPECT_GT(beam.joints[0]->accumulated_rotation(), 0.5);
+}
+
 }  // namespace
 }  // namespace ductile
