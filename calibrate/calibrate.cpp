@@ -460,31 +460,94 @@ class Planner {
     });
     const BodyDef& body = plan_.bodies[index];
     const std::array overriding{Overriding{"body", &body.joint}, Overriding{"scene", &scene_.joint}};
-    for (std::size_t k = 0, repeat = 0; k < intervals.size(); ++k) {
+    std::vector<Touch> touches;
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
       const Interval& i = intervals[k];
-      repeat = k > 0 && intervals[k - 1].left == i.left && intervals[k - 1].right == i.right ? repeat + 1 : 0;
-      add_joint(first + i.left, first + i.right, place(i.from), place(i.to), repeat, overriding,
-                lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]);
+      touches.push_back(
+          {place(i.from), place(i.to), lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]});
+      if (k + 1 < intervals.size() && intervals[k + 1].left == i.left && intervals[k + 1].right == i.right)
+        continue;
+      add_joints(first + i.left, first + i.right, touches, overriding);
+      touches.clear();
     }
   }
 
-  // Along an interval that has piece a on its left and piece b on its right; `reach` is ℓ where it is known.
-  void add_joint(int a, int b, Point from, Point to, std::size_t repeat,
-                 std::span<const Overriding> overriding, double reach = 0) {
+  // An interval that has piece a on its left and piece b on its right; `reach` is ℓ where it is known.
+  struct Touch {
+    Point from, to;
+    double reach = 0;
+  };
+
+  static bool in_line(const Touch& a, const Touch& b) {
+    const Point u = unit(a.to - a.from);
+    const double least = 1e-6 * length(b.to - a.from);
+    return std::abs(cross(u, b.from - a.from)) <= least && std::abs(cross(u, b.to - a.from)) <= least &&
+           dot(u, b.to - b.from) > 0;
+  }
+
+  // All intervals of two pieces. Both are rigid, so that plane sections across several in line stay plane: as
+  // one joint they are exact. As one each they may break one by one, but each has its own caps, which
+  // together bear more moment than the section.
+  void add_joints(int a, int b, std::span<Touch> touches, std::span<const Overriding> overriding) {
+    if (touches.size() == 1) return add_joint(a, b, touches, 0, overriding, {});
+    bool profile = false, combine = false;
+    for (const int piece : {a, b}) profile |= !plan_.bodies[plan_.pieces[piece].body].profile.empty();
+    for (std::size_t i = overriding.size(); i-- > 0;)
+      combine = overriding[i].values->combine.value_or(combine);
+    std::size_t repeat = 0;
+    for (std::size_t first = 0, last; first < touches.size(); first = last) {
+      const auto end =
+          std::stable_partition(touches.begin() + static_cast<std::ptrdiff_t>(first) + 1, touches.end(),
+                                [&](const Touch& t) { return in_line(touches[first], t); });
+      last = static_cast<std::size_t>(end - touches.begin());
+      const auto own = touches.subspan(first, last - first);
+      const int n = static_cast<int>(own.size());
+      if (combine && !profile && n > 1) {
+        add_joint(a, b, own, repeat++, overriding, {n, " intervals in line make one section: combine"});
+        continue;
+      }
+      for (const Touch& touch : own)
+        add_joint(a, b, {&touch, 1}, repeat++, overriding,
+                  {n, profile ? " intervals in line, each a profile" : " intervals in line, each a joint"});
+    }
+  }
+
+  // Across one interval, or several in line.
+  void add_joint(int a, int b, std::span<const Touch> touches, std::size_t repeat,
+                 std::span<const Overriding> overriding, const Sharing& sharing) {
     PlannedJoint& joint = plan_.joints.emplace_back();
     joint.a = a;
     joint.b = b;
     joint.name.reserve(plan_.pieces[a].name.size() + plan_.pieces[b].name.size() + 1);
     joint.name.append(plan_.pieces[a].name).append(1, '-').append(plan_.pieces[b].name);
     if (repeat > 0) joint.name += '#' + std::to_string(repeat);
+    Point from = touches.front().from, to = touches.front().to;
     joint.anchor = middle(from, to);
-    joint.axis = right(unit(to - from));
+    const Point u = unit(to - from);
+    joint.axis = right(u);
+    if (touches.size() > 1) {
+      double sum = 0, moment = 0;
+      const Point origin = joint.anchor;
+      for (const Touch& t : touches) {
+        const double own = length(t.to - t.from);
+        sum += own;
+        moment += own * dot(middle(t.from, t.to) - origin, u);
+        if (dot(t.from - from, u) < 0) from = t.from;
+        if (dot(t.to - to, u) > 0) to = t.to;
+      }
+      joint.anchor = origin + (moment / sum) * u;
+      for (const Touch& t : touches)
+        joint.intervals.push_back({dot(t.from - joint.anchor, u), dot(t.to - joint.anchor, u)});
+      std::sort(joint.intervals.begin(), joint.intervals.end());
+    }
     const double height = joint.height = length(to - from);
     // A section's moment goes with its height squared, which is the difference of two coordinates.
     const double coordinate = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
-    if (!(height > thinnest_section * coordinate)) {
+    double thinnest = height;
+    for (const auto& [low, high] : joint.intervals) thinnest = std::min(thinnest, high - low);
+    if (!(thinnest > thinnest_section * coordinate)) {
       problems_.push_back({"joint '" + joint.name + "' at " + to_string(joint.anchor),
-                           "is " + to_string(height) + " m high, less than " + to_string(thinnest_section) +
+                           "is " + to_string(thinnest) + " m high, less than " + to_string(thinnest_section) +
                                " of its coordinates, which is too thin to compute with",
                            "draw the body thicker there or nearer to the origin, or cut it elsewhere"});
       return;
@@ -501,10 +564,11 @@ class Planner {
       if (inside) break;
     }
     if (inside) {  // one section, and both pieces give
+      const double reach = touches.front().reach;
       sides[0].reach = reach > 0 ? reach : sides[0].reach + sides[1].reach;
       sides[1].strip = nullptr;
     }
-    caps_.fill_in(joint, height, sides, overriding);
+    caps_.fill_in(joint, sides, overriding, sharing);
   }
 
   Side side(int index, const PlannedJoint& joint, Point outward, bool inside) {
@@ -539,9 +603,9 @@ class Planner {
       for (int j = b; j < b_end; ++j) {
         const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
         if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
-        std::size_t repeat = 0;
-        for (const Contact& c : touching(one.outline, two.outline, gap))
-          add_joint(i, j, c.from, c.to, repeat++, overriding);
+        std::vector<Touch> touches;
+        for (const Contact& c : touching(one.outline, two.outline, gap)) touches.push_back({c.from, c.to});
+        if (!touches.empty()) add_joints(i, j, touches, overriding);
       }
     if (plan_.joints.size() == before)
       problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
@@ -651,7 +715,7 @@ std::optional<Section> section_at(const Plan& plan, const PlannedJoint& joint, i
   const Strip strip(body);
   if (!strip.has_material()) return std::nullopt;
   const bool inside = joint.a >= 0 && plan.pieces[joint.a].body == plan.pieces[joint.b].body;
-  return strip.section(joint.height, !inside && dot(joint.axis, strip_direction(body)) < 0);
+  return strip.section(joint, !inside && dot(joint.axis, strip_direction(body)) < 0);
 }
 
 }  // namespace ductile

@@ -52,8 +52,8 @@ double effective(double a, double b) { return a > 0 && b > 0 ? a * b / (a + b) :
 
 }  // namespace
 
-void Caps::fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
-                   std::span<const Overriding> overriding) {
+void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
+                   std::span<const Overriding> overriding, const Sharing& sharing) {
   // Overrides that apply to several quantities, the innermost level last so that it wins.
   std::optional<double> hinge_length, damping;
   std::optional<bool> hold;
@@ -69,14 +69,13 @@ void Caps::fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>
 
   // The weaker side governs each cap; compliances add up.
   Values v;
-  joint.height = height;
   joint.hold = hold.value_or(false);
-  joint.hinge_length = hinge_length.value_or(height);
+  joint.hinge_length = hinge_length.value_or(joint.height);
   double along = 0, across = 0, bending = 0, zeta = unlimited;
   for (int i = 0; i < 2; ++i) {
     const Side& side = sides[i];
     if (!side.strip) continue;
-    const Strength s = side.strip->at(height, side.reversed);
+    const Strength s = side.strip->at(joint, side.reversed);
     v.weaken(N, s.N, i);
     v.weaken(Nc, s.Nc, i);
     v.weaken(Q, s.Q, i);
@@ -147,7 +146,8 @@ void Caps::fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>
   joint.max_compression = v.value[max_compression];
   joint.max_slip = v.value[max_slip];
 
-  const Governed governed{v.source, stiffness, {sides[0].body, sides[1].body}, overriding.front().name};
+  const Governed governed{
+      v.source, stiffness, {sides[0].body, sides[1].body}, overriding.front().name, sharing};
   if (!(governed == last_)) {
     last_ = governed;
     last_reason_ = reason(text(governed, overriding));
@@ -180,7 +180,10 @@ std::string Caps::text(const Governed& governed, std::span<const Overriding> ove
       text.append(q <= M_reverse ? "section of " : "fracture strain of ").append(*governed.bodies[source]);
     text += "; ";
   }
-  return text + "stiffness: " + governed.stiffness;
+  text.append("stiffness: ").append(governed.stiffness);
+  if (governed.sharing.intervals > 1)
+    text.append("; ").append(std::to_string(governed.sharing.intervals)).append(governed.sharing.how);
+  return text;
 }
 
 }  // namespace ductile

@@ -18,6 +18,13 @@ struct Side {
   double inertia = 0;  ///< kg m² of the piece about its centre
 };
 
+/// Of the intervals in line along which two pieces touch.
+struct Sharing {
+  int intervals = 1;
+  const char* how = nullptr;  ///< said of more than one: what they are, and why
+  friend bool operator==(const Sharing&, const Sharing&) = default;
+};
+
 /// A user's word, and whose it is: "joint", "body", "scene".
 struct Overriding {
   const char* name;
@@ -34,9 +41,9 @@ class Caps {
   /// The number of a reason, new or not.
   int reason(const std::string& text);
 
-  /// `height` is the length of the interval; the first of `overriding` that sets a value wins.
-  void fill_in(PlannedJoint& joint, double height, const std::array<Side, 2>& sides,
-               std::span<const Overriding> overriding);
+  /// The joint has its height and intervals; the first of `overriding` that sets a value wins.
+  void fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides, std::span<const Overriding> overriding,
+               const Sharing& sharing);
 
  private:
   // What a reason says. Most joints have that of the one before.
@@ -45,6 +52,7 @@ class Caps {
     const char* stiffness = nullptr;
     std::array<const std::string*, 2> bodies{};
     const char* innermost = nullptr;
+    Sharing sharing;
     friend bool operator==(const Governed&, const Governed&) = default;
   };
   static std::string text(const Governed& governed, std::span<const Overriding> overriding);

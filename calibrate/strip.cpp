@@ -34,6 +34,23 @@ Strength rectangle(double b, double h, const Material& m) {
           .height = h};
 }
 
+// The same of any section.
+Strength of(const Section& section) {
+  const Capacities c = section.capacities(tension_side);
+  const Elastic e = section.elastic(tension_side);
+  const auto [low, high] = section.extent(tension_side);
+  return {.N = c.N,
+          .Nc = c.Nc,
+          .Q = c.Q,
+          .M = c.M,
+          .M_reverse = c.M_reverse,
+          .EA = e.EA,
+          .GA = shear_stiffness(e.EA),
+          .EI = e.EI,
+          .farther = std::max({c.pna - low, high - c.pna, c.pna_reverse - low, high - c.pna_reverse}),
+          .height = high - low};
+}
+
 Ring moved(const Ring& ring, Point by, bool mirrored) {
   Ring result;
   result.reserve(ring.size());
@@ -63,19 +80,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
 
   const Section as_given(body.profile);
   profile_.emplace(moved(body.profile, -as_given.centroid()));
-  const Capacities c = profile_->capacities(tension_side);
-  const Elastic e = profile_->elastic(tension_side);
-  const auto [low, high] = profile_->extent(tension_side);
-  of_profile_ = {.N = c.N,
-                 .Nc = c.Nc,
-                 .Q = c.Q,
-                 .M = c.M,
-                 .M_reverse = c.M_reverse,
-                 .EA = e.EA,
-                 .GA = shear_stiffness(e.EA),
-                 .EI = e.EI,
-                 .farther = std::max({c.pna - low, high - c.pna, c.pna_reverse - low, high - c.pna_reverse}),
-                 .height = high - low};
+  of_profile_ = of(*profile_);
 
   double mass = 0, inertia = 0;  // per metre of the strip, about the centroid, in the plane of the scene
   fracture_strain_ = unlimited;
@@ -94,17 +99,24 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   excess_inertia_per_area_ = (inertia - mass * h * h / 12) / h;
 }
 
-Strength Strip::at(double height, bool reversed) const {
-  if (!profile_) return rectangle(body_->depth, height, *body_->material);
+Strength Strip::at(const PlannedJoint& joint, bool reversed) const {
+  if (!joint.intervals.empty()) return of(section(joint));
+  if (!profile_) return rectangle(body_->depth, joint.height, *body_->material);
   Strength result = of_profile_;
   if (reversed) std::swap(result.M, result.M_reverse);
   return result;
 }
 
-Section Strip::section(double height, bool reversed) const {
+Section Strip::section(const PlannedJoint& joint, bool reversed) const {
   if (profile_) return reversed ? Section(moved(profile_->regions(), {}, true)) : *profile_;
-  const double x = body_->depth / 2, y = height / 2;
-  return Section({{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {}}, *body_->material);
+  const double x = body_->depth / 2;
+  const auto stretch = [&](double from, double to) {
+    return Region{{{{-x, from}, {x, from}, {x, to}, {-x, to}}, {}}, *body_->material};
+  };
+  if (joint.intervals.empty()) return Section(std::array{stretch(-joint.height / 2, joint.height / 2)});
+  std::vector<Region> regions;
+  for (const auto& [from, to] : joint.intervals) regions.push_back(stretch(from, to));
+  return Section(regions);
 }
 
 std::optional<double> Strip::profile_height() const {

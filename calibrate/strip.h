@@ -26,12 +26,12 @@ class Strip {
   double fracture_strain() const { return fracture_strain_; }
   double damping_ratio() const { return damping_ratio_; }
 
-  /// Of a cut of this height; `reversed`: of a joint whose axis runs against the strip, so that what is left
-  /// of the strip is right of the axis.
-  Strength at(double height, bool reversed = false) const;
-  /// The same as a section: x out of plane, y to the left of the joint's axis, the cut's middle at the
+  /// Of a joint's cut; `reversed`: its axis runs against the strip, so that what is left of the strip is
+  /// right of the axis.
+  Strength at(const PlannedJoint& joint, bool reversed = false) const;
+  /// The same as a section: x out of plane, y to the left of the joint's axis, the anchor at the
   /// origin.
-  Section section(double height, bool reversed = false) const;
+  Section section(const PlannedJoint& joint, bool reversed = false) const;
   /// m; a cut must be as high within 1 %. None without a profile: cuts may have any height.
   std::optional<double> profile_height() const;
 

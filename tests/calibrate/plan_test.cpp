@@ -242,6 +242,78 @@ TEST(Calibrate, SeveralIntervalsAreSeveralJoints) {
   EXPECT_NEAR(plan.joints[0].axis.x, 1, 1e-15);
 }
 
+// A strip b deep with a slit of height g along it, cut across: below h1 and above h2 of it are left.
+BodyDef slit(double h1, double g, double h2, double b) {
+  return {.name = "beam",
+          .outline = {rectangle(0, 0, 4, h1 + g + h2), {rectangle(1, h1, 3, h1 + g)}},
+          .material = test_steel,
+          .depth = b,
+          .cuts = {{Point{2, -1}, Point{2, 9}}}};
+}
+
+TEST(Calibrate, IntervalsInLineMayBeOneSection) {
+  constexpr double f = 350e6, E = 210e9, b = 0.2, g = 0.5;
+  SceneDef scene;
+  scene.bodies = {slit(0.3, g, 0.3, b)};
+  const Plan apart = calibrate(scene);
+  ASSERT_EQ(apart.joints.size(), 2u);
+  EXPECT_NE(reason(apart, apart.joints[0]).find("; 2 intervals in line, each a joint"), std::string::npos);
+  EXPECT_NEAR(apart.joints[1].M / (f * b * 0.3 * 0.3 / 4), 1, 1e-14);
+
+  // Each chord's whole force, as far from each other as their middles: f b h (h + g).
+  scene.bodies[0].joint.combine = true;
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.joints.size(), 1u);
+  const PlannedJoint& equal = plan.joints[0];
+  EXPECT_EQ(equal.name, "beam/0-beam/1");
+  EXPECT_NE(reason(plan, equal).find("; 2 intervals in line make one section: combine"), std::string::npos);
+  EXPECT_NEAR(equal.M / (f * b * 0.3 * (0.3 + g)), 1, 1e-14);
+  EXPECT_NEAR(equal.N / (f * b * 0.6), 1, 1e-14);
+  EXPECT_NEAR(equal.Q / (0.5 * f * b * 0.6), 1, 1e-14);
+  EXPECT_DOUBLE_EQ(equal.height, 1.1);
+  EXPECT_NEAR(equal.anchor.x, 2, 1e-15);
+  EXPECT_NEAR(equal.anchor.y, 0.55, 1e-15);
+  EXPECT_NEAR(equal.stiffness.M / (E * b * (1.1 * 1.1 * 1.1 - g * g * g) / 12 / 2), 1, 1e-14);  // ℓ = 2 m
+  EXPECT_NEAR(equal.max_rotation / (0.2 * 1.1 / 0.55), 1, 1e-14);  // the neutral axis is in the slit
+
+  // Unequal ones: the neutral axis halves the area, c up in the thicker chord.
+  constexpr double h1 = 0.4, h2 = 0.2, c = (h1 + h2) / 2;
+  for (const bool upside_down : {false, true}) {
+    scene.bodies[0] = upside_down ? slit(h2, g, h1, b) : slit(h1, g, h2, b);
+    scene.bodies[0].joint.combine = true;
+    const PlannedJoint unequal = calibrate(scene).joints.at(0);
+    const double Z = c * c / 2 + (h1 - c) * (h1 - c) / 2 + h2 * (h1 - c + g + h2 / 2);
+    EXPECT_NEAR(unequal.M / (f * b * Z), 1, 1e-13);
+    EXPECT_NEAR(unequal.M_reverse / (f * b * Z), 1, 1e-13);
+    const double centroid = (h1 * h1 / 2 + h2 * (h1 + g + h2 / 2)) / (h1 + h2);
+    EXPECT_NEAR(unequal.anchor.y, upside_down ? 1.1 - centroid : centroid, 1e-14);
+    const Plan both = calibrate(scene);
+    EXPECT_NEAR(section_at(both, unequal, 0)->capacities({0, -1}).M / unequal.M, 1, 1e-13);
+  }
+}
+
+// Two feet on one floor; a profile is one interval by its nature.
+TEST(Calibrate, IntervalsOfTwoBodiesMayBeOneSection) {
+  SceneDef scene;
+  const Ring legs{{0, 0}, {1, 0}, {1, 2}, {3, 2}, {3, 0}, {4, 0}, {4, 3}, {0, 3}};
+  scene.bodies = {{.name = "floor", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 5, 0), {}}},
+                  {.name = "table", .outline = {legs, {}}, .material = test_steel, .depth = 0.1}};
+  scene.joints = {{.a = "floor", .b = "table"}};
+  ASSERT_EQ(calibrate(scene).joints.size(), 2u);
+  scene.joint.combine = true;
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.joints.size(), 1u);
+  EXPECT_NEAR(plan.joints[0].M / (350e6 * 0.1 * 1 * 3), 1, 1e-13);  // f b h times 3 m between the legs
+  scene.joints[0].overrides.combine = false;                        // the innermost word counts
+  EXPECT_EQ(calibrate(scene).joints.size(), 2u);
+  scene.joints[0].overrides.combine.reset();
+  scene.bodies[1].profile = {{{rectangle(-0.05, -0.5, 0.05, 0.5), {}}, test_steel}};
+  const Plan profiles = calibrate(scene);
+  EXPECT_EQ(profiles.joints.size(), 2u);
+  EXPECT_NE(reason(profiles, profiles.joints[0]).find("; 2 intervals in line, each a profile"),
+            std::string::npos);
+}
+
 TEST(Calibrate, DiscsWeighWhatDiscsWeigh) {
   SceneDef scene;
   scene.bodies.push_back(

@@ -93,6 +93,31 @@ TEST(LimitAnalysis, ShearRoundsTheSurface) {
   EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor * std::hypot(q, m), 1, 1e-7);
 }
 
+// A cantilever with a slit of 0.4 m between chords of 0.3 m at its root, L from the load. As one section it
+// bears f b h (h + g)/L; as one joint each, as much and each chord's own f b h²/4 on top, which no chord
+// bears that its axial force has made flow already: with the yield surface it is one section's again.
+TEST(LimitAnalysis, IntervalsInLine) {
+  constexpr double h = 0.3, g = 0.4, L = 10, f = 350e6;
+  SceneDef scene = bending_only();
+  scene.joint = {.shear = unlimited, .max_rotation = unlimited};
+  scene.bodies = {
+      wall("wall", -1, 0),
+      {.name = "beam",
+       .outline =
+           {{{0, -0.5}, {L, -0.5}, {L, 0.5}, {0, 0.5}, {0, g / 2}, {0.5, g / 2}, {0.5, -g / 2}, {0, -g / 2}},
+            {}},
+       .material = test_steel}};
+  scene.joints = {{.a = "wall", .b = "beam"}};
+  scene.loads = {{.body = "beam", .at = {L, 0}, .force = {0, -1}}};
+  const double one = f * h * (h + g) / L, own = f * h * h / 4 / L;
+  EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor / (one + 2 * own), 1, 1e-6);
+  scene.joint.combine = true;
+  EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor / one, 1, 1e-6);
+  scene.joint.combine = false;
+  scene.interaction = true;
+  EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor / one, 1, 2e-3);  // of polygons
+}
+
 TEST(LimitAnalysis, WhatHasNoAnswerSaysSo) {
   EXPECT_THROW(limit_analysis(calibrate(cantilever(2, 0))), InvalidInput) << "no load";
   SceneDef heavy = cantilever(2, P);

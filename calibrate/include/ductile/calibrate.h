@@ -40,7 +40,9 @@ struct JointOverrides {
   std::optional<double> max_rotation;   ///< rad, accumulated; unlimited: never breaks by it
   std::optional<double> max_elongation, max_compression, max_slip;  ///< m, accumulated; likewise
   std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
-  std::optional<bool> hold;  ///< keep the joint as it is where others are left out
+  std::optional<bool> combine;  ///< one joint, of the section that they make together, where two pieces touch
+                                ///< along several intervals in line (a cut across a hole); default: one each
+  std::optional<bool> hold;     ///< keep the joint as it is where others are left out
 };
 
 /// A body as drawn, before it is split.
@@ -148,8 +150,11 @@ struct PlannedJoint {
   double max_compression = unlimited, max_slip = unlimited;
   double hinge_length = 0;  ///< m
   double height = 0;        ///< m, length of the interval along which the pieces touch; 0 for supports
-  int governed_by = -1;     ///< index into Plan::reasons
-  bool hold = false;        ///< JointOverrides::hold
+  /// Of a joint that is several intervals: from and to, m to the left of the axis, from the anchor, which is
+  /// their centroid. Empty where there is one; `height` is from the first's start to the last's end.
+  std::vector<std::array<double, 2>> intervals;
+  int governed_by = -1;  ///< index into Plan::reasons
+  bool hold = false;     ///< JointOverrides::hold
 };
 
 /// What an automatic split came to.
