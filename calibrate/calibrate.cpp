@@ -165,6 +165,7 @@ class Check {
     cap(o.max_slip, "max_slip");
     if (o.damping_ratio) at_least_zero(*o.damping_ratio, place, "damping_ratio");
     if (o.hinge_length) above_zero(*o.hinge_length, place, "hinge_length");
+    if (o.shear_span) above_zero(*o.shear_span, place, "shear_span");
     if (o.elastic == Elasticity::frequency) above_zero(o.frequency, place, "frequency");
     if (o.elastic == Elasticity::elastic_rotation) {
       above_zero(o.elastic_rotation, place, "elastic_rotation");

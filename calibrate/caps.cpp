@@ -55,13 +55,14 @@ double effective(double a, double b) { return a > 0 && b > 0 ? a * b / (a + b) :
 void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
                    std::span<const Overriding> overriding, const Sharing& sharing) {
   // Overrides that apply to several quantities, the innermost level last so that it wins.
-  std::optional<double> hinge_length, damping;
+  std::optional<double> damping;
+  const Overriding* hinge = nullptr;
   std::optional<bool> hold;
   const JointOverrides* elastic = nullptr;
   int elastic_level = 0;
   for (std::size_t i = 0; i < overriding.size(); ++i) {
     const JointOverrides& o = *overriding[i].values;
-    if (!hinge_length) hinge_length = o.hinge_length;
+    if (!hinge && (o.hinge_length || o.shear_span)) hinge = &overriding[i];
     if (!damping) damping = o.damping_ratio;
     if (!hold) hold = o.hold;
     if (!elastic && o.elastic) elastic = &o, elastic_level = static_cast<int>(i);
@@ -70,7 +71,20 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
   // The weaker side governs each cap; compliances add up.
   Values v;
   joint.hold = hold.value_or(false);
-  joint.hinge_length = hinge_length.value_or(joint.height);
+  int hardening_side = -1;
+  joint.hinge_length = hinge ? hinge->values->hinge_length.value_or(unlimited) : joint.height;
+  if (joint.hinge_length == unlimited) {
+    for (int i = 0; i < 2; ++i)
+      if (const Side& side = sides[i]; side.strip)
+        if (const double own = *hinge->values->shear_span * (1 - 1 / side.strip->hardening());
+            own < joint.hinge_length)
+          joint.hinge_length = own, hardening_side = i;
+    if (!(joint.hinge_length > 0 && joint.hinge_length < unlimited)) {
+      problems_.push_back({joint.name, "a shear span without a material that hardens",
+                           "give the material an fu above its fy, or the joint a `hinge_length`"});
+      return;
+    }
+  }
   double along = 0, across = 0, bending = 0, zeta = unlimited;
   for (int i = 0; i < 2; ++i) {
     const Side& side = sides[i];
@@ -146,8 +160,13 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
   joint.max_compression = v.value[max_compression];
   joint.max_slip = v.value[max_slip];
 
-  const Governed governed{
-      v.source, stiffness, {sides[0].body, sides[1].body}, overriding.front().name, sharing};
+  const Governed governed{v.source,
+                          stiffness,
+                          {sides[0].body, sides[1].body},
+                          overriding.front().name,
+                          sharing,
+                          hinge ? hinge->name : nullptr,
+                          hardening_side};
   if (!(governed == last_)) {
     last_ = governed;
     last_reason_ = reason(text(governed, overriding));
@@ -181,6 +200,13 @@ std::string Caps::text(const Governed& governed, std::span<const Overriding> ove
     text += "; ";
   }
   text.append("stiffness: ").append(governed.stiffness);
+  if (governed.hardening_side >= 0)
+    text.append("; hinge length: hardening of ")
+        .append(*governed.bodies[governed.hardening_side])
+        .append(" over the shear span of ")
+        .append(governed.hinge);
+  else if (governed.hinge)
+    text.append("; hinge length: ").append(governed.hinge);
   if (governed.sharing.intervals > 1)
     text.append("; ").append(std::to_string(governed.sharing.intervals)).append(governed.sharing.how);
   return text;

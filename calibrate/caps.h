@@ -53,6 +53,8 @@ class Caps {
     std::array<const std::string*, 2> bodies{};
     const char* innermost = nullptr;
     Sharing sharing;
+    const char* hinge = nullptr;  // who gave its length or shear span
+    int hardening_side = -1;      // whose hardening it is made of
     friend bool operator==(const Governed&, const Governed&) = default;
   };
   static std::string text(const Governed& governed, std::span<const Overriding> overriding);

@@ -68,12 +68,15 @@ std::vector<Region> moved(std::span<const Region> regions, Point by, bool mirror
   return result;
 }
 
+double hardening(const Material& m) { return std::max(1.0, m.ultimate_stress / m.yield_stress); }
+
 }  // namespace
 
 Strip::Strip(const BodyDef& body) : body_(&body) {
   if (body.material) {
     fracture_strain_ = body.material->fracture_strain;
     damping_ratio_ = body.material->damping_ratio;
+    hardening_ = ductile::hardening(*body.material);
     mass_per_area_ = body.material->density * body.depth;
   }
   if (body.profile.empty()) return;
@@ -85,6 +88,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   double mass = 0, inertia = 0;  // per metre of the strip, about the centroid, in the plane of the scene
   fracture_strain_ = unlimited;
   damping_ratio_ = unlimited;
+  hardening_ = unlimited;
   for (const Region& region : profile_->regions()) {
     const Material& m = region.material;
     const double density = m.density > 0 ? m.density : body.material ? body.material->density : 0;
@@ -93,6 +97,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
     inertia += density * (area.yy + area.area * area.centroid.y * area.centroid.y);
     fracture_strain_ = std::min(fracture_strain_, m.fracture_strain);
     damping_ratio_ = std::min(damping_ratio_, m.damping_ratio);
+    hardening_ = std::min(hardening_, ductile::hardening(m));
   }
   const double h = of_profile_.height;
   mass_per_area_ = mass / h;

@@ -25,6 +25,7 @@ class Strip {
   bool has_material() const { return body_->material || profile_; }
   double fracture_strain() const { return fracture_strain_; }
   double damping_ratio() const { return damping_ratio_; }
+  double hardening() const { return hardening_; }  ///< f_u/f_y, of a profile the least; 1: none
 
   /// Of a joint's cut; `reversed`: its axis runs against the strip, so that what is left of the strip is
   /// right of the axis.
@@ -45,7 +46,7 @@ class Strip {
   std::optional<Section> profile_;  // its centroid at the origin
   Strength of_profile_;
   double mass_per_area_ = 0, excess_inertia_per_area_ = 0;
-  double fracture_strain_ = 0, damping_ratio_ = 0;
+  double fracture_strain_ = 0, damping_ratio_ = 0, hardening_ = 1;
 };
 
 }  // namespace ductile

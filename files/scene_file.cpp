@@ -87,7 +87,14 @@ JointOverrides read_overrides(Object& object) {
   read_limit(object, "max_elongation", overrides.max_elongation);
   read_limit(object, "max_compression", overrides.max_compression);
   read_limit(object, "max_slip", overrides.max_slip);
-  if (const auto length = object.find("hinge_length")) overrides.hinge_length = length->number(positive);
+  if (const auto length = object.find("hinge_length")) {
+    if (length->json().is_object()) {
+      Object from(*length);
+      if (const auto span = from.require("shear_span")) overrides.shear_span = span->number(positive);
+    } else {
+      overrides.hinge_length = length->number(positive);
+    }
+  }
   if (const auto combine = object.find("combine")) overrides.combine = combine->boolean();
   if (const auto hold = object.find("hold")) overrides.hold = hold->boolean();
   return overrides;

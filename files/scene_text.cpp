@@ -89,6 +89,8 @@ void put_overrides(Json& object, const JointOverrides& overrides) {
   put_limit(object, "max_compression", overrides.max_compression);
   put_limit(object, "max_slip", overrides.max_slip);
   put_limit(object, "hinge_length", overrides.hinge_length);
+  if (overrides.shear_span && !overrides.hinge_length)
+    object["hinge_length"] = {{"shear_span", *overrides.shear_span}};
   if (overrides.combine) object["combine"] = *overrides.combine;
   if (overrides.hold) object["hold"] = *overrides.hold;
 }

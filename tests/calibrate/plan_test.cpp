@@ -97,6 +97,38 @@ TEST(Calibrate, LimitsFromFractureStrainAndHingeLength) {
   EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].M, 0.5 * 350e6 * 0.75);
 }
 
+// A cantilever 20 m long whose moment falls from (f_u/f_y) M_p at its root: how far is it above M_p?
+TEST(Calibrate, HingeLengthFromHardening) {
+  SceneDef scene = cantilever(4);
+  scene.bodies[1].material->ultimate_stress = 490e6;
+  scene.bodies[1].joint.shear_span = 20;
+  scene.joints[0].overrides.shear_span = 20;
+  const double ratio = 490e6 / 350e6, M_p = 1;
+  double zone = 0;
+  for (const double dx = 1e-3; ratio * M_p * (1 - (zone + dx) / 20) > M_p;) zone += dx;
+  const Plan plan = calibrate(scene);
+  for (const PlannedJoint& j : plan.joints) {
+    EXPECT_NEAR(j.hinge_length, zone, 2e-3);
+    EXPECT_NEAR(j.hinge_length, 20 * (1 - 350.0 / 490), 1e-12);
+    EXPECT_NEAR(j.max_rotation, 0.2 * j.hinge_length / 0.5, 1e-12);  // ε_f L_p/y
+    EXPECT_NEAR(j.max_elongation, 0.2 * j.hinge_length, 1e-12);
+  }
+  const std::string why = "; hinge length: hardening of beam over the shear span of ";
+  EXPECT_NE(reason(plan, joint(plan, "wall-beam/0")).find(why + "joint"), std::string::npos);
+  EXPECT_NE(reason(plan, joint(plan, "beam/0-beam/1")).find(why + "body"), std::string::npos);
+
+  // The innermost word counts, whichever of the two it is.
+  scene.joints[0].overrides.shear_span.reset();
+  scene.joints[0].overrides.hinge_length = 0.7;
+  scene.joint.shear_span = 5;
+  const Plan given = calibrate(scene);
+  EXPECT_EQ(joint(given, "wall-beam/0").hinge_length, 0.7);
+  EXPECT_NE(reason(given, joint(given, "wall-beam/0")).find("; hinge length: joint"), std::string::npos);
+
+  scene.bodies[1].material->ultimate_stress = 0;  // as f_y
+  EXPECT_THROW(calibrate(scene), InvalidInput);
+}
+
 TEST(Calibrate, AnchorAndAxis) {
   SceneDef scene = cantilever(2);
   scene.bodies[1].angle = std::numbers::pi / 2;
