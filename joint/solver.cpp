@@ -195,7 +195,7 @@ void Solver::begin(double h) {
       if (share < 1) e = strain[i] + share * (e - strain[i]);
       j.law.bias[i] = j.relaxation[i] * e;
     }
-    gaps_[static_cast<std::size_t>(&j - joints.data())] = strain;  // for soften()
+    if (j.surface != nullptr) gaps_[static_cast<std::size_t>(&j - joints.data())] = strain;  // for soften()
   }
 }
 

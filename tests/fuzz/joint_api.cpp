@@ -141,6 +141,7 @@ class Game : b2DestructionListener {
         break;
       case 16:
         if (ElasticPlasticJoint* j = joint()) change_joint(*j);
+        changed_ = true;
         break;
       case 17:
         make_stock_joint();
@@ -463,10 +464,13 @@ class Game : b2DestructionListener {
       mass += b->GetMass();
       turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
     }
+    // A stiffness that is set while fast bodies are apart makes strain of what parts them.
+    if (std::exchange(changed_, false) && turn_ > 0.05) budget_ = std::max(budget_, now);
     // What rounding leaves of a push, 1e-5 sizes a second; and what turning bodies have parted along their
     // tangents.
     const double rounding = 1e-7 * most_ + mass * size_ * size_ * 1e-10;
-    const double allowed = budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding;
+    require(now <= budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding, "no energy from nowhere");
+    budget_ = std::min(budget_, now);
     // They take it back in as much time as they parted in, be it in several shorter steps; steps without
     // velocity iterations, which the structure does not see, part them further.
     if (velocity == 0) {
@@ -476,8 +480,6 @@ class Game : b2DestructionListener {
       back_ -= dt;
       if (turn >= turn_ || back_ <= 1e-6) turn_ = turn, back_ = dt;
     }
-    require(now <= allowed, "no energy from nowhere");
-    budget_ = std::min(budget_, now);
   }
 
   /// Welds of a structure that is gone are Box2D's, whose energy is not ours to judge.
@@ -522,8 +524,9 @@ class Game : b2DestructionListener {
 
   Bytes in_;
   bool judged_ = false, veto_ = false;
-  bool curved_ = false;  // some joint has a yield surface
-  bool moved_ = false;   // a body that holds others, by hand
+  bool curved_ = false;   // some joint has a yield surface
+  bool moved_ = false;    // a body that holds others, by hand
+  bool changed_ = false;  // a joint, since the last step
   int mischief_ = 0, steps_ = 0;
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
