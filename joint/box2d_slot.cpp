@@ -277,7 +277,7 @@ void Component::first_velocity(const b2SolverData& data) {
       moved = true;
     }
     m.taken = m.given = data.velocities[m.island_index];
-    m.lost = {};
+    m.lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     alone_ &= i >= solver.free_bodies() || only_ours(m);
   }
   if (moved) {
