@@ -37,7 +37,7 @@ struct GameDef {
   bool fixtures = true;
   std::span<const double> steps = sixtieths;  // s, again and again
   int velocity_iterations = 8, position_iterations = 3;
-  int count = 300;  // steps
+  int count = 200;  // steps
 };
 
 struct Game {
@@ -167,9 +167,9 @@ std::vector<Item> make_items() {
   all.push_back({.name = "welded_mass_1e_6", .build = welded(1e-6)});
   all.push_back({.name = "five_centimetres",
                  .setup = {.pieces = 5, .length = 0.01, .height = 0.005, .fixtures = false}});
-  all.push_back({.name = "one_kilometre", .setup = {.pieces = 20, .length = 50, .height = 50}});
+  all.push_back({.name = "one_kilometre", .setup = {.pieces = 10, .length = 100, .height = 50}});
   all.push_back({.name = "dt_15", .setup = {.steps = long_steps}, .build = resting(1)});
-  all.push_back({.name = "dt_5000", .setup = {.steps = short_steps, .count = 600}, .build = resting(1)});
+  all.push_back({.name = "dt_5000", .setup = {.steps = short_steps, .count = 500}, .build = resting(1)});
   all.push_back({.name = "dt_changing", .setup = {.steps = changing_steps}, .build = resting(1)});
   all.push_back({.name = "dt_0", .setup = {.steps = some_of_no_time}, .build = resting(1)});
   all.push_back({.name = "E_1e6", .setup = {.E = 210e15}, .build = resting(1)});

@@ -166,7 +166,8 @@ b2Color stage_color(double stage);
 /// How a structure finds its joints' impulses.
 enum class SolverKind {
   direct,     ///< all joints of a structure together, exactly
-  iterative,  ///< joint by joint in Box2D's iterations, as in the paper: for lone joints, or to compare
+  iterative,  ///< joint by joint in Box2D's iterations, as in the paper: for lone joints, or to compare. Rows
+              ///< of a natural frequency above 1/(2π·step) are rigid
 };
 
 /// What a structure reports after a step.
