@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
+#include "equilibrium.h"
 #include "plane.h"
 
 namespace ductile {
@@ -123,6 +125,162 @@ Answer youngs_modulus_for(const SceneDef& scene, const std::string& body, Point 
       [&] { return "it moves otherwise, or not at all"; });
   answer.value = before / softer;
   return answer;
+}
+
+namespace {
+
+void require_positive(double target, const char* what) {
+  if (!(target > 0 && target < unlimited))
+    throw InvalidInput(
+        {{"target", std::string(what) + " is " + to_string(target), "give a finite one above 0"}});
+}
+
+// E of a body at which `result`, which grows as E falls, is the target.
+Answer softer(const SceneDef& scene, const std::string& body, double target,
+              const std::function<double(const Plan&)>& result, std::string governed_by) {
+  SceneDef changed = scene;
+  double& modulus = material_of(changed, body).youngs_modulus;
+  const double before = modulus;
+  require_positive(before, "E of the body");
+  const double factor = factor_for(
+      target,
+      [&](double x) {
+        modulus = before / x;
+        return result(calibrate(changed));
+      },
+      [&] { return "E of '" + body + "' does not change the " + governed_by; });
+  return {before / factor, std::move(governed_by)};
+}
+
+std::size_t joint_named(const Plan& plan, const std::string& name) {
+  const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                  [&](const PlannedJoint& joint) { return joint.name == name; });
+  if (found == plan.joints.end())
+    throw InvalidInput({{"target", "there is no joint '" + name + "'", "name one that calibrate lists"}});
+  return static_cast<std::size_t>(found - plan.joints.begin());
+}
+
+// Of the slowest mode: the least ω² of ω² x = K x (M = 1 in Equilibrium's unknowns), by inverse iteration
+// from the structure's own pieces, and Σ c (B x)² of its joints.
+Mode slowest(const Plan& plan, const Equilibrium& statics, int column) {
+  if (column < 0) throw InvalidInput({{"target", "nothing holds the body", "join or support it"}});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(statics.B.cols());
+  for (int i = 0; i < 3; ++i) x[column + i] = 1 + 0.1 * i;  // no symmetry that a mode lacks
+  double square = 0;                                        // ω²
+  for (int round = 0; round < 10'000; ++round) {
+    x.normalize();
+    const Eigen::VectorXd y = statics.motions(x);
+    const double now = 1 / x.dot(y), change = std::abs(now - square);
+    if (!(y.norm() > 0)) break;
+    x = y;
+    square = now;
+    if (change < 1e-13 * now) break;
+  }
+  x.normalize();
+  const Eigen::VectorXd elongation = statics.B * x;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows(statics.B);
+  double damping = 0;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const double inverse_mass = rows.row(row).squaredNorm(), k = statics.stiffness()[row];
+    if (inverse_mass > 0 && k > 0)
+      damping += 2 * plan.joints[static_cast<std::size_t>(row / 3)].damping_ratio *
+                 std::sqrt(k / inverse_mass) * elongation[row] * elongation[row];
+  }
+  const double omega = std::sqrt(square);
+  return {omega / (2 * std::numbers::pi), damping / (2 * omega)};
+}
+
+}  // namespace
+
+Answer youngs_modulus_for_rotation(const SceneDef& scene, const std::string& body, const std::string& joint,
+                                   double rotation) {
+  require_positive(rotation, "the rotation");
+  return softer(
+      scene, body, rotation,
+      [&](const Plan& plan) {
+        const std::size_t i = joint_named(plan, joint);
+        return std::abs(static_check(plan).joints[i].M) / plan.joints[i].stiffness.M;
+      },
+      "rotation of " + joint + " under the loads");
+}
+
+Answer youngs_modulus_for_rotation_at_yield(const SceneDef& scene, const std::string& body,
+                                            const std::string& joint, double rotation) {
+  require_positive(rotation, "the rotation");
+  return softer(
+      scene, body, rotation,
+      [&](const Plan& plan) {
+        const PlannedJoint& j = plan.joints[joint_named(plan, joint)];
+        return std::min(j.M, j.M_reverse) / j.stiffness.M;
+      },
+      "rotation of " + joint + " at yield");
+}
+
+Mode slowest_mode(const Plan& plan, const std::string& body) {
+  const Equilibrium statics(plan);
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    if (plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)].name == body && statics.column[i] >= 0) {
+      if (statics.is_mechanism())
+        throw InvalidInput({{"target", "the structure moves without strain", "hold it"}});
+      return slowest(plan, statics, statics.column[i]);
+    }
+  throw InvalidInput({{"target", "nothing holds '" + body + "'", "join it to what stands still"}});
+}
+
+Answer youngs_modulus_for_frequency(const SceneDef& scene, const std::string& body, double frequency) {
+  require_positive(frequency, "the frequency");
+  return softer(
+      scene, body, 1 / frequency, [&](const Plan& plan) { return 1 / slowest_mode(plan, body).frequency; },
+      "slowest vibration of the structure of " + body);
+}
+
+Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double damping_ratio) {
+  require_positive(damping_ratio, "the damping ratio");
+  SceneDef changed = scene;
+  double& own = material_of(changed, body).damping_ratio;
+  const double before = own > 0 ? own : 1;
+  const double factor = factor_for(
+      damping_ratio,
+      [&](double x) {
+        own = before * x;
+        return slowest_mode(calibrate(changed), body).damping_ratio;
+      },
+      [&] { return "the damping of '" + body + "' does not change it"; });
+  return {before * factor, "slowest vibration of the structure of " + body};
+}
+
+Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, double error) {
+  if (!(error > 0 && error < 1))
+    throw InvalidInput({{"target", "the error is " + to_string(error), "give a share between 0 and 1"}});
+  constexpr int most = 128;
+  SceneDef changed = scene;
+  changed.loads.push_back({.body = body, .at = at});  // finds the piece
+  BodyDef& own = body_of(changed, body);
+  own.cuts.clear();
+  own.automatic = false;
+  const auto displacement = [&](int pieces) {
+    own.pieces = pieces;
+    const Plan plan = calibrate(changed);
+    const Equilibrium statics(plan);
+    const int piece = plan.loads.back().piece, c = statics.column[static_cast<std::size_t>(piece)];
+    if (c < 0) throw InvalidInput({{"target", "nothing holds '" + body + "'", "join or support it"}});
+    const Point arm = at - plan.pieces[static_cast<std::size_t>(piece)].center;
+    const auto [sx, sy, turn] = statics.scale(piece);
+    Point largest{};
+    for (const LoadCase& load_case : statics.cases()) {
+      const Eigen::VectorXd x = statics.motions(statics.balanced(load_case.gravity + load_case.loads));
+      const Point u = Point{sx * x[c], sy * x[c + 1]} + turn * x[c + 2] * left(arm);
+      if (length(u) > length(largest)) largest = u;
+    }
+    return largest;
+  };
+  const Point fine = displacement(most), exact = fine + (1.0 / 3) * (fine - displacement(most / 2));
+  if (!(length(exact) > 0))
+    throw InvalidInput({{"target", "the point does not move under the loads", "load the body"}});
+  for (int n = 1; n <= most; ++n)
+    if (length(displacement(n) - exact) <= error * length(exact))
+      return {static_cast<double>(n), "displacement of " + body + " at " + to_string(at)};
+  throw InvalidInput({{"target", "128 pieces are not enough for it", "give a larger error"}});
 }
 
 }  // namespace ductile

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "ductile/simulation.h"
 
@@ -92,6 +94,135 @@ TEST(Targets, ADisplacementByStiffness) {
     const Point from = simulation.plan().pieces[last].center;
     EXPECT_NEAR(std::hypot(at.x - from.x, at.y - from.y) / 0.02, 1, 0.01);
   }
+}
+
+// How far the point of the last piece that was at its free end has moved.
+double sag(const Simulation& simulation) {
+  const auto last = simulation.plan().pieces.size() - 1;
+  const Piece& piece = simulation.plan().pieces[last];
+  const auto now = simulation.piece(last);
+  return now.position.y - piece.center.y + (6 - piece.center.x) * std::sin(now.angle);
+}
+
+// Under its loads the root has turned as far as the first piece.
+TEST(Targets, ARotationUnderLoad) {
+  SceneDef scene = bracket(6);
+  const Answer answer = youngs_modulus_for_rotation(scene, "beam", "wall-beam/0", 0.004);
+  EXPECT_EQ(answer.governed_by, "rotation of wall-beam/0 under the loads");
+  scene.bodies[1].material->youngs_modulus = answer.value;
+  Simulation simulation(calibrate(scene));
+  for (int i = 0; i < 1200; ++i) simulation.step();
+  EXPECT_NEAR(std::abs(simulation.piece(1).angle) / 0.004, 1, 0.01);  // piece 0 is the wall
+}
+
+// Under 0.98 of the loads at which the root yields, it has turned by 0.98 of the angle, and nothing has
+// yielded; E is M_p ℓ/(I θ) with ℓ half of the first piece.
+TEST(Targets, ARotationAtYield) {
+  SceneDef scene = bracket(6);
+  const Answer answer = youngs_modulus_for_rotation_at_yield(scene, "beam", "wall-beam/0", 0.01);
+  EXPECT_NEAR(answer.value / (300e6 * 0.3 * 0.3 / 4 * 0.5 / (0.3 * 0.3 * 0.3 / 12 * 0.01)), 1, 1e-9);
+  scene.bodies[1].material->youngs_modulus = answer.value;
+  const double reserve = static_check(calibrate(scene)).reserve;
+  Simulation simulation(calibrate(times(scene, 0.98 * reserve)));
+  for (int i = 0; i < 1200; ++i) simulation.step();
+  EXPECT_TRUE(simulation.events().empty());
+  EXPECT_NEAR(std::abs(simulation.piece(1).angle) / 0.98 / 0.01, 1, 0.01);
+}
+
+// Let go from its static sag, the tip swings back and forth: what it does in ten turns, at a step that is too
+// short for implicit Euler to change it.
+TEST(Targets, AFrequency) {
+  SceneDef scene = bracket(6);
+  scene.gravity = {};
+  scene.loads[0].to = 0.5;
+  scene.loads[0].ramp = 0.5;
+  scene.bodies[1].material->damping_ratio = 0;
+  const Answer answer = youngs_modulus_for_frequency(scene, "beam", 2);
+  scene.bodies[1].material->youngs_modulus = answer.value;
+  EXPECT_NEAR(slowest_mode(calibrate(scene), "beam").frequency, 2, 1e-9);
+  // A uniform cantilever's is 1.8751² √(EI/μL⁴)/2π (Euler and Bernoulli); six pieces and shear make it
+  // slower.
+  const double beam =
+      3.5160 * std::sqrt(answer.value * 0.3 * 0.3 / 12 / (7800 * std::pow(6.0, 4))) / 2 / std::numbers::pi;
+  EXPECT_NEAR(beam, 2, 0.05);
+
+  const double dt = 1e-3;
+  Simulation simulation(calibrate(scene), JointSolver::direct, {.dt = dt});
+  double before = 0, first = 0, last = 0;
+  int crossings = 0;
+  for (int i = 0; crossings < 11 && i < 10'000; ++i) {
+    simulation.step();
+    const double now = sag(simulation), t = i * dt;
+    if (t > 0.6 && before < 0 && now >= 0) {
+      last = t - dt * now / (now - before);
+      if (crossings++ == 0) first = last;
+    }
+    before = now;
+  }
+  ASSERT_EQ(crossings, 11);
+  EXPECT_NEAR(10 / (last - first) / 2, 1, 0.01);
+}
+
+// The same, damped: each peak is exp(−2πζ/√(1 − ζ²)) of the one before.
+TEST(Targets, ADamping) {
+  constexpr double zeta = 0.1;
+  SceneDef scene = bracket(6);
+  scene.gravity = {};
+  scene.loads[0].to = 0.5;
+  scene.loads[0].ramp = 0.5;
+  scene.bodies[1].material->youngs_modulus = youngs_modulus_for_frequency(scene, "beam", 1).value;
+  scene.bodies[1].material->damping_ratio = damping_ratio_for(scene, "beam", zeta).value;
+  EXPECT_NEAR(slowest_mode(calibrate(scene), "beam").damping_ratio, zeta, 1e-9);
+
+  const double dt = 1e-4;  // implicit Euler adds ω dt/2 = 3e-4
+  Simulation simulation(calibrate(scene), JointSolver::direct, {.dt = dt});
+  std::vector<double> peaks;
+  double before = 0, rise = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    simulation.step();
+    const double now = sag(simulation);
+    if (i * dt > 0.6 && rise > 0 && now < before) peaks.push_back(before);
+    rise = now - before;
+    before = now;
+  }
+  ASSERT_GE(peaks.size(), 3u);
+  const double decrement = std::log(peaks[0] / peaks[2]) / 2;
+  const double measured = decrement / std::hypot(2 * std::numbers::pi, decrement);
+  EXPECT_NEAR(measured / zeta, 1, 0.01);
+}
+
+// q L⁴/8EI + F (5 L³/48)/EI with what shear adds, and the simulation with so many pieces, but not with one
+// less.
+TEST(Targets, PiecesForAnError) {
+  SceneDef scene = bracket(1);
+  constexpr double L = 6, E = 210e9, I = 0.1 * 0.3 * 0.3 * 0.3 / 12, A = 0.1 * 0.3, error = 0.02;
+  const double q = 7800 * A * 9.81, F = 2000 * 9.81, kGA = 5.0 / 6 * E / 2.6 * A;
+  const double exact =
+      q * L * L * L * L / 8 / E / I + 5 * F * L * L * L / 48 / E / I + (q * L * L / 2 + F * L / 2) / kGA;
+  const Answer answer = pieces_for(scene, "beam", {6, 0.15}, error);
+  for (const int off : {0, -1}) {
+    scene.bodies[1].pieces = static_cast<int>(answer.value) + off;
+    Simulation simulation(calibrate(scene));
+    for (int i = 0; i < 1200; ++i) simulation.step();
+    const double own = std::abs(-sag(simulation) / exact - 1);
+    if (off == 0)
+      EXPECT_LE(own, error * 1.01);
+    else
+      EXPECT_GT(own, error * 0.99);
+  }
+  EXPECT_EQ(answer.governed_by, "displacement of beam at (6, 0.15)");
+  EXPECT_THROW(pieces_for(scene, "beam", {6, 0.15}, 0), InvalidInput);
+}
+
+TEST(Targets, WhatHasNoAnswerSaysSo) {
+  SceneDef scene = bracket(6);
+  EXPECT_THROW(youngs_modulus_for_rotation(scene, "beam", "wall-nobody", 0.01), InvalidInput);
+  EXPECT_THROW(youngs_modulus_for_frequency(scene, "beam", -1), InvalidInput);
+  scene.joints.clear();
+  EXPECT_THROW(youngs_modulus_for_frequency(scene, "beam", 1), InvalidInput);
+  scene = bracket(6);
+  scene.joint.elastic = Elasticity::rigid;  // E decides nothing
+  EXPECT_THROW(youngs_modulus_for_rotation(scene, "beam", "wall-beam/0", 0.01), InvalidInput);
 }
 
 }  // namespace
