@@ -29,33 +29,54 @@ constexpr double least_share = 0.2;
 // The estimate is for the axis as a beam; what it leaves out (shear, the chord for the arc) is small.
 constexpr double margin = 0.95;
 
-// A place on the centreline.
+// A place on the centreline, and the section there: per metre of depth and of what holes leave.
 struct Place {
   double s = 0;  // m along it
   Point at;
-  double width = 0;  // m
+  double width = 0;  // m, with the holes
+  double area = 0;   // m
+  double depth = 0;  // m, of a rectangle of the same moment of inertia: I = depth³/12
 };
 
 Place between(const Place& a, const Place& b, double s) {
   const double share = b.s > a.s ? (s - a.s) / (b.s - a.s) : 0;
-  return {s, a.at + share * (b.at - a.at), a.width + share * (b.width - a.width)};
+  return {s, a.at + share * (b.at - a.at), a.width + share * (b.width - a.width),
+          a.area + share * (b.area - a.area), a.depth + share * (b.depth - a.depth)};
+}
+
+Place place_at(double s, const Chord& chord, const Outline& outline) {
+  const double w = width(chord);
+  Place place{s, middle(chord), w, w, w};
+  if (outline.holes.empty() || !(w > 0)) return place;
+  // Even crossings with a hole's edges are pairs: between them there is nothing.
+  const Point u = (1 / w) * (chord.right - chord.left);
+  double moment = w * w / 2, second = w * w * w / 3;  // about the left end
+  std::vector<double> crossings;
+  for (const Ring& hole : outline.holes) {
+    crossings.clear();
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      const Point p = hole[i] - chord.left, q = hole[(i + 1) % hole.size()] - chord.left;
+      const double a = cross(u, p), b = cross(u, q);
+      if ((a > 0) == (b > 0)) continue;
+      crossings.push_back(std::clamp(dot(u, p) + a / (a - b) * dot(u, q - p), 0.0, w));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const double from = crossings[i], to = crossings[i + 1];
+      place.area -= to - from;
+      moment -= (to * to - from * from) / 2;
+      second -= (to * to * to - from * from * from) / 3;
+    }
+  }
+  const double inertia = place.area > 0 ? second - moment * moment / place.area : 0;
+  place.depth = std::cbrt(std::max(0.0, 12 * inertia));
+  return place;
 }
 
 Place on(const std::vector<Place>& line, double s) {
   const auto after = std::lower_bound(line.begin() + 1, line.end() - 1, s,
                                       [](const Place& p, double value) { return p.s < value; });
   return between(*(after - 1), *after, s);
-}
-
-// A member's line from end to end.
-std::vector<Place> line_of(const Member& m) {
-  std::vector<Place> line;
-  line.reserve(m.stations.size() + 2);
-  line.push_back({0, m.start, width(m.stations.front().chord)});
-  for (const Member::Station& station : m.stations)
-    line.push_back({station.s, middle(station.chord), width(station.chord)});
-  line.push_back({m.length, m.end, width(m.stations.back().chord)});
-  return line;
 }
 
 struct PlacedCut {
@@ -96,7 +117,7 @@ struct Beam {
     }
     if (b < a) std::reverse(parts.begin(), parts.end());
     for (std::size_t i = n; i-- > 0;) {
-      const double w = parts[i].place.width * ds;
+      const double w = parts[i].place.area * ds;
       weight[i] = weight[i + 1] + w;
       first[i] = first[i + 1] + w * parts[i].place.at;
     }
@@ -114,9 +135,9 @@ struct Beam {
   }
 };
 
-double compliance(const Hinge& h) {
-  const double w = h.place.width;
-  return w > 0 ? h.length / (w * w * w) : 0;  // EI ~ w³
+double compliance(const Hinge& h) {  // but for the material's E and the depth
+  const double d = h.place.depth;
+  return d > 0 ? h.length / (d * d * d) : 0;
 }
 
 // Of a beam's parts, but for a quarter turn, under weight along x and along y.
@@ -201,31 +222,43 @@ Deviation compare(const std::vector<Displacement>& beam, const std::vector<Displ
 class Automatic {
  public:
   Automatic(const Outline& outline, double target, std::span<const Hold> holds)
-      : outline_(outline), target_(target), axis_(outline) {
+      : outline_(outline), target_(target), faces_(faces_of(holds)), axis_(outline, faces_) {
     if (!is_strip()) make_straight();
-    for (const Member& m : axis_.members) lines_.push_back(line_of(m));
+    for (int w = 0; w < std::ssize(axis_.members); ++w) lines_.push_back(line_of(w));
     find_longest_path();
     find_holds(holds);
     find_stretches();
+  }
+
+  static std::vector<Chord> faces_of(std::span<const Hold> holds) {
+    std::vector<Chord> faces;
+    for (const Hold& hold : holds)
+      if (width(hold.face) > 0) faces.push_back(hold.face);
+    return faces;
   }
 
   AutomaticSplit run(Splitter& splitter, const std::string& place) {
     const double extent = line_.back().s;
     std::vector<PlacedCut> best;
     double error = std::numeric_limits<double>::infinity();
-    // The error falls as 1/n² as long as the shape allows more cuts.
-    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts), last_n = 0,
-                round = 0;
-         ;) {
+    // The error falls as 1/n² as long as the shape allows more cuts; and where there are holes, again once
+    // pieces are so short that cuts meet them.
+    const int patience = outline_.holes.empty() ? 1 : 3;
+    double last = error, last_n = 0;
+    int round = 0, stalled = 0;
+    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
       double h = std::max(extent / n, least_side);
       std::vector<PlacedCut> cuts = place_cuts(h);
       for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
-      const double own = error_of(cuts), expected = error * (last_n / n) * (last_n / n);
-      const bool stalls = own > 1.5 * expected && own > 0.7 * error;
-      if (!stalls || best.empty()) best = std::move(cuts), error = own;
-      if (own <= margin * target_ || stalls || h > extent / n || n >= most_parts) break;
+      const double own = error_of(cuts), expected = last * (last_n / n) * (last_n / n);
+      const bool stalls = own > 1.5 * expected && own > 0.7 * last;
+      if (best.empty() || own < error) best = std::move(cuts), error = own;
+      if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
+        break;
+      last = own;
       last_n = n;
-      const double wanted = std::ceil(n * std::min(std::sqrt(own / (margin * target_)), 2.0));
+      const double wanted =
+          std::ceil(n * (stalls ? 2.0 : std::min(std::sqrt(own / (margin * target_)), 2.0)));
       n = std::min(std::max(wanted, n + 1 + std::floor(0.05 * round++ * n)), most_parts);
     }
     return divide(splitter, std::move(best), error, place);
@@ -263,6 +296,31 @@ class Automatic {
     if (reach_ == 0) return axis_.at(m, s);
     const Point u = unit(m.end - m.start), p = m.start + s * u;
     return {s, {p + reach_ * left(u), p - reach_ * left(u)}};
+  }
+
+  // A member's line from end to end; where there are holes, with four places to a station.
+  std::vector<Place> line_of(int way) const {
+    const Member& m = axis_.members[way];
+    std::vector<Place> line;
+    line.reserve(m.stations.size() + 2);
+    const auto add = [&](const Member::Station& station) {
+      line.push_back(place_at(station.s, station.chord, outline_));
+    };
+    add(m.stations.front());
+    line.back().s = 0;
+    line.back().at = m.start;
+    for (std::size_t i = 0; i < m.stations.size(); ++i) {
+      if (i > 0 && m.stations[i].follows && !outline_.holes.empty())
+        for (const double share : {0.25, 0.5, 0.75})
+          if (const Member::Station found = at(way, std::lerp(m.stations[i - 1].s, m.stations[i].s, share));
+              found.s > line.back().s)
+            add(found);
+      add(m.stations[i]);
+    }
+    add(m.stations.back());
+    line.back().s = m.length;
+    line.back().at = m.end;
+    return line;
   }
 
   // --- the longest way through the body ---
@@ -474,7 +532,7 @@ class Automatic {
     for (const auto& [way, backwards, offset] : steps_)
       for (const PlacedCut& c : cuts_of(cuts, way)) {
         const double s = offset + (backwards ? axis_.members[way].length - c.s : c.s);
-        joints.push_back({{s, middle(c.chord), width(c.chord)}, c.length});
+        joints.push_back({place_at(s, c.chord, outline_), c.length});
       }
     std::sort(joints.begin(), joints.end(),
               [](const Hinge& a, const Hinge& b) { return a.place.s < b.place.s; });
@@ -634,6 +692,7 @@ class Automatic {
 
   const Outline& outline_;
   double target_;
+  std::vector<Chord> faces_;
   Axis axis_;
   double reach_ = 0;                       // m: how far cuts reach across a body that is no strip
   std::vector<std::vector<Place>> lines_;  // of the members

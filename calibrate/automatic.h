@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "axis.h"
 #include "ductile/section.h"
 #include "split.h"
 
@@ -14,6 +15,7 @@ namespace ductile {
 struct Hold {
   Point at;
   bool clamps = true;
+  Chord face{};  ///< the edge along which another body holds it; without length: at a point
 };
 
 struct AutomaticSplit {
@@ -31,9 +33,10 @@ struct AutomaticSplit {
 
 /// A chain of rigid pieces with springs k = EI/ℓ between them bends like the beam, but for what the
 /// trapezoidal rule errs in ∫ M m/EI ds: 1/n² for the tip of a cantilever of n pieces, 8/n² for the middle of
-/// a beam clamped at both ends. This error is computed for the body as it is (width along the axis, its
-/// bends), clamped at either end or held by `holds`, and pieces are added until it is below `target`. Cuts
-/// that would leave a piece thinner than Box2D takes, or several from one corner, are left out.
+/// a beam clamped at both ends. This error is computed for the body as it is (its width along the axis less
+/// holes, its bends), clamped at either end or held by `holds`, and pieces are added until it is below
+/// `target`. Cuts that would leave a piece thinner than Box2D takes, or several from one corner, are left
+/// out.
 AutomaticSplit split_automatically(Splitter& splitter, const Outline& outline, double target,
                                    std::span<const Hold> holds, const std::string& place);
 

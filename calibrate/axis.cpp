@@ -59,8 +59,9 @@ struct Axis::Walk {
 };
 constexpr int arrived = -1, lost = -2;  // lost: between triangles that rounding has turned over
 
-Axis::Axis(const Outline& outline)
-    : triangulation_(triangulate(without_small_holes(outline))),
+Axis::Axis(const Outline& outline, std::span<const Chord> faces)
+    : faces_(faces),
+      triangulation_(triangulate(without_small_holes(outline))),
       corners_(static_cast<int>(triangulation_.points.size())) {
   add_feet(triangulation_);
   const std::vector<HalfEdge>& edges = triangulation_.edges;
@@ -193,6 +194,7 @@ void Axis::add_member(const std::vector<int>& way, int first, int last, const Gr
   add_triangle(first);
   for (const int e : way) add_triangle(triangle_[edges[e].twin]);
   add_corners(m, corners);
+  for (const Chord& face : faces_) end_at(m, face);
   members.push_back(std::move(m));
 }
 
@@ -350,6 +352,54 @@ bool Axis::follows(const Member::Station& a, const Member::Station& b, double si
          dot(a.chord.right - b.chord.right, on) > 0;
 }
 
+// Where chords at an end touch a face, they run into one of its corners: chords that turn from the face to
+// the first one that is clear of it take their place.
+void Axis::end_at(Member& m, const Chord& face) const {
+  const auto touches = [&](const Member::Station& s) {
+    const Point along = face.right - face.left;
+    const auto on = [&](Point p) {
+      const double t = dot(p - face.left, along) / dot(along, along);
+      return t >= 0 && t <= 1 && std::abs(cross(along, p - face.left)) <= 1e-6 * dot(along, along);
+    };
+    return on(s.chord.left) || on(s.chord.right);
+  };
+  for (const bool at_start : {true, false}) {
+    if (m.closed || (at_start ? m.from : m.to) >= 0) continue;
+    std::vector<Member::Station>& all = m.stations;
+    if (!at_start) std::reverse(all.begin(), all.end());
+    std::size_t dropped = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (touches(all[i])) dropped = i + 1;
+    if (dropped > 0 && dropped < all.size() && 2 * width(face) > width(all[dropped].chord)) {
+      const Member::Station& first = all[dropped];
+      Member::Station end{.chord = face};
+      const Point inwards = middle(first.chord) - middle(face);
+      if ((dot(ahead(face), inwards) > 0) != at_start) std::swap(end.chord.left, end.chord.right);
+      std::vector<Member::Station> fanned{end};
+      const int n = static_cast<int>(std::clamp<std::size_t>(dropped, 3, 16));
+      for (int i = n; i > 0; --i)
+        if (const auto between = fan(first, end, static_cast<double>(i) / (n + 1)))
+          fanned.push_back(*between);
+      for (Member::Station& s : fanned) s.follows = s.fans = true;
+      all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(dropped));
+      if (at_start) {  // what a station is flagged with tells of the one before it
+        fanned.front().follows = fanned.front().fans = false;
+        all.front().follows = all.front().fans = true;
+        all.front().straight = false;
+      }
+      all.insert(all.begin(), fanned.begin(), fanned.end());
+    }
+    if (!at_start) std::reverse(all.begin(), all.end());
+  }
+}
+
+std::optional<Member::Station> Axis::fan(const Member::Station& a, const Member::Station& b,
+                                         double share) const {
+  const Point u = direction((1 - share) * ahead(a.chord) + share * ahead(b.chord));
+  const auto step = step_to(a.triangle >= 0 ? a : b, (1 - share) * middle(a.chord) + share * middle(b.chord));
+  return step ? chord_across(*step, u) : std::nullopt;
+}
+
 // Further stations, whose chords end in corners of the sides, so that between two of them the sides are
 // straight. The corners come in about their order along the line.
 void Axis::add_corners(Member& m, const std::vector<Point>& corners) const {
@@ -428,6 +478,7 @@ std::optional<Member::Station> Axis::chord_between(Point left, Point right,
 }
 
 std::optional<Axis::Step> Axis::step_to(const Member::Station& from, Point at) const {
+  if (from.triangle < 0) return std::nullopt;  // a face
   const Point start = middle(from.chord);
   const Walk way = walk(from.triangle, start, direction(at - start), length(at - start));
   if (way.edge != arrived) return std::nullopt;
@@ -453,6 +504,7 @@ void Axis::measure() {
 
   const auto beyond = [&](const Member::Station& s, double sign) {
     const Point at = middle(s.chord), on = sign * ahead(s.chord);
+    if (s.triangle < 0) return at;  // a face
     return at + walk(s.triangle, at, on, std::numeric_limits<double>::infinity()).distance * on;
   };
   for (Member& m : members) {
@@ -484,6 +536,11 @@ Member::Station Axis::at(const Member& m, double s) const {
     result.chord = {a.chord.left + share * (b.chord.left - a.chord.left),
                     a.chord.right + share * (b.chord.right - a.chord.right)};
     return result;
+  }
+  if (b.fans) {
+    auto found = fan(a, b, share);
+    if (found) found->s = s;
+    return found.value_or(nearest);
   }
   const Point from = middle(a.chord), along = middle(b.chord) - from;
   const auto step = step_to(a, from + share * along);

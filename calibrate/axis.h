@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ductile/section.h"
@@ -26,6 +27,7 @@ struct Member {
     int triangle = -1;
     bool follows = false;   ///< between the station before and this one a chord may lie anywhere
     bool straight = false;  ///< and both sides are straight between them
+    bool fans = false;      ///< or chords turn from that of the one to that of the other
   };
   std::vector<Station> stations;
   Point start, end;
@@ -40,7 +42,9 @@ struct Member {
 /// strip in no direction (a square, a disc).
 class Axis {
  public:
-  explicit Axis(const Outline& outline);
+  /// `faces`: where other bodies hold the outline. A strip that widens towards one ends there, across it,
+  /// rather than in one of its corners.
+  explicit Axis(const Outline& outline, std::span<const Chord> faces = {});
 
   std::vector<Point> nodes;  ///< where three and more members meet
   std::vector<Member> members;
@@ -63,6 +67,8 @@ class Axis {
   void extend(Member& member, double apart) const;
   std::vector<Member::Station> march(Member::Station from, double sign, double apart,
                                      const Member::Station* up_to, int node) const;
+  void end_at(Member& member, const Chord& face) const;
+  std::optional<Member::Station> fan(const Member::Station& a, const Member::Station& b, double share) const;
   void add_corners(Member& member, const std::vector<Point>& corners) const;
   std::optional<Member::Station> chord_between(Point left, Point right, const Member::Station& near) const;
   std::optional<Step> step_to(const Member::Station& from, Point at) const;
@@ -75,6 +81,7 @@ class Axis {
   Walk walk(int triangle, Point from, Point direction, double most) const;
   Point points_to(int edge) const;
 
+  std::span<const Chord> faces_;
   Triangulation triangulation_;
   int corners_;                // its first points; feet follow
   std::vector<int> triangle_;  // of every half-edge

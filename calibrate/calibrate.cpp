@@ -357,7 +357,9 @@ class Planner {
       const double size =
           std::min(box_of(body.outline.outer).diagonal(), box_of(other->outline.outer).diagonal());
       for (const Contact& c : touching(own, in_world(*other), j.gap > 0 ? j.gap : 1e-6 * size))
-        holds.push_back({place.back(middle(c.from, c.to)), j.overrides.moment != 0.0});
+        holds.push_back({place.back(middle(c.from, c.to)),
+                         j.overrides.moment != 0.0,
+                         {place.back(c.from), place.back(c.to)}});
     }
     return holds;
   }

@@ -237,7 +237,7 @@ TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
 
 // Whatever Box2D takes whole, it takes in the pieces that it is split into, and they are as much.
 TEST(Fuzz, AutomaticPiecesAreForBox2D) {
-  int split = 0;
+  int split = 0, welded = 0;
   for (int seed = 0, n = rounds(3000); seed < n && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
@@ -249,7 +249,26 @@ TEST(Fuzz, AutomaticPiecesAreForBox2D) {
     SceneDef scene;
     scene.target_error = std::pow(10, uniform(random, -3, -0.5));
     scene.bodies = {body};
-    const Plan plan = calibrate(scene);
+    if (seed % 2 == 1) {  // welded to a wall along its longest edge
+      const Ring& ring = outline.outer;
+      std::size_t longest = 0;
+      const auto edge = [&](std::size_t i) { return ring[(i + 1) % ring.size()] - ring[i]; };
+      for (std::size_t i = 1; i < ring.size(); ++i)
+        if (length(edge(i)) > length(edge(longest))) longest = i;
+      const Point p = ring[longest], q = p + edge(longest),
+                  out = (doubled_area(ring) > 0 ? 1 : -1) * right(q - p);
+      scene.bodies.push_back(
+          {.name = "wall", .type = BodyType::static_body, .outline = {{q, p, p + out, q + out}, {}}});
+      scene.joints = {{.a = "wall", .b = "body"}};
+    }
+    Plan plan;
+    try {
+      plan = calibrate(scene);
+    } catch (const InvalidInput&) {
+      if (scene.joints.empty()) throw;
+      continue;  // a weld of no height
+    }
+    std::erase_if(plan.pieces, [](const Piece& piece) { return piece.body > 0; });
     split += plan.pieces.size() > 1;
     double mass = 0;
     bool taken = true;
@@ -270,7 +289,9 @@ TEST(Fuzz, AutomaticPiecesAreForBox2D) {
                             static_cast<double>(plan.pieces.size());
     EXPECT_NEAR(mass, whole.mass, 1e-12 * whole.mass + rounding * 7800);
     for (const PlannedJoint& joint : plan.joints) EXPECT_GT(joint.stiffness.M, 0);
+    welded += !scene.joints.empty();
   }
+  EXPECT_GT(welded, rounds(3000) / 8);
   EXPECT_GT(split, rounds(3000) / 4);
 }
 
