@@ -60,6 +60,7 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(beam.joint.max_compression, unlimited);
   EXPECT_EQ(beam.joint.max_slip, 0.2);
   EXPECT_EQ(beam.joint.hinge_length, 0.5);
+  EXPECT_EQ(beam.joint.combine, true);
 
   EXPECT_EQ(wheel.type, BodyType::kinematic_body);
   EXPECT_EQ(wheel.circle, 0.4);
