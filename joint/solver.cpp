@@ -174,7 +174,8 @@ void Solver::begin(double h) {
   drift_time_ = std::max(h, drift_time_ - h);
   for (SolverJoint& j : joints) {
     Rows strain{};
-    if (changed || share < 1 || j.surface != nullptr) strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
+    if (changed || share < 1 || damped_ || j.surface != nullptr)
+      strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
     if (changed) {
       // A rigid row's spring goes with the step, and keeps its force. One that was edited keeps its force
       // where it became stiffer, its strain where it became softer: no energy comes of it.
@@ -194,8 +195,18 @@ void Solver::begin(double h) {
       double e = j.gap[i] - j.neutral[i];
       if (share < 1) e = strain[i] + share * (e - strain[i]);
       j.law.bias[i] = j.relaxation[i] * e;
+      if (j.damping[i] > 0) {
+        // A damper would let what turning bodies part grow from step to step, and the spring store it.
+        j.strain[i] = strain[i];
+        j.law.bias[i] = j.relaxation[i] * strain[i] + (e - strain[i]) / h;
+      }
     }
     if (j.surface != nullptr) gaps_[static_cast<std::size_t>(&j - joints.data())] = strain;  // for soften()
+  }
+  if (changed) {
+    damped_ = std::any_of(joints.begin(), joints.end(), [](const SolverJoint& j) {
+      return j.damping[0] > 0 || j.damping[1] > 0 || j.damping[2] > 0;
+    });
   }
 }
 
@@ -214,6 +225,7 @@ void Solver::soften() {
       const double more = gaps_[k][i] * (spring[i] / j.spring[i] - 1);
       j.neutral[i] -= more;
       j.law.bias[i] += j.relaxation[i] * more;
+      j.strain[i] += more;
     }
   }
 }
@@ -619,7 +631,9 @@ void Solver::open_ledger() {
     const SolverJoint& j = joints[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
-      gaps_[k][i] = j.relaxation[i] > 0 ? j.law.bias[i] / j.relaxation[i] : 0;
+      gaps_[k][i] = j.damping[i] > 0      ? j.strain[i]
+                    : j.relaxation[i] > 0 ? j.law.bias[i] / j.relaxation[i]
+                                          : 0;
       ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.law.bias[i]) - v0[i]) / 2;
     }
     const Rows told = relative_velocity(j, told_velocity(z(j.a)), told_velocity(z(j.b)));
@@ -641,12 +655,13 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
     }
     const double k = j.spring[i], R = j.impulse[i] / h_;
     const double v = j.x[i] - j.law.bias[i];
-    const double after = flows(j.piece, i) ? elastic(j, i) : strain[i] + h_ * v;
+    const bool not_all = flows(j.piece, i) || j.damping[i] > 0;  // of the row's motion is elastic
+    const double after = not_all ? elastic(j, i) : strain[i] + h_ * v;
     const double change = after - strain[i];
     j.stored[i] = k * after * after / 2;
     ledger.damping += j.damping[i] * change * change / h_;
     ledger.numerical += k * change * change / 2 + held - k * strain[i] * strain[i] / 2;
-    if (flows(j.piece, i)) ledger.numerical += R * (h_ * v - change) - (j.dissipated[i] - booked[i]);
+    if (not_all) ledger.numerical += R * (h_ * v - change) - (j.dissipated[i] - booked[i]);
   }
 }
 
@@ -866,10 +881,9 @@ void Solver::displace(SolverBody& b, const Vec3& by) {
   b.turn = {length * t.c, length * t.s};
 }
 
-// Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, b = hk·e/G.
+// Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc.
 double Solver::elastic(const SolverJoint& j, unsigned i) {
-  return j.law.G[i] > 0 ? j.law.h * j.impulse[i] / j.law.G[i] + j.damping[i] * j.law.bias[i] / j.spring[i]
-                        : 0;
+  return j.law.G[i] > 0 ? j.law.h * (j.impulse[i] + j.damping[i] * j.strain[i]) / j.law.G[i] : 0;
 }
 
 Rows Solver::force(const SolverJoint& j) {

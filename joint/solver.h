@@ -59,6 +59,7 @@ struct SolverJoint {
   Rows gap{};                             // u, v, θ
   Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
   Rows relaxation{};                      // hk/G: bias per strain, 1/s
+  Rows strain{};                          // of damped rows: elastic, at the step's start
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
@@ -214,6 +215,7 @@ class Solver {
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
+  bool damped_ = false;      // any row is
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual

@@ -141,7 +141,6 @@ class Game : b2DestructionListener {
         break;
       case 16:
         if (ElasticPlasticJoint* j = joint()) change_joint(*j);
-        changed_ = true;
         break;
       case 17:
         make_stock_joint();
@@ -464,8 +463,6 @@ class Game : b2DestructionListener {
       mass += b->GetMass();
       turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
     }
-    // A stiffness that is set while fast bodies are apart makes strain of what parts them.
-    if (std::exchange(changed_, false) && turn_ > 0.05) budget_ = std::max(budget_, now);
     // What rounding leaves of a push, 1e-5 sizes a second; and what turning bodies have parted along their
     // tangents.
     const double rounding = 1e-7 * most_ + mass * size_ * size_ * 1e-10;
@@ -524,9 +521,8 @@ class Game : b2DestructionListener {
 
   Bytes in_;
   bool judged_ = false, veto_ = false;
-  bool curved_ = false;   // some joint has a yield surface
-  bool moved_ = false;    // a body that holds others, by hand
-  bool changed_ = false;  // a joint, since the last step
+  bool curved_ = false;  // some joint has a yield surface
+  bool moved_ = false;   // a body that holds others, by hand
   int mischief_ = 0, steps_ = 0;
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever

@@ -87,6 +87,28 @@ TEST(Ledger, SpinWithAPlasticSet) {
   EXPECT_GT(beam.structure.joints()[4]->elongation(), 0.01);
 }
 
+// A step along the tangent parts what turns by r θ²/2. Dampers must not let that grow from step to step, as
+// strain of their springs; what it costs otherwise is of the order of θ².
+TEST(Ledger, SpinOfHeavilyDampedJoints) {
+  Beam beam({.pieces = 4, .length = 40, .youngs_modulus = 210e9, .gravity = 0});
+  beam.world.DestroyJoint(beam.joints[0]);
+  const float speed = 3, turn = speed / 60;
+  for (b2Body* p : beam.pieces) {
+    p->SetAngularVelocity(speed);
+    p->SetLinearVelocity(b2Cross(speed, p->GetWorldCenter() - b2Vec2(20, 0)));
+  }
+  for (ElasticPlasticJoint* j : beam.structure.joints()) {
+    for (const Row row : {axial, shear, rotation}) j->set_stiffness(row, 1e9, 30);
+  }
+  Balance balance(beam);
+  for (int i = 0; i < 300; ++i) {
+    balance.step(1.0 / 60);
+    const double energy = balance.mechanical() + beam.structure.energy().elastic;
+    ASSERT_LE(energy, balance.start * (1 + turn * turn)) << "step " << i;
+  }
+  EXPECT_LE(std::abs(balance.error()), 1e-4 * balance.turnover);
+}
+
 // What a moving wall does to the beam, while it holds, and in the step in which it breaks.
 TEST(Ledger, AWallThatMovesDrivesTheBeam) {
   for (const double capacity : {unlimited, 1e7}) {
