@@ -42,8 +42,9 @@ struct JointOverrides {
   std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
   /// m, from the joint to where the moment is 0, instead of `hinge_length`: the hinge is as long as hardening
   /// makes it. A moment that falls linearly from M_u = (f_u/f_y) M_p to 0 over the shear span is above M_p in
-  /// L_p = span · (1 − f_y/f_u), by similar triangles. A hinge within a span: the sum of both sides'. The strain
-  /// is taken as ε_f in all of it, as in any hinge length; were hardening linear, its mean would be half.
+  /// L_p = span · (1 − f_y/f_u), by similar triangles. A hinge within a span: the sum of both sides'. The
+  /// strain is taken as ε_f in all of it, as in any hinge length; were hardening linear, its mean would be
+  /// half.
   std::optional<double> shear_span;
   std::optional<bool> combine;  ///< one joint, of the section that they make together, where two pieces touch
                                 ///< along several intervals in line (a cut across a hole); default: one each
