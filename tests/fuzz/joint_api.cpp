@@ -467,15 +467,17 @@ class Game : b2DestructionListener {
     // tangents.
     const double rounding = 1e-7 * most_ + mass * size_ * size_ * 1e-10;
     require(now <= budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding, "no energy from nowhere");
+    const bool above = now > budget_;
     budget_ = std::min(budget_, now);
     // They take it back in as much time as they parted in, be it in several shorter steps; steps without
-    // velocity iterations, which the structure does not see, part them further.
+    // velocity iterations, which the structure does not see, part them further. What that gave
+    // is not asked back.
     if (velocity == 0) {
       turn_ += turn;
       back_ += dt;
     } else {
       back_ -= dt;
-      if (turn >= turn_ || back_ <= 1e-6) turn_ = turn, back_ = dt;
+      if (turn >= turn_ || (back_ <= 1e-6 && !above)) turn_ = turn, back_ = dt;
     }
   }
 
