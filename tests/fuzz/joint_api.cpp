@@ -360,7 +360,9 @@ class Game : b2DestructionListener {
 
   void make_stock_joint() {
     b2Body *a = body(), *b = body();
-    if (judged_ || !a || !b || a == b || stock_.size() >= 8) return;
+    // Box2D's joints fling pieces on long arms about by themselves, which sweeps joint by joint do not hold
+    // back.
+    if (judged_ || iterative() || !a || !b || a == b || stock_.size() >= 8) return;
     const b2Vec2 at = b->GetWorldCenter();
     b2RevoluteJointDef pin;
     pin.Initialize(a, b, at);
