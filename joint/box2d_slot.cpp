@@ -182,6 +182,8 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   if (kind == SolverKind::iterative) solver.elastic_ratio = 1;
   solver.form(free_bodies);
   solver.locate();
+  const bool any_fresh =
+      std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     SolverJoint& j = solver.joints[i];
     if (std::exchange(members[i]->fresh, false)) {
@@ -191,6 +193,11 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     // The gap is still what the joint last saw: bodies that were moved meanwhile are brought back to it.
     for (unsigned row = 0; row < 3; ++row) parted_ |= std::abs(j.gap[row] - members[i]->own.gap[row]) > 1e-9;
     j.gap = members[i]->own.gap;
+    // A new joint holds bodies where they are. If beside it an old one took back what turning has parted,
+    // they would strain each other.
+    for (unsigned row = 0; row < 3 && any_fresh; ++row) {
+      if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, row);
+    }
   }
 }
 

@@ -109,6 +109,27 @@ TEST(Ledger, SpinOfHeavilyDampedJoints) {
   EXPECT_LE(std::abs(balance.error()), 1e-4 * balance.turnover);
 }
 
+// What turning has parted is taken back in the next step; a second joint between the same two, made
+// meanwhile, holds them as they are. They must not strain each other: rigid, they would with megajoules.
+TEST(Ledger, AParallelJointMadeInASpin) {
+  Beam beam({.pieces = 2, .length = 40, .gravity = 0});
+  beam.world.DestroyJoint(beam.joints[0]);
+  for (b2Body* p : beam.pieces) {
+    p->SetAngularVelocity(2);
+    p->SetLinearVelocity(b2Cross(2.0f, p->GetWorldCenter() - b2Vec2(20, 0)));
+  }
+  Balance balance(beam);
+  for (int i = 0; i < 20; ++i) balance.step(1.0 / 60);
+  ElasticPlasticJointDef second;
+  second.Initialize(beam.pieces[0], beam.pieces[1],
+                    0.5f * (beam.pieces[0]->GetPosition() + beam.pieces[1]->GetPosition()));
+  beam.structure.create_joint(second);
+  for (int i = 0; i < 20; ++i) {
+    balance.step(1.0 / 60);
+    EXPECT_LE(balance.mechanical() + beam.structure.energy().elastic, (1 + 1e-4) * balance.start) << i;
+  }
+}
+
 // What a moving wall does to the beam, while it holds, and in the step in which it breaks.
 TEST(Ledger, AWallThatMovesDrivesTheBeam) {
   for (const double capacity : {unlimited, 1e7}) {
