@@ -455,6 +455,7 @@ void Solver::push(std::size_t body, const Vec3& change) {
 }
 
 bool Solver::solve(SolveReport& report) {
+  swept_ = false;
   // The structure's impulses to `tolerance` of themselves, or to what rounding leaves: in a rigid row the
   // velocity's last bits are multiplied by κ.
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
@@ -595,11 +596,11 @@ void Solver::flow(SolverJoint& j) const {
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
     const double s = j.impulse[i];
-    // On a yield surface a row may hold still under a great force while others flow: what turning bodies part
-    // along their tangents must not count as its work. In velocities the work of the three is never negative.
-    const double increment = j.piece == on_surface ? slowed_ * h_ * (j.x[i] - s / j.law.G[i])
-                                                   : j.gap[i] - j.neutral[i] - elastic(j, i);
-    if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
+    // In velocities: what turning bodies part along their tangents must not count as flow, which would strain
+    // what is parallel, and be work.
+    const double increment =
+        swept_ ? j.gap[i] - j.neutral[i] - elastic(j, i) : slowed_ * h_ * (j.x[i] - s / j.law.G[i]);
+    if (swept_ && !(increment * j.x[i] > 0)) continue;
     j.neutral[i] += increment;
     j.plastic[i] += increment;
     (increment > 0 ? j.flowed_forward : j.flowed_back)[i] += std::abs(increment);

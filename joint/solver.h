@@ -221,6 +221,7 @@ class Solver {
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
+  bool swept_ = false;   // the last velocities are sweep()'s: x of rows that flow is but their direction
   bool pushed_ = false;  // push() has kept g_ what it is at v
   double slowed_ = 1;    // share of the solution that the bodies move with
   // Of the last evaluation:

@@ -94,6 +94,7 @@ void Solver::warm_start() {
 
 void Solver::sweep() {
   flows_ = false;
+  swept_ = true;
   for (SolverJoint& j : joints) {
     const EffectiveMass m = effective_mass(*this, j);
     Rows r = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v), compliance{};
