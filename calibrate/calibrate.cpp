@@ -449,6 +449,11 @@ class Planner {
 
   void add_joints(int index, std::vector<Interval>& intervals, std::span<const double> lengths,
                   const std::vector<int>& rank, int first, const Placement& place) {
+    const BodyDef& body = plan_.bodies[index];
+    if (body.automatic) {  // where nobody drew the cuts, pieces that meet in a corner are not joined there
+      const double corner = 1e-9 * box_of(body.outline.outer).diagonal();
+      std::erase_if(intervals, [&](const Interval& i) { return length(i.to - i.from) <= corner; });
+    }
     for (Interval& i : intervals) {
       i.left = rank[i.left];
       i.right = rank[i.right];
@@ -461,7 +466,6 @@ class Planner {
     std::stable_sort(intervals.begin(), intervals.end(), [](const Interval& i, const Interval& j) {
       return std::pair(i.left, i.right) < std::pair(j.left, j.right);
     });
-    const BodyDef& body = plan_.bodies[index];
     const std::array overriding{Overriding{"body", &body.joint}, Overriding{"scene", &scene_.joint}};
     std::vector<Touch> touches;
     for (std::size_t k = 0; k < intervals.size(); ++k) {

@@ -593,6 +593,11 @@ void Solver::advance() {
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
 // elastic part; the plastic offset is incremented.
 void Solver::flow(SolverJoint& j) const {
+  // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
+  double rate = 0;
+  for (unsigned i = 0; i < 3 && j.piece == on_surface; ++i) {
+    if (j.law.G[i] > 0) rate += j.impulse[i] * (j.x[i] - j.impulse[i] / j.law.G[i]);
+  }
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
     const double s = j.impulse[i];
@@ -600,11 +605,11 @@ void Solver::flow(SolverJoint& j) const {
     // what is parallel, and be work.
     const double increment =
         swept_ ? j.gap[i] - j.neutral[i] - elastic(j, i) : slowed_ * h_ * (j.x[i] - s / j.law.G[i]);
-    if (swept_ && !(increment * j.x[i] > 0)) continue;
+    if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     j.plastic[i] += increment;
     (increment > 0 ? j.flowed_forward : j.flowed_back)[i] += std::abs(increment);
-    j.dissipated[i] += s / h_ * increment;
+    if (rate >= 0) j.dissipated[i] += s / h_ * increment;
     if (j.hardening[i] > 0) {
       // Isotropic: the cap reached is the cap from now on, in both directions.
       const double growth = std::abs(s) / h_ - (s > 0 ? j.cap : j.cap_reverse)[i];
