@@ -302,6 +302,15 @@ double Solver::norm_of_gradient() {
   return norm;
 }
 
+// What the last bits of impulses are in |∇f|².
+double Solver::rounding_of_impulses() const {
+  double sum = 0;
+  for (const SolverJoint& j : joints) {
+    for (unsigned i = 0; i < 3; ++i) sum += j.m_eff[i] > 0 ? j.impulse[i] * j.impulse[i] / j.m_eff[i] : 0;
+  }
+  return 1e-28 * sum;
+}
+
 // f at the last evaluation. By Moreau's identity φ(x) = s·x − ½ s²/G in every state of a row.
 double Solver::objective() const {
   double f = scale_ / 2;
@@ -542,8 +551,11 @@ bool Solver::solve(SolveReport& report) {
       if (line_search(slope0, slope1)) norm = evaluate();
     }
     // Rounding may be worse than `floor` says (what others move is not in speed_, long arms): where round
-    // after round gains nothing, this is the minimum.
-    idle = norm > 0.999 * before && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
+    // after round gains nothing, this is the minimum. So it is where what is left of joints that press
+    // against each other is the last bits of their impulses.
+    const bool gains = norm <= 0.999 * before;
+    if (!gains && norm <= rounding_of_impulses()) break;
+    idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
     if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
   }

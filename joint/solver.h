@@ -200,6 +200,7 @@ class Solver {
   bool is_rigid(const SolverJoint& joint, unsigned row) const;
   bool line_search(double slope0, double slope1);
   double objective() const;
+  double rounding_of_impulses() const;
   void coast();
   void flow(SolverJoint& joint) const;
   Vec3 told_velocity(std::size_t body) const;
