@@ -79,6 +79,10 @@ struct Result {
   std::vector<Table> tables;
 };
 
+/// A stated spread is that of the repetitions within a run, and by this much more: whole runs, minutes apart,
+/// have been seen to differ by a fifth (memory, caches and clock of a shared machine).
+constexpr double between_runs = 1.25;
+
 /// What a case is told, and how it tells how far it is.
 struct Context {
   bool quick = false;

@@ -93,8 +93,8 @@ Result run_growth(const Context& context) {
         ratios.push_back(a / s), rest_ratios.push_back(r / s), yard.push_back(s / few);
       }
       std::sort(ratios.begin(), ratios.end());
-      const double ratio = ratios[ratios.size() / 2], low = 0.9 * ratios[ratios.size() / 10],
-                   high = 1.1 * ratios[ratios.size() - 1 - ratios.size() / 10],
+      const double ratio = ratios[ratios.size() / 2], low = ratios[ratios.size() / 10] / between_runs,
+                   high = between_runs * ratios[ratios.size() - 1 - ratios.size() / 10],
                    us = 1e6 * median(yard) / joints;
       const double rest = median(rest_ratios), each = static_cast<double>(built->structure->bytes()) / joints;
       for (auto* s : {&ours, &resting, &stock, &bytes})

@@ -241,9 +241,8 @@ Measured measure(const Structure& s, const Way& way, int times) {
   }
   m.ratio = median(ratios);
   m.yardstick_us = median(yardsticks);
-  // What other work on the machine leaves in the caches moves a ratio by some per cent.
-  m.low = 0.9 * *std::min_element(ratios.begin(), ratios.end());
-  m.high = 1.1 * *std::max_element(ratios.begin(), ratios.end());
+  m.low = *std::min_element(ratios.begin(), ratios.end()) / between_runs;
+  m.high = *std::max_element(ratios.begin(), ratios.end()) * between_runs;
   return m;
 }
 
