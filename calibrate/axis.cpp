@@ -169,6 +169,7 @@ void Axis::add_member(const std::vector<int>& way, int first, int last, const Gr
   m.to = g.node[last];
   m.closed = first == last && m.from < 0;
   std::vector<Step> rough;
+  rough.reserve(way.size());
   for (const int e : way) rough.push_back({middle_of(e), triangle_[edges[e].twin]});
   if (m.closed) {
     rough.push_back(rough.front());

@@ -439,6 +439,7 @@ class Planner {
     u = unit(u);
     const double level = 1e-6 * box_of(body.outline.outer).diagonal();
     std::vector<std::pair<double, double>> key;
+    key.reserve(area.size());
     for (const AreaMoments& m : area)
       key.emplace_back(std::round(dot(m.centroid, u) / level), std::round(dot(m.centroid, left(u)) / level));
     std::sort(order.begin(), order.end(), [&](int i, int j) { return key[i] < key[j]; });

@@ -128,9 +128,10 @@ Eigen::VectorXd displacements(const Layout& layout, double gravity) {
     for (int r = 0; r < 3; ++r) k[r] = def.rows[r].stiffness;
     const Eigen::Matrix<double, 6, 6> block = J.transpose() * k.asDiagonal() * J;
     const int of[] = {w.a, w.b};
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        if (of[i] >= 0 && of[j] >= 0) K.block<3, 3>(3 * of[i], 3 * of[j]) += block.block<3, 3>(3 * i, 3 * j);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index j = 0; j < 2; ++j) {
+        if (of[i] >= 0 && of[j] >= 0)
+          K.block<3, 3>(Eigen::Index{3} * of[i], Eigen::Index{3} * of[j]) += block.block<3, 3>(3 * i, 3 * j);
       }
     }
   }

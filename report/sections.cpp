@@ -181,6 +181,7 @@ Result run_sections(const Context& context) {
     const Section section({ring, {}}, steel);
     const auto ours = [&] { kept = section.capacities(up).M; };
     std::vector<double> times;
+    times.reserve(41);
     for (int i = 0; i < 41; ++i)
       times.push_back(1e4 * seconds([&] {
                         for (int k = 0; k < 100; ++k) ours();
@@ -269,8 +270,9 @@ Result run_sections(const Context& context) {
     worst = std::max(worst, values[0]);
     arithmetic.rows.push_back({away, size, values[0], values[1], values[2]});
   };
-  for (double away = 1; away < 2e8; away *= 10) place(placed, away, 0.1, away);
-  for (double size = 1e-6; size < 2e3; size *= 10) place(sized, size, size, 0);
+  for (const double away : {1., 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}) place(placed, away, 0.1, away);
+  double size = 1e-6;
+  for (int i = 0; i < 10; ++i, size *= 10) place(sized, size, size, 0);
   result.figures.push_back(std::move(placed));
   result.figures.push_back(std::move(sized));
   result.tables.push_back(std::move(arithmetic));
@@ -288,7 +290,8 @@ Result run_sections(const Context& context) {
                {{"tolerance [m]"}, {"vertices"}, {"relative error of W_plastic"}, {"stated bound"}},
                {}};
   bool within = true;
-  for (double tolerance = 1e-2; tolerance > 0.5e-8; tolerance /= 10) {
+  double tolerance = 1e-2;
+  for (int i = 0; i < 7; ++i, tolerance /= 10) {
     const Profile disc = profiles::disc(0.2, tolerance);
     const double W = 0.2 * 0.2 * 0.2 / 6,
                  error = relative(Section(disc.outline, steel).elastic({0, 1}).W_plastic, W);
