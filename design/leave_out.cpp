@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <unordered_map>
 
 #include "compare.h"
 #include "ductile/design.h"
@@ -28,7 +29,10 @@ class Leaner {
         lean_{.plan = plan} {
     measure_structures();
     find_quiet();
-    for (std::size_t i = 0; i < plan_.joints.size(); ++i) judged_.push_back(judge(static_cast<int>(i)));
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+      judged_.push_back(judge(static_cast<int>(i)));
+      by_name_.emplace(plan_.joints[i].name, i);
+    }
     budget_ = options.tolerance;
   }
 
@@ -310,19 +314,16 @@ class Leaner {
     return it == all.end() ? -1 : static_cast<int>(it - all.begin());
   }
 
-  const Judged& judged_of(const PlannedJoint& joint) const {
-    const auto it = std::find_if(plan_.joints.begin(), plan_.joints.end(),
-                                 [&](const PlannedJoint& j) { return j.name == joint.name; });
-    return judged_[static_cast<std::size_t>(it - plan_.joints.begin())];
-  }
+  const Judged& judged_of(const PlannedJoint& joint) const { return judged_[by_name_.at(joint.name)]; }
 
   const LeaveOut& options_;
   double at_most_ = 1;  // of the loads
   const Plan& plan_;
   Response full_;
-  std::vector<bool> quiet_;     // structures in which nothing can yield
-  std::vector<double> size_;    // m, of structures
-  std::vector<Judged> judged_;  // by Plan::joints
+  std::vector<bool> quiet_;                               // structures in which nothing can yield
+  std::vector<double> size_;                              // m, of structures
+  std::vector<Judged> judged_;                            // by Plan::joints
+  std::unordered_map<std::string, std::size_t> by_name_;  // into them
   double budget_ = 0;
   int parts_done_ = 0;  // of run()
   LeanPlan lean_;

@@ -197,11 +197,10 @@ void Solver::begin(double h) {
       j.law.bias[i] = j.relaxation[i] * e;
       if (j.damping[i] > 0) {
         // A damper would let what turning bodies part grow from step to step, and the spring store it.
-        j.strain[i] = strain[i];
         j.law.bias[i] = j.relaxation[i] * strain[i] + (e - strain[i]) / h;
       }
     }
-    if (j.surface != nullptr) gaps_[static_cast<std::size_t>(&j - joints.data())] = strain;  // for soften()
+    if (damped_ || changed || j.surface != nullptr) j.strain = strain;
   }
   if (changed) {
     damped_ = std::any_of(joints.begin(), joints.end(), [](const SolverJoint& j) {
@@ -215,14 +214,13 @@ void Solver::begin(double h) {
 void Solver::soften() {
   softened_ = true;
   factored_ = false;
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    SolverJoint& j = joints[k];
+  for (SolverJoint& j : joints) {
     if (j.surface == nullptr) continue;
     const Rows spring = j.spring;
     set_law(j);
     for (unsigned i = 0; i < 3; ++i) {
       if (!(j.spring[i] < spring[i])) continue;
-      const double more = gaps_[k][i] * (spring[i] / j.spring[i] - 1);
+      const double more = j.strain[i] * (spring[i] / j.spring[i] - 1);
       j.neutral[i] -= more;
       j.law.bias[i] += j.relaxation[i] * more;
       j.strain[i] += more;
@@ -603,7 +601,7 @@ void Solver::advance() {
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
-// elastic part; the plastic offset is incremented.
+// elastic part, in velocities as solved; the plastic offset is incremented.
 void Solver::flow(SolverJoint& j) const {
   // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
   double rate = 0;

@@ -56,10 +56,10 @@ struct SolverJoint {
   int block = -1;             // of H, when both bodies are free
 
   // Poses.
-  Rows gap{};                             // u, v, θ
-  Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
-  Rows relaxation{};                      // hk/G: bias per strain, 1/s
-  Rows strain{};                          // of damped rows: elastic, at the step's start
+  Rows gap{};         // u, v, θ
+  Rows neutral{};     // gap at which the row is stress-free: grows by plastic flow
+  Rows relaxation{};  // hk/G: bias per strain, 1/s
+  Rows strain{};      // elastic, at the step's start; where rows are damped or on a yield surface
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A

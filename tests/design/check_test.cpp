@@ -175,11 +175,7 @@ TEST(StaticCheck, NothingYieldsWithoutLoad) {
 }
 
 TEST(StaticCheck, LoosePiecesAreNamedAndLeftOut) {
-  SceneDef scene = cantilever(4, P);
-  BodyDef stone = beam(2, 1, 1);
-  stone.name = "stone";
-  stone.at = {10, 3};
-  scene.bodies.push_back(stone);
+  const SceneDef scene = with_a_loose_stone(cantilever(4, P));
   const Plan plan = calibrate(scene);
   const StaticCheck check = static_check(plan);
   ASSERT_EQ(check.loose.size(), 2u);

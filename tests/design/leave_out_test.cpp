@@ -193,11 +193,7 @@ TEST(LeaveOut, WhatMayBeHitStays) {
 
 // All of the beam stands still then, and what is left of the joints holds nothing.
 TEST(LeaveOut, WhatIsLooseBesideIsNoStructure) {
-  SceneDef scene = cantilever(4, P);
-  BodyDef stone = beam(2, 1, 1);
-  stone.name = "stone";
-  stone.at = {10, 3};
-  scene.bodies.push_back(stone);
+  const SceneDef scene = with_a_loose_stone(cantilever(4, P));
   const LeanPlan lean = leave_out(calibrate(scene), {.tolerance = 0.1, .seconds = 1});
   ASSERT_EQ(lean.plan.joints.size(), 1u);
   EXPECT_EQ(lean.plan.joints[0].name, "stone/0-stone/1");

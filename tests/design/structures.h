@@ -140,4 +140,13 @@ inline int joint_named(const Plan& plan, const std::string& name) {
   return -1;
 }
 
+/// And a stone of two pieces beside it, that nothing holds.
+inline SceneDef with_a_loose_stone(SceneDef scene) {
+  BodyDef stone = beam(2, 1, 1);
+  stone.name = "stone";
+  stone.at = {10, 3};
+  scene.bodies.push_back(stone);
+  return scene;
+}
+
 }  // namespace ductile
