@@ -856,9 +856,14 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     displace_all(1 / turn);
     kept = turn == 1 && last <= enough;
   }
+  // What is still open closes in the next step, as fast as that is short, and what strains rows that are
+  // parallel stays: neither may be more than rounding, or than a trifle of how the structure moves and is
+  // loaded.
+  const double trifle = std::min(enough, 1e-14 * h_ * h_ * (speed_ + scale_) + rounding * rounding * mass_);
   if (kept) {
-    if (!small) let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
+    if (!small) last = let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
     displace_all(1);
+    for (double next; last > trifle && (next = let_go()) < 0.1 * last; last = next) displace_all(1);
   } else {
     for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
   }
@@ -870,8 +875,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
       const double change = j.gap[i] - gaps_[k][i];
-      const bool closed =
-          kept && j.m_eff[i] * change * change <= 1e-10 * size + rounding * rounding * j.m_eff[i];
+      const bool closed = kept && j.m_eff[i] * change * change <= trifle + rounding * rounding * j.m_eff[i];
       if (closed && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += change;
       if (!free) j.plastic[i] += change;
