@@ -170,6 +170,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
     SolverJoint& j = solver.joints.emplace_back(m.own);
+    solver.drift_time = std::max(solver.drift_time, m.drift_time);
     m.component = this;
     m.index = i;
     j.a = number[m.joint->GetBodyA()];

@@ -29,6 +29,7 @@ struct Member {
   Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
   std::size_t index = 0;           // in component->solver.joints
   SolverJoint own;                 // configuration and state while it is in no component
+  double drift_time = 0;           // likewise, of its solver
   bool fresh = true;               // never solved: its neutral position is where it is first seen
   bool broken = false;
   bool yielded = false;

@@ -170,8 +170,8 @@ void Solver::begin(double h) {
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
   // once it would be a blow.
-  const double share = h < drift_time_ ? h / drift_time_ : 1;
-  drift_time_ = std::max(h, drift_time_ - h);
+  const double share = h < drift_time ? h / drift_time : 1;
+  drift_time = std::max(h, drift_time - h);
   for (SolverJoint& j : joints) {
     Rows strain{};
     if (changed || share < 1 || damped_ || j.surface != nullptr)

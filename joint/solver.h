@@ -116,6 +116,8 @@ class Solver {
   /// Rows that are stiffer than so many m_eff/h² are taken as rigid.
   double elastic_ratio = rigid_ratio;
   int round_bound = 100;
+  /// s in which what turning bodies have parted is still to be taken back.
+  double drift_time = 0;
   static constexpr int newton_rounds = 5;
 
   /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
@@ -211,7 +213,6 @@ class Solver {
   std::size_t free_ = 0;
   double mass_ = 0;  // of all free bodies
   double h_ = 0;
-  double drift_time_ = 0;  // s that what turning bodies have parted is still to be taken back in
   BlockLdlt ldlt_;
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s

@@ -91,6 +91,7 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   gone_.driven += component.solver.ledger.driven;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
+    m->drift_time = component.solver.drift_time;
     if (m->broken) m->own.impulse = {};
     m->component = nullptr;
   }

@@ -150,7 +150,7 @@ class Game : b2DestructionListener {
         break;
       case 19:
         structure_.reset();
-        if (judged_) forgive();
+        forgive();
         make_structure();
         break;
       case 20:
@@ -363,6 +363,7 @@ class Game : b2DestructionListener {
     // Box2D's joints fling pieces on long arms about by themselves, which sweeps joint by joint do not hold
     // back.
     if (judged_ || iterative() || !a || !b || a == b || stock_.size() >= 8) return;
+    if (!bears(*a, *b)) return;
     const b2Vec2 at = b->GetWorldCenter();
     b2RevoluteJointDef pin;
     pin.Initialize(a, b, at);
@@ -485,13 +486,22 @@ class Game : b2DestructionListener {
     }
   }
 
-  /// Welds of a structure that is gone are Box2D's, whose energy is not ours to judge.
+  /// Box2D's own joints are not ours to judge: what their energy is, and whether they stay finite over arms
+  /// of kilometres, with a massless body at the end. The welds of a structure that is gone are among them.
   void forgive() {
     std::vector<b2Joint*> welds;
-    for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) welds.push_back(j);
-    for (b2Joint* j : welds) world_->DestroyJoint(j);
-    stock_.clear();
-    budget_ = kinetic();
+    for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) {
+      if (judged_ || !bears(*j->GetBodyA(), *j->GetBodyB())) welds.push_back(j);
+    }
+    for (b2Joint* j : welds) {
+      std::erase(stock_, j);
+      world_->DestroyJoint(j);
+    }
+    if (judged_) budget_ = kinetic();
+  }
+
+  bool bears(const b2Body& a, const b2Body& b) const {
+    return b2Distance(a.GetWorldCenter(), b.GetWorldCenter()) < 32 * size_;
   }
 
   /// Not the structure's to move.
