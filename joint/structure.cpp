@@ -379,9 +379,10 @@ ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJoi
   own.bodyA = weld->GetBodyA();
   own.bodyB = weld->GetBodyB();
   check(own);
-  if (ElasticPlasticJoint::cast(weld) != nullptr) {
+  if (const auto* own_kind = ElasticPlasticJoint::cast(weld); own_kind && own_kind->member_ != nullptr) {
     throw std::invalid_argument(
-        "structure: the weld is an elastic-plastic joint already; adopt stock welds only");
+        "structure: the weld is a joint of a structure already; adopt stock welds, or those of one that is "
+        "gone");
   }
   return impl_->take(weld, own);
 }

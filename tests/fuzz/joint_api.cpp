@@ -1,6 +1,7 @@
 // A game that does as it likes: the input is a program of operations on a world and its structure. Whatever
 // it is, nothing becomes NaN, no solve ends at its bound, and where nobody puts energy in, none appears.
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -437,6 +438,7 @@ class Game : b2DestructionListener {
     const unsigned how = in_.next();
     const float dt = lengths[how & 7u];
     const int velocity = (how & 0x38u) == 0x38 ? 0 : 8, position = (how & 0xc0u) == 0xc0 ? 0 : 3;
+    drop_stock_joints([this](b2Joint& j) { return !bears(*j.GetBodyA(), *j.GetBodyB()); });
     world_->Step(dt, velocity, position);
     // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
     const StepReport& report = structure_->report();
@@ -486,22 +488,28 @@ class Game : b2DestructionListener {
     }
   }
 
-  /// Box2D's own joints are not ours to judge: what their energy is, and whether they stay finite over arms
-  /// of kilometres, with a massless body at the end. The welds of a structure that is gone are among them.
+  /// Welds of a structure that is gone are Box2D's, whose energy is not ours to judge.
   void forgive() {
-    std::vector<b2Joint*> welds;
-    for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) {
-      if (judged_ || !bears(*j->GetBodyA(), *j->GetBodyB())) welds.push_back(j);
-    }
-    for (b2Joint* j : welds) {
-      std::erase(stock_, j);
-      world_->DestroyJoint(j);
-    }
+    stock_.clear();
+    for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) stock_.push_back(j);
+    drop_stock_joints([this](b2Joint&) { return judged_; });
     if (judged_) budget_ = kinetic();
   }
 
+  template <class Which>
+  void drop_stock_joints(Which&& which) {
+    std::vector<b2Joint*> dropped;
+    std::copy_if(stock_.begin(), stock_.end(), std::back_inserter(dropped),
+                 [&](b2Joint* j) { return which(*j); });
+    for (b2Joint* j : dropped) {
+      std::erase(stock_, j);
+      world_->DestroyJoint(j);
+    }
+  }
+
+  /// Over long arms Box2D's own joints fling what they hold about until nothing is finite.
   bool bears(const b2Body& a, const b2Body& b) const {
-    return b2Distance(a.GetWorldCenter(), b.GetWorldCenter()) < 32 * size_;
+    return b2Distance(a.GetWorldCenter(), b.GetWorldCenter()) < 4 * size_;
   }
 
   /// Not the structure's to move.

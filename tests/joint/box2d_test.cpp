@@ -188,6 +188,21 @@ TEST(Adoption, KeepsTheWeldWhereItIs) {
   EXPECT_THROW(structure.adopt(nullptr, {}), std::invalid_argument);
 }
 
+TEST(Adoption, OfAJointWhoseStructureIsGone) {
+  b2World world({0, -10});
+  b2Body *wall = add_box(world, {.type = b2_staticBody}), *tip = add_box(world, {.x = 1});
+  ElasticPlasticJointDef def;
+  def.Initialize(wall, tip, {0.5f, 0}, {1, 0});
+  auto first = std::make_unique<Structure>(world);
+  ElasticPlasticJoint* joint = first->create_joint(def);
+  first.reset();
+  for (int i = 0; i < 30; ++i) world.Step(dt, 8, 3);
+  Structure second(world);
+  EXPECT_EQ(second.adopt(joint, {}), joint);
+  for (int i = 0; i < 30; ++i) world.Step(dt, 8, 3);
+  EXPECT_NEAR(joint->force(rotation), -10 * 1000 * (tip->GetPosition().x - 0.5), 0.05);
+}
+
 TEST(Def, NamesEveryWrongField) {
   b2World world({0, -10});
   Structure structure(world);

@@ -226,7 +226,8 @@ class Structure {
   /// A new joint in the world. Throws std::invalid_argument that names every wrong field.
   ElasticPlasticJoint* create_joint(const ElasticPlasticJointDef& def);
   /// Makes an existing weld, which keeps its address, anchors and user data, one of this structure's. The
-  /// def's bodies and anchors are ignored.
+  /// def's bodies and anchors are ignored. A joint whose structure is gone is such a weld. Throws
+  /// std::invalid_argument where the def is wrong or the weld is a joint of a structure already.
   ElasticPlasticJoint* adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def);
 
   /// Call after b2World::Step: delivers events and destroys broken joints.
