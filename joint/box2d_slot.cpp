@@ -156,9 +156,11 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
     if (const auto found = known.find(body); found != known.end()) {
       Pose at = found->second.pose;
-      const b2Vec2 moved = mirror.local_center - found->second.local_center;  // fixtures came or went
-      at.x += std::cos(at.angle) * moved.x - std::sin(at.angle) * moved.y;
-      at.y += std::sin(at.angle) * moved.x + std::cos(at.angle) * moved.y;
+      // Fixtures came or went.
+      const double x = double{mirror.local_center.x} - found->second.local_center.x;
+      const double y = double{mirror.local_center.y} - found->second.local_center.y;
+      at.x += std::cos(at.angle) * x - std::sin(at.angle) * y;
+      at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
       const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)},
                             static_cast<float>(at.angle)};
       if (same(left, mirror.left)) pose = at;
@@ -175,9 +177,11 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     m.index = i;
     j.a = number[m.joint->GetBodyA()];
     j.b = number[m.joint->GetBodyB()];
-    const b2Vec2 a = m.joint->GetLocalAnchorA() - m.joint->GetBodyA()->GetLocalCenter();
-    const b2Vec2 b = m.joint->GetLocalAnchorB() - m.joint->GetBodyB()->GetLocalCenter();
-    j.ax = a.x, j.ay = a.y, j.bx = b.x, j.by = b.y;
+    // In doubles: what floats round of it changes when the centre of mass does, and would strain rigid rows.
+    const b2Vec2 a = m.joint->GetLocalAnchorA(), from_a = m.joint->GetBodyA()->GetLocalCenter();
+    const b2Vec2 b = m.joint->GetLocalAnchorB(), from_b = m.joint->GetBodyB()->GetLocalCenter();
+    j.ax = double{a.x} - from_a.x, j.ay = double{a.y} - from_a.y;
+    j.bx = double{b.x} - from_b.x, j.by = double{b.y} - from_b.y;
   }
   // Iterations that end before they converge would give energy to faster oscillations than ωh = 1.
   if (kind == SolverKind::iterative) solver.elastic_ratio = 1;
