@@ -472,7 +472,8 @@ class Game : b2DestructionListener {
     // fastest; and what turning bodies have parted along their tangents.
     if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
     const double left = 1e-5 * size_ / shortest_;
-    const double rounding = 1e-7 * most_ + mass * left * left;
+    heaviest_ = std::max(heaviest_, mass);
+    const double rounding = 1e-7 * most_ + heaviest_ * left * left;
     require(now <= budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding, "no energy from nowhere");
     const bool above = now > budget_;
     budget_ = std::min(budget_, now);
@@ -551,6 +552,7 @@ class Game : b2DestructionListener {
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
   double shortest_ = 1;           // s, of all steps
+  double heaviest_ = 0;           // kg, all bodies together, ever
   double turn_ = 0, back_ = 0;  // rad that bodies have turned in a step, and s to take back what that parted
   Snapshot snapshot_;
   struct {
