@@ -88,7 +88,7 @@ class Game : b2DestructionListener {
     const unsigned code = in_.next();
     if (code == 240) {
       snapshot_.save(*world_);
-      saved_ = {bodies_, stock_, budget_, most_, turn_, back_};
+      saved_ = {bodies_, stock_, budget_, most_, turn_, back_, solved_};
       return;
     }
     if (code == 243) return go_back();
@@ -400,6 +400,7 @@ class Game : b2DestructionListener {
     bodies_ = saved_.bodies;
     stock_ = saved_.stock;
     budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn, back_ = saved_.back;
+    solved_ = saved_.solved;
   }
 
   void happened(const JointEvent& event) {
@@ -438,6 +439,12 @@ class Game : b2DestructionListener {
     const unsigned how = in_.next();
     const float dt = lengths[how & 7u];
     const int velocity = (how & 0x38u) == 0x38 ? 0 : 8, position = (how & 0xc0u) == 0xc0 ? 0 : 3;
+    // A rigid row keeps its force when the step changes, and the spring that stands for it goes with the
+    // step: F²/2k of what rigid rows hold against each other, jammed by what slid, is another.
+    if (velocity > 0 && dt > 0) {
+      const double longer = dt / std::exchange(solved_, dt);
+      if (longer > 1) budget_ += structure_->energy().elastic * (longer * longer - 1);
+    }
     drop_stock_joints([this](b2Joint& j) { return !bears(*j.GetBodyA(), *j.GetBodyB()); });
     world_->Step(dt, velocity, position);
     // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
@@ -552,13 +559,14 @@ class Game : b2DestructionListener {
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
   double shortest_ = 1;           // s, of all steps
+  double solved_ = 1;             // s, of the last step that was
   double heaviest_ = 0;           // kg, all bodies together, ever
   double turn_ = 0, back_ = 0;  // rad that bodies have turned in a step, and s to take back what that parted
   Snapshot snapshot_;
   struct {
     std::vector<b2Body*> bodies;
     std::vector<b2Joint*> stock;
-    double budget = 0, most = 0, turn = 0, back = 0;
+    double budget = 0, most = 0, turn = 0, back = 0, solved = 1;
   } saved_;
   StructureDef def_;
   std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});
