@@ -489,7 +489,7 @@ bool Solver::solve(SolveReport& report) {
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
   bool smoothed = false;   // interior_point() was called
   double zg = 0;
-  int round = 0, idle = 0;
+  int round = 0, idle = 0, used = 0;  // rounds, those that gained nothing, those with the factor at hand
   short_step_ = false;
   for (; norm > target() && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
@@ -497,6 +497,8 @@ bool Solver::solve(SolveReport& report) {
     const double by_rate = std::ceil(std::log(norm / target()) / (-2 * std::log(rate_)));
     const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
     const bool stale = !newton_ || changed_ > 0 || short_step_;
+    // What a row that changed its state asks for is but a guess: rounding may deny conjugate directions.
+    const bool in_vain = changed_ > 0 && used > changed_ + 1;
     if (round >= newton_rounds && (flows_ || searched) && !smoothed) {
       // Many rows change their state against each other: find out which, the robust way, and go on from
       // there.
@@ -510,12 +512,14 @@ bool Solver::solve(SolveReport& report) {
       norm = evaluate();
     }
     if (!factored_ || holding_ || searched || curved_ ||
-        (stale && (expected - 1) * round_work > factor_work)) {
+        (stale && (in_vain || (expected - 1) * round_work > factor_work))) {
       factor_tangents();
       ++report.factorisations;
+      used = 0;
       conjugate = false;
       rate_ = std::pow(rate_, 1.1);  // in the hope that the next step's motion calls for less
     }
+    ++used;
     std::copy_n(g_.begin(), free_, z_.begin());
     ldlt_.solve({z_.data(), free_});
     double beta = 0;
