@@ -142,6 +142,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   mirrors.resize(ordered.size());
   solver.bodies.resize(ordered.size());
   goal.resize(ordered.size());
+  bool held_anew = false;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number[body] = static_cast<int>(i);
@@ -155,6 +156,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
     Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
     if (const auto found = known.find(body); found != known.end()) {
+      held_anew |= found->second.turns && !(i < free_bodies && solver.bodies[i].inertia > 0);
       Pose at = found->second.pose;
       // Fixtures came or went.
       const double x = double{mirror.local_center.x} - found->second.local_center.x;
@@ -187,8 +189,10 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   if (kind == SolverKind::iterative) solver.elastic_ratio = 1;
   solver.form(free_bodies);
   solver.locate();
-  const bool any_fresh =
-      std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
+  // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint
+  // took back what turning has parted, they would strain each other.
+  const bool hold =
+      held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     SolverJoint& j = solver.joints[i];
     if (std::exchange(members[i]->fresh, false)) {
@@ -198,9 +202,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     // The gap is still what the joint last saw: bodies that were moved meanwhile are brought back to it.
     for (unsigned row = 0; row < 3; ++row) parted_ |= std::abs(j.gap[row] - members[i]->own.gap[row]) > 1e-9;
     j.gap = members[i]->own.gap;
-    // A new joint holds bodies where they are. If beside it an old one took back what turning has parted,
-    // they would strain each other.
-    for (unsigned row = 0; row < 3 && any_fresh; ++row) {
+    for (unsigned row = 0; row < 3 && hold; ++row) {
       if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, row);
     }
   }

@@ -47,6 +47,7 @@ struct Member {
 struct KnownPose {
   Pose pose;  // of the centre of mass, in the world
   b2Vec2 local_center;
+  bool turns;  // was free to
 };
 using KnownPoses = std::unordered_map<const b2Body*, KnownPose>;
 

@@ -97,8 +97,10 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
   }
   for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
     const Pose& p = component.solver.bodies[i].pose;
-    poses[component.mirrors[i].body] = {{p.x + component.origin_x, p.y + component.origin_y, p.angle},
-                                        component.mirrors[i].local_center};
+    poses[component.mirrors[i].body] = {
+        {p.x + component.origin_x, p.y + component.origin_y, p.angle},
+        component.mirrors[i].local_center,
+        i < component.solver.free_bodies() && component.solver.bodies[i].inertia > 0};
   }
 }
 

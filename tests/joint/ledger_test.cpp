@@ -150,6 +150,24 @@ TEST(Ledger, AParallelJointMadeInASpin) {
   }
 }
 
+// Likewise bodies that may not move any more: what lies between them stays parted.
+TEST(Ledger, BodiesHeldInASpin) {
+  Beam beam({.pieces = 3, .length = 60, .gravity = 0});
+  beam.world.DestroyJoint(beam.joints[0]);
+  for (b2Body* p : beam.pieces) {
+    p->SetAngularVelocity(2);
+    p->SetLinearVelocity(b2Cross(2.0f, p->GetWorldCenter() - b2Vec2(30, 0)));
+  }
+  Balance balance(beam);
+  for (int i = 0; i < 20; ++i) balance.step(1.0 / 60);
+  beam.pieces[0]->SetType(b2_staticBody);
+  beam.pieces[2]->SetType(b2_staticBody);
+  for (int i = 0; i < 20; ++i) {
+    balance.step(1.0 / 60);
+    EXPECT_LE(balance.mechanical() + beam.structure.energy().elastic, balance.start) << i;
+  }
+}
+
 // What a moving wall does to the beam, while it holds, and in the step in which it breaks.
 TEST(Ledger, AWallThatMovesDrivesTheBeam) {
   for (const double capacity : {unlimited, 1e7}) {
