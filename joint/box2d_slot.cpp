@@ -60,7 +60,8 @@ void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
   // An island that is given no velocity iterations moves without us; what that parts is brought together when
   // next seen.
-  leads_ = data.step.velocityIterations > 0 && member_->structure->enlist(*member_);
+  Structure::Impl* structure = component_ != nullptr ? component_->structure : member_->structure;
+  leads_ = data.step.velocityIterations > 0 && structure->enlist(member_, component_);
 }
 
 void ElasticPlasticJoint::SolveVelocityConstraints(const b2SolverData& data) {
@@ -175,7 +176,7 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     Member& m = *members[i];
     SolverJoint& j = solver.joints.emplace_back(m.own);
     solver.drift_time = std::max(solver.drift_time, m.drift_time);
-    m.component = this;
+    m.belong_to(this);
     m.index = i;
     j.a = number[m.joint->GetBodyA()];
     j.b = number[m.joint->GetBodyB()];
@@ -275,28 +276,25 @@ void Component::first_velocity(const b2SolverData& data) {
   alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
-    SolverBody& b = solver.bodies[i];
     if (m.type == b2_staticBody) {
-      const b2Position at{m.body->GetWorldCenter(), m.body->GetAngle()};
-      goal[i] = same(at, m.left) ? b.pose : relative(at);
-      moved |= !same(at, m.left);
-      m.left = at;
+      moved |= !same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left);
       continue;
     }
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
-    const b2Position& at = data.positions[m.island_index];
-    goal[i] = b.pose;
-    if (!same(at, m.left)) {
-      goal[i] = relative(at);
-      moved = true;
-    }
+    moved |= !same(data.positions[m.island_index], m.left);
     m.taken = m.given = data.velocities[m.island_index];
-    m.lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     alone_ &= i >= solver.free_bodies() || only_ours(m);
   }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
     // it. Joint by joint, the sweeps do that.
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      Mirror& m = mirrors[i];
+      const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
+                                                    : data.positions[m.island_index];
+      goal[i] = same(at, m.left) ? solver.bodies[i].pose : relative(at);
+      if (m.type == b2_staticBody) m.left = at;
+    }
     solver.begin(data.step.dt);
     if (kind == SolverKind::direct) {
       project(true);
@@ -317,6 +315,7 @@ void Component::first_velocity(const b2SolverData& data) {
       const b2Velocity v =
           mirrors[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.bodies[i].turn, v.v.x, v.v.y, v.w);
+      mirrors[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     }
     open = true;
   }

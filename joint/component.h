@@ -39,6 +39,7 @@ struct Member {
   int break_group = 0;
   std::shared_ptr<const YieldSurface> surface;
 
+  void belong_to(Component* to) { joint->component_ = component = to; }
   SolverJoint& data();
   const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }
 };
@@ -61,14 +62,14 @@ struct Component {
     b2Body* body = nullptr;
     b2Position left{};   // pose as we left it
     b2Velocity given{};  // velocity as we left it
-    b2Velocity began{};  // velocity before gravity, when a ledger is kept
     b2Velocity taken{};  // velocity as Box2D brought it at the step's start
-    b2Velocity lost{};   // velocity that limit_speed() took
     float mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
+    b2Velocity began{};  // velocity before gravity, when a ledger is kept
+    b2Velocity lost{};   // velocity that limit_speed() took since
   };
 
   Component(std::vector<Member*> enlisted, const KnownPoses& known, SolverKind kind);
@@ -96,6 +97,7 @@ struct Component {
   std::vector<Mirror> mirrors;        // as solver.bodies
   double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
   SolverKind kind;
+  Structure::Impl* structure = nullptr;
   StepReport* report = nullptr;
   std::uint64_t batch = 0;   // island at hand
   std::size_t enlisted = 0;  // joints of it that this island has

@@ -14,13 +14,13 @@
 namespace ductile {
 
 struct RowLaw {
-  Rows G{};            // kg or kg m²: impulse per unit of relative velocity; 0: free
-  Rows bias{};         // m/s or rad/s
-  Rows cap{};          // N s or N m s, > 0 or infinite
-  Rows cap_reverse{};  // likewise
-  Rows after_yield{};  // slope beyond the cap as a share of G (hardening); 0: perfectly plastic
+  Rows G{};                               // kg or kg m²: impulse per unit of relative velocity; 0: free
+  Rows bias{};                            // m/s or rad/s
+  Rows cap{};                             // N s or N m s, > 0 or infinite
+  Rows cap_reverse{};                     // likewise
   const YieldSurface* surface = nullptr;  // instead of the caps
   double h = 0;                           // s
+  Rows after_yield{};  // slope beyond the cap as a share of G (hardening); 0: perfectly plastic
 };
 
 /// Says that a joint flows on its yield surface.
@@ -35,10 +35,15 @@ struct Response {
 /// s(x) where it is not simply G x.
 Response respond_beyond(const RowLaw& law, const Rows& trial);
 
+/// Whether G x is within all caps: then it is s(x), and no row flows.
+inline bool within_caps(const RowLaw& law, const Rows& trial) {
+  const auto within = [&](unsigned i) { return trial[i] <= law.cap[i] && -trial[i] <= law.cap_reverse[i]; };
+  return law.surface == nullptr && within(0) && within(1) && within(2);
+}
+
 inline Response respond(const RowLaw& law, const Rows& x) {
   const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
-  const auto within = [&](unsigned i) { return trial[i] <= law.cap[i] && -trial[i] <= law.cap_reverse[i]; };
-  if (law.surface == nullptr && within(0) && within(1) && within(2)) return {trial, 0};
+  if (within_caps(law, trial)) return {trial, 0};
   return respond_beyond(law, trial);
 }
 

@@ -67,7 +67,7 @@ void Solver::form(std::size_t free_bodies) {
     if (is_free(j.a) && is_free(j.b)) edges.emplace_back(j.a, j.b);
   }
   ldlt_.analyse(static_cast<int>(free_), edges);
-  for (auto* v : {&g_, &d_, &z_, &g0_, &v0_}) v->assign(bodies.size(), {});
+  for (auto* v : {&g_, &d_, &z_, &g0_}) v->assign(bodies.size(), {});
   poses_.assign(bodies.size(), {});
   start_.assign(bodies.size(), {});
   barrier_.assign(joints.size(), {});
@@ -126,6 +126,7 @@ void Solver::locate(SolverJoint& j) const {
 }
 
 void Solver::locate() {
+  biased_ = false;
   for (SolverJoint& j : joints) locate(j);
 }
 
@@ -172,6 +173,12 @@ void Solver::begin(double h) {
   // once it would be a blow.
   const double share = h < drift_time ? h / drift_time : 1;
   drift_time = std::max(h, drift_time - h);
+  if (!changed && share == 1 && !peculiar_) {
+    if (!std::exchange(biased_, false)) {
+      for (SolverJoint& j : joints) set_bias(j);
+    }
+    return;
+  }
   for (SolverJoint& j : joints) {
     Rows strain{};
     if (changed || share < 1 || damped_ || j.surface != nullptr)
@@ -206,6 +213,8 @@ void Solver::begin(double h) {
     damped_ = std::any_of(joints.begin(), joints.end(), [](const SolverJoint& j) {
       return j.damping[0] > 0 || j.damping[1] > 0 || j.damping[2] > 0;
     });
+    peculiar_ = damped_ || std::any_of(joints.begin(), joints.end(),
+                                       [](const SolverJoint& j) { return j.surface != nullptr; });
   }
 }
 
@@ -245,7 +254,8 @@ bool Solver::at_rest() {
   std::fill(g_.begin(), g_.end(), Vec3{});
   for (const SolverJoint& j : joints) {
     Rows s;
-    for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (j.x[i] - j.law.bias[i]);
+    const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * v[i];
     add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
   }
   return norm_of_gradient() <= rest_tolerance * rest_tolerance * scale_;
@@ -266,15 +276,23 @@ double Solver::evaluate() {
   for (SolverJoint& j : joints) {
     Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     for (unsigned i = 0; i < 3; ++i) x[i] += j.law.bias[i];
-    const auto [s, piece] = respond(j.law, x);
-    add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
     j.x = x;
-    j.impulse = s;
-    if ((piece | j.piece | j.factored) != 0) {
+    const auto take = [&](const Rows& s, unsigned piece) {
+      add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
+      j.impulse = s;
+      if ((piece | j.piece | j.factored) == 0) return;
       crossed |= (piece ^ j.piece) | (piece & on_surface);
       any |= piece;
       j.piece = static_cast<std::uint8_t>(piece);
       changed_ += std::popcount(flowing(piece) ^ j.factored);
+    };
+    // Two calls: the one that most joints take keeps all in registers.
+    const Rows trial{j.law.G[0] * x[0], j.law.G[1] * x[1], j.law.G[2] * x[2]};
+    if (within_caps(j.law, trial)) {
+      take(trial, 0);
+    } else {
+      const Response beyond = respond_beyond(j.law, trial);
+      take(beyond.s, beyond.piece);
     }
   }
   crossed_ = crossed != 0;
@@ -404,7 +422,7 @@ void Solver::factor() {
 // there already.
 bool Solver::line_search(double slope0, double slope1) {
   const auto move_to = [this](double t) {
-    for (std::size_t i = 0; i < free_; ++i) bodies[i].v = v0_[i] + t * d_[i];
+    for (std::size_t i = 0; i < free_; ++i) bodies[i].v += (t - 1) * d_[i];
   };
   double t = slope0 / (slope0 - slope1);
   short_step_ = false;
@@ -417,7 +435,7 @@ bool Solver::line_search(double slope0, double slope1) {
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
     const Vec3 md{b.mass * d_[i].x, b.mass * d_[i].y, b.inertia * d_[i].w};
-    at_rest += dot(md, v0_[i] - b.v_free);
+    at_rest += dot(md, b.v - d_[i] - b.v_free);
     curvature += dot(md, d_[i]);
   }
   double low = slope1 > 0 ? 0 : 1, high = slope1 > 0 ? 1 : std::numeric_limits<double>::infinity();
@@ -473,10 +491,10 @@ bool Solver::solve(SolveReport& report) {
   if (norm > target() && flows_ && !same_v) {
     // Start from the lower of the last solution and v*.
     const double f_last = objective();
-    for (std::size_t i = 0; i < free_; ++i) v0_[i] = bodies[i].v, bodies[i].v = bodies[i].v_free;
+    for (std::size_t i = 0; i < free_; ++i) d_[i] = bodies[i].v, bodies[i].v = bodies[i].v_free;
     norm = evaluate();
     if (objective() > f_last) {
-      for (std::size_t i = 0; i < free_; ++i) bodies[i].v = v0_[i];
+      for (std::size_t i = 0; i < free_; ++i) bodies[i].v = d_[i];
       norm = evaluate();
     }
   }
@@ -535,7 +553,6 @@ bool Solver::solve(SolveReport& report) {
       slope0 += dot(g_[i], d_[i]);
       zg += dot(g_[i], z_[i]);
       g0_[i] = g_[i];
-      v0_[i] = bodies[i].v;
       bodies[i].v += d_[i];
     }
     conjugate = true;
@@ -600,8 +617,16 @@ void Solver::advance() {
     const Rows booked = j.dissipated;
     if (!coasting_ && j.piece != 0) flow(j);
     if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
+    set_bias(j);  // while it is at hand
   }
+  biased_ = true;
   coasting_ = false;
+}
+
+// Of the next step, if it is as long: hk/G = 1 without a damper.
+void Solver::set_bias(SolverJoint& j) const {
+  const double rate = 1 / h_;
+  for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = rate * (j.gap[i] - j.neutral[i]);
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
@@ -918,7 +943,7 @@ Rows Solver::force(const SolverJoint& j) {
 
 std::size_t Solver::bytes() const {
   return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
-         (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity() + v0_.capacity()) * sizeof(Vec3) +
+         (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity()) * sizeof(Vec3) +
          (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }

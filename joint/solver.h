@@ -48,22 +48,22 @@ struct SolverJoint {
   int a = 0, b = 0;                       // bodies
   Turn axis_a, axis_b;                    // the axis in A's and B's own frames
   double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
+  Rows x{};                               // J v + b
+  Rows impulse{};                         // s, N s
+  std::uint8_t piece = 0;                 // of the law: which rows flow, and which way (row.h)
+  std::uint8_t factored = 0;              // rows that were flowing in the factor at hand
+  int block = -1;                         // of H, when both bodies are free
   RowLaw law;
-  Rows x{};                   // J v + b
-  Rows impulse{};             // s, N s
-  std::uint8_t piece = 0;     // of the law: which rows flow, and which way (row.h)
-  std::uint8_t factored = 0;  // rows that were flowing in the factor at hand
-  int block = -1;             // of H, when both bodies are free
 
   // Poses.
-  Rows gap{};         // u, v, θ
-  Rows neutral{};     // gap at which the row is stress-free: grows by plastic flow
-  Rows relaxation{};  // hk/G: bias per strain, 1/s
-  Rows strain{};      // elastic, at the step's start; where rows are damped or on a yield surface
+  Rows gap{};                             // u, v, θ
+  Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
   double reference = 0;  // angle of B against A at rest
+  Rows relaxation{};     // hk/G: bias per strain, 1/s
+  Rows strain{};         // elastic, at the step's start; where rows are damped or on a yield surface
 
   // Factorisation.
   Rows slope{};                                     // ds/dx that is in H
@@ -185,6 +185,7 @@ class Solver {
  private:
   void locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint) const;
+  void set_bias(SolverJoint& joint) const;
   void soften();
   void factor_tangents();
   void factor_holding();
@@ -218,6 +219,8 @@ class Solver {
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool damped_ = false;      // any row is
+  bool peculiar_ = true;     // any row is damped or on a yield surface
+  bool biased_ = false;      // laws' biases are those of a step like the last from where the bodies are
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
@@ -233,7 +236,7 @@ class Solver {
   bool crossed_ = false;  // rows changed their state since the evaluation before
   bool curved_ = false;   // any joint flows on its yield surface
   bool flows_ = false;    // any row is beyond its cap
-  std::vector<Vec3> g_, d_, z_, g0_, v0_;
+  std::vector<Vec3> g_, d_, z_, g0_;
   // One row in interior_point(): see there. Sides: the cap and the reverse cap.
   struct Barrier {
     double s, ds, r, hardening;

@@ -93,7 +93,7 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
     m->own = component.solver.joints[m->index];
     m->drift_time = component.solver.drift_time;
     if (m->broken) m->own.impulse = {};
-    m->component = nullptr;
+    m->belong_to(nullptr);
   }
   for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
     const Pose& p = component.solver.bodies[i].pose;
@@ -105,7 +105,7 @@ void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
 }
 
 // Joints are solved in the order in which they were initialised: the first does the work of all.
-bool Structure::Impl::enlist(Member& member) {
+bool Structure::Impl::enlist(Member* member, Component* component) {
   const bool first = !enlisting_;
   if (first) {
     enlisting_ = true;
@@ -116,8 +116,7 @@ bool Structure::Impl::enlist(Member& member) {
     velocity_calls_ = 0;
     if (std::exchange(stepped_, true) == false) report = {};
   }
-  enlisted_.push_back(&member);
-  Component* component = member.component;
+  enlisted_.push_back(member);
   if (component == nullptr) {
     incomplete_ = true;
     return first;
@@ -185,6 +184,7 @@ void Structure::Impl::form() {
     if (group.empty()) continue;
     components.push_back(std::make_unique<Component>(std::move(group), known_, def.solver));
     Component* c = components.back().get();
+    c->structure = this;
     c->report = &report;
     c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
     c->batch = batch_;
@@ -340,16 +340,16 @@ void Structure::Impl::restore(const State& s) {
   joints.clear();
   for (const Member& saved : s.members) {
     members.push_back(std::make_unique<Member>(saved));
-    members.back()->component = nullptr;
     joints.push_back(saved.joint);
     saved.joint->member_ = members.back().get();
+    members.back()->belong_to(nullptr);
   }
   for (const State::Formed& saved : s.components) {
     components.push_back(std::make_unique<Component>(saved.component));
     Component& c = *components.back();
     for (std::size_t i = 0; i < saved.ids.size(); ++i) {
       c.members[i] = find(saved.ids[i])->get();
-      c.members[i]->component = &c;
+      c.members[i]->belong_to(&c);
     }
   }
 }

@@ -18,7 +18,7 @@ struct Structure::Impl {
   void world_is_gone();
 
   // The phases of an island in b2World::Step, called by its joints.
-  bool enlist(Member& member);  // whether it is the first
+  bool enlist(Member* member, Component* component);  // whether it is the first
   void velocity(const b2SolverData& data);
   void position(const b2SolverData& data);
 

@@ -32,6 +32,7 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 class ElasticPlasticJoint;
 class Structure;
+struct Component;
 struct Member;
 struct SolverJoint;
 
@@ -147,8 +148,10 @@ class ElasticPlasticJoint : public b2WeldJoint {
   const SolverJoint& state() const;
   void wake();
 
+  friend struct Member;
   Member* member_;
-  bool leads_ = false;  // first joint of its island: does the work of all
+  Component* component_ = nullptr;  // as member_->component: what each step looks at is in the joint itself
+  bool leads_ = false;              // first joint of its island: does the work of all
 };
 
 /// How Structure::draw() shows joints. A scale of 0 leaves its mark out.
