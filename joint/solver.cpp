@@ -184,18 +184,23 @@ void Solver::begin(double h) {
     if (changed || share < 1 || damped_ || j.surface != nullptr)
       strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
     if (changed) {
-      // A rigid row's spring goes with the step, and keeps its force. One that was edited keeps its force
-      // where it became stiffer, its strain where it became softer: no energy comes of it.
-      const Rows spring = j.spring;
+      // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid
+      // one's masses, it keeps its force if it became stiffer, its strain if softer: no energy comes of it.
+      Rows spring = j.spring;
+      const double with_step = j.law.h > 0 ? (h / j.law.h) * (h / j.law.h) : 1;
       const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
         // The same force, but none larger than the step: what was rough in a short one would be a blow.
         j.impulse[i] *= std::min(1.0, longer);
         if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
-        if (j.spring[i] < spring[i] && !(was_rigid[i] && is_rigid(j, i))) continue;
-        j.neutral[i] += strain[i] * (1 - spring[i] / j.spring[i]);
-        strain[i] *= spring[i] / j.spring[i];
+        const auto strain_by = [&](double by) {
+          j.neutral[i] += strain[i] * (1 - by);
+          strain[i] *= by;
+          spring[i] /= by;
+        };
+        if (was_rigid[i] && is_rigid(j, i)) strain_by(with_step);
+        if (j.spring[i] > spring[i]) strain_by(spring[i] / j.spring[i]);
       }
     }
     for (unsigned i = 0; i < 3; ++i) {

@@ -1,6 +1,7 @@
 // What a case of the report is, and what it hands back.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -79,9 +80,20 @@ struct Result {
   std::vector<Table> tables;
 };
 
-/// A stated spread is that of the repetitions within a run, and by this much more: whole runs, minutes apart,
-/// have been seen to differ by a fifth (memory, caches and clock of a shared machine).
-constexpr double between_runs = 1.25;
+/// What a repeated measurement gave.
+struct Spread {
+  double median, low, high;
+};
+
+/// The spread of the repetitions within a run, but a share of them at either end, and by a quarter more:
+/// whole runs, minutes apart, have been seen to differ by a fifth (memory, caches and clock of a shared
+/// machine).
+inline Spread spread(std::vector<double> ratios, double outside) {
+  constexpr double between_runs = 1.25;
+  std::sort(ratios.begin(), ratios.end());
+  const auto n = ratios.size(), out = static_cast<std::size_t>(outside * static_cast<double>(n));
+  return {ratios[n / 2], ratios[out] / between_runs, ratios[n - 1 - out] * between_runs};
+}
 
 /// What a case is told, and how it tells how far it is.
 struct Context {

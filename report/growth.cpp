@@ -92,10 +92,8 @@ Result run_growth(const Context& context) {
         });
         ratios.push_back(a / s), rest_ratios.push_back(r / s), yard.push_back(s / few);
       }
-      std::sort(ratios.begin(), ratios.end());
-      const double ratio = ratios[ratios.size() / 2], low = ratios[ratios.size() / 10] / between_runs,
-                   high = between_runs * ratios[ratios.size() - 1 - ratios.size() / 10],
-                   us = 1e6 * median(yard) / joints;
+      const auto [ratio, low, high] = spread(ratios, 0.1);
+      const double us = 1e6 * median(yard) / joints;
       const double rest = median(rest_ratios), each = static_cast<double>(built->structure->bytes()) / joints;
       for (auto* s : {&ours, &resting, &stock, &bytes})
         s->x.push_back(joints), s->marked.push_back(false),

@@ -240,10 +240,9 @@ Measured measure(const Structure& s, const Way& way, int times) {
     ratios.push_back(one.ratio);
     yardsticks.push_back(one.yardstick_us);
   }
-  m.ratio = median(ratios);
   m.yardstick_us = median(yardsticks);
-  m.low = *std::min_element(ratios.begin(), ratios.end()) / between_runs;
-  m.high = *std::max_element(ratios.begin(), ratios.end()) * between_runs;
+  const Spread all = spread(ratios, 0);
+  m.ratio = all.median, m.low = all.low, m.high = all.high;
   return m;
 }
 

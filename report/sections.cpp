@@ -116,12 +116,9 @@ double exact(const Ring& ring) {
   return static_cast<double>(section.forces(pna, pna, 1).second);
 }
 
-/// Time in µs against that of a peer, each called in turn.
-struct Timing {
-  double ratio, low, high;
-};
+/// Time against that of a peer, each called in turn.
 template <class F, class G>
-Timing time_against(F&& ours, G&& peer, int pairs) {
+Spread time_against(F&& ours, G&& peer, int pairs) {
   const auto calls = [](auto& f) {
     int n = 1;
     while (n < (1 << 20) && seconds([&] {
@@ -143,9 +140,7 @@ Timing time_against(F&& ours, G&& peer, int pairs) {
                      m;
     ratios.push_back(a / b);
   }
-  std::sort(ratios.begin(), ratios.end());
-  return {ratios[ratios.size() / 2], ratios[ratios.size() / 20] / between_runs,
-          ratios[ratios.size() - 1 - ratios.size() / 20] * between_runs};
+  return spread(std::move(ratios), 0.05);
 }
 
 volatile double kept;  // so that no call is left out
@@ -196,16 +191,16 @@ Result run_sections(const Context& context) {
              .y = {"relative error", true},
              .floor = 1e-16};
     const auto add = [&](const char* family, const std::string& way, double value, auto&& call, bool marked) {
-      const Timing timing = time_against(call, ours, pairs);
+      const Spread timing = time_against(call, ours, pairs);
       auto at = std::find_if(f.series.begin(), f.series.end(), [&](auto& s) { return s.name == family; });
       if (at == f.series.end()) at = f.series.insert(f.series.end(), {.name = family, .look = family});
       const double error = relative(value, reference);
-      const double us = timing.ratio * ours_us;
+      const double us = timing.median * ours_us;
       at->x.push_back(us), at->low.push_back(timing.low * ours_us), at->high.push_back(timing.high * ours_us);
       at->y.push_back(error);
       at->told.push_back(way);
       at->marked.push_back(marked);
-      table.rows.push_back({n, way, error, timing.ratio, timing.low, timing.high, us});
+      table.rows.push_back({n, way, error, timing.median, timing.low, timing.high, us});
       context.progress(++done / all);
       return std::pair(error, us);
     };
