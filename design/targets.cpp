@@ -74,61 +74,6 @@ Answer for_reserve(const SceneDef& scene, double reserve,
   return answer;
 }
 
-double displacement_of(const StaticCheck& check, std::size_t piece) {
-  return length(check.displacement[piece]);
-}
-
-}  // namespace
-
-Answer yield_stress_for(const SceneDef& scene, const std::string& body, double reserve) {
-  SceneDef own = scene;
-  const double before = material_of(own, body).yield_stress;
-  Answer answer = for_reserve(scene, reserve, [&](SceneDef& changed, double factor) {
-    Material& m = material_of(changed, body);
-    for (double* stress :
-         {&m.yield_stress, &m.yield_stress_compression, &m.shear_yield_stress, &m.ultimate_stress})
-      *stress *= factor;
-  });
-  answer.value *= before;
-  return answer;
-}
-
-Answer depth_for(const SceneDef& scene, const std::string& body, double reserve) {
-  SceneDef own = scene;
-  const double before = body_of(own, body).depth;
-  Answer answer = for_reserve(
-      scene, reserve, [&](SceneDef& changed, double factor) { body_of(changed, body).depth *= factor; });
-  answer.value *= before;
-  return answer;
-}
-
-Answer youngs_modulus_for(const SceneDef& scene, const std::string& body, Point at, double displacement) {
-  SceneDef own = scene;
-  const double before = material_of(own, body).youngs_modulus;
-  if (!(displacement > 0 && before > 0))
-    throw InvalidInput(
-        {{"target",
-          "a displacement of " + to_string(displacement) + " m from an E of " + to_string(before) + " Pa",
-          "give both above 0"}});
-  own.loads.push_back({.body = body, .at = at});  // finds the piece
-  const auto piece = static_cast<std::size_t>(calibrate(own).loads.back().piece);
-  Answer answer;
-  const double softer = factor_for(
-      displacement,
-      [&](double factor) {
-        SceneDef changed = scene;
-        material_of(changed, body).youngs_modulus = before / factor;
-        const Plan plan = calibrate(changed);
-        answer.governed_by = "displacement of " + plan.pieces[piece].name;
-        return displacement_of(static_check(plan), piece);
-      },
-      [&] { return "it moves otherwise, or not at all"; });
-  answer.value = before / softer;
-  return answer;
-}
-
-namespace {
-
 void require_positive(double target, const char* what) {
   if (!(target > 0 && target < unlimited))
     throw InvalidInput(
@@ -191,6 +136,41 @@ Mode slowest(const Plan& plan, const Equilibrium& statics, int column) {
 }
 
 }  // namespace
+
+Answer yield_stress_for(const SceneDef& scene, const std::string& body, double reserve) {
+  SceneDef own = scene;
+  const double before = material_of(own, body).yield_stress;
+  Answer answer = for_reserve(scene, reserve, [&](SceneDef& changed, double factor) {
+    Material& m = material_of(changed, body);
+    for (double* stress :
+         {&m.yield_stress, &m.yield_stress_compression, &m.shear_yield_stress, &m.ultimate_stress})
+      *stress *= factor;
+  });
+  answer.value *= before;
+  return answer;
+}
+
+Answer depth_for(const SceneDef& scene, const std::string& body, double reserve) {
+  SceneDef own = scene;
+  const double before = body_of(own, body).depth;
+  Answer answer = for_reserve(
+      scene, reserve, [&](SceneDef& changed, double factor) { body_of(changed, body).depth *= factor; });
+  answer.value *= before;
+  return answer;
+}
+
+Answer youngs_modulus_for(const SceneDef& scene, const std::string& body, Point at, double displacement) {
+  require_positive(displacement, "the displacement");
+  SceneDef own = scene;
+  material_of(own, body);  // throws where there is none
+  own.loads.push_back({.body = body, .at = at});  // finds the piece
+  const Plan plan = calibrate(own);
+  const auto piece = static_cast<std::size_t>(plan.loads.back().piece);
+  return softer(
+      scene, body, displacement,
+      [&](const Plan& changed) { return length(static_check(changed).displacement[piece]); },
+      "displacement of " + plan.pieces[piece].name);
+}
 
 Answer youngs_modulus_for_rotation(const SceneDef& scene, const std::string& body, const std::string& joint,
                                    double rotation) {
