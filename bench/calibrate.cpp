@@ -65,20 +65,11 @@ void load(benchmark::State& state, bool automatic) {
   state.counters["json_us"] = 1e6 * median(json);
   state.counters["ns_per_joint"] = 1e3 * state.counters["us"].value / static_cast<double>(joints);
 }
-BENCHMARK_CAPTURE(load, given, false)
-    ->Name("calibrate/load")
-    ->Arg(1'000)
-    ->Arg(10'000)
-    ->Arg(100'000)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(load, automatic, true)
-    ->Name("calibrate/load_automatic")
-    ->Arg(1'000)
-    ->Arg(10'000)
-    ->Arg(100'000)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
+void sizes(benchmark::internal::Benchmark* b) {
+  b->Arg(1'000)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(load, given, false)->Name("calibrate/load")->Apply(sizes)->UseManualTime();
+BENCHMARK_CAPTURE(load, automatic, true)->Name("calibrate/load_automatic")->Apply(sizes)->UseManualTime();
 
 // A coastline: one outline of very many vertices, into convex parts.
 void outline(benchmark::State& state) {
@@ -95,12 +86,7 @@ void outline(benchmark::State& state) {
   state.counters["s_per_vertex"] = benchmark::Counter(
       static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(outline)
-    ->Name("calibrate/outline")
-    ->Arg(1'000)
-    ->Arg(10'000)
-    ->Arg(100'000)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(outline)->Name("calibrate/outline")->Apply(sizes);
 
 }  // namespace
 }  // namespace ductile::bench

@@ -14,12 +14,8 @@
 namespace ductile::bench {
 namespace {
 
-SceneDef scene_of(const std::string& name) {
-  return read_scene(DUCTILE_SOURCE_DIR "/scenes/" + name + ".scene.json");
-}
-
-void leaving_out(benchmark::State& state, const SceneDef& scene, double seconds_of_scene) {
-  const Plan plan = calibrate(scene);
+void leaving_out(benchmark::State& state, const std::string& scene, double seconds_of_scene) {
+  const Plan plan = calibrate(read_scene(DUCTILE_SOURCE_DIR "/scenes/" + scene + ".scene.json"));
   const LeanPlan lean = leave_out(plan, {.tolerance = 0.01, .seconds = seconds_of_scene});
   std::optional<Simulation> full, less;
   const auto start = [&] {
@@ -41,18 +37,13 @@ void leaving_out(benchmark::State& state, const SceneDef& scene, double seconds_
   state.counters["measured"] = lean.all.measured;
 }
 
-void frame(benchmark::State& state) { leaving_out(state, scene_of("frame"), 5); }
-void frame_pushed(benchmark::State& state) { leaving_out(state, scene_of("frame_pushed"), 5); }
-void frame_large(benchmark::State& state) { leaving_out(state, scene_of("frame_large"), 5); }
-void car(benchmark::State& state) { leaving_out(state, scene_of("car"), 10); }
-void crane(benchmark::State& state) { leaving_out(state, scene_of("harbour_crane"), 6); }
-void viaduct(benchmark::State& state) { leaving_out(state, scene_of("viaduct"), 5); }
-BENCHMARK(frame)->Name("leaving_out/frame")->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(frame_pushed)->Name("leaving_out/frame_pushed")->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(frame_large)->Name("leaving_out/frame_large")->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(car)->Name("leaving_out/car")->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(crane)->Name("leaving_out/harbour_crane")->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(viaduct)->Name("leaving_out/viaduct")->UseManualTime()->Unit(benchmark::kMicrosecond);
+void each(benchmark::internal::Benchmark* b) { b->UseManualTime()->Unit(benchmark::kMicrosecond); }
+BENCHMARK_CAPTURE(leaving_out, frame, "frame", 5)->Apply(each);
+BENCHMARK_CAPTURE(leaving_out, frame_pushed, "frame_pushed", 5)->Apply(each);
+BENCHMARK_CAPTURE(leaving_out, frame_large, "frame_large", 5)->Apply(each);
+BENCHMARK_CAPTURE(leaving_out, car, "car", 10)->Apply(each);
+BENCHMARK_CAPTURE(leaving_out, harbour_crane, "harbour_crane", 6)->Apply(each);
+BENCHMARK_CAPTURE(leaving_out, viaduct, "viaduct", 5)->Apply(each);
 
 }  // namespace
 }  // namespace ductile::bench
