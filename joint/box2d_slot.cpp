@@ -285,6 +285,7 @@ void Component::first_velocity(const b2SolverData& data) {
     m.taken = m.given = data.velocities[m.island_index];
     alone_ &= i >= solver.free_bodies() || only_ours(m);
   }
+  solver.begin(data.step.dt);
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
     // it. Joint by joint, the sweeps do that.
@@ -295,11 +296,11 @@ void Component::first_velocity(const b2SolverData& data) {
       goal[i] = same(at, m.left) ? solver.bodies[i].pose : relative(at);
       if (m.type == b2_staticBody) m.left = at;
     }
-    solver.begin(data.step.dt);
     if (kind == SolverKind::direct) {
       project(true);
     } else {
       solver.sweep_positions(goal);
+      solver.begin(data.step.dt);
     }
     write_poses(data);
   }
@@ -319,7 +320,6 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     open = true;
   }
-  solver.begin(data.step.dt);
   if (kind == SolverKind::iterative) {
     solver.warm_start();
   } else {

@@ -167,7 +167,6 @@ void Solver::begin(double h) {
   const bool changed = h != h_ || !laws_set_;
   if (changed) factored_ = false;
   laws_set_ = true;
-  const double longer = h_ > 0 ? h / h_ : 0;
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
   // once it would be a blow.
@@ -187,7 +186,7 @@ void Solver::begin(double h) {
       // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid
       // one's masses, it keeps its force if it became stiffer, its strain if softer: no energy comes of it.
       Rows spring = j.spring;
-      const double with_step = j.law.h > 0 ? (h / j.law.h) * (h / j.law.h) : 1;
+      const double longer = j.law.h > 0 ? h / j.law.h : 1;
       const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
@@ -199,7 +198,7 @@ void Solver::begin(double h) {
           strain[i] *= by;
           spring[i] /= by;
         };
-        if (was_rigid[i] && is_rigid(j, i)) strain_by(with_step);
+        if (was_rigid[i] && is_rigid(j, i)) strain_by(longer * longer);
         if (j.spring[i] > spring[i]) strain_by(spring[i] / j.spring[i]);
       }
     }
