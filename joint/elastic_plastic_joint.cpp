@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -116,7 +117,7 @@ bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_-
 
 double ElasticPlasticJoint::dissipated() const {
   const Rows& d = state().dissipated;
-  return d[0] + d[1] + d[2];
+  return std::max(0.0, d[0] + d[1] + d[2]);  // rows on a yield surface may cancel but for rounding
 }
 
 double ElasticPlasticJoint::elastic_energy() const {
