@@ -627,7 +627,7 @@ void Solver::advance() {
   coasting_ = false;
 }
 
-// Of the next step, if it is as long: hk/G = 1 without a damper.
+// Of the next step, if it is as long: hk/G is 1/h without a damper.
 void Solver::set_bias(SolverJoint& j) const {
   const double rate = 1 / h_;
   for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = rate * (j.gap[i] - j.neutral[i]);

@@ -475,10 +475,10 @@ class Game : b2DestructionListener {
       mass += b->GetMass();
       turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
     }
-    // What is left of the gaps after a push, 1e-5 sizes, is closed in a step, and the shortest is the
+    // What is left of the gaps after a push, 3e-7 sizes, is closed in a step, and the shortest is the
     // fastest; and what turning bodies have parted along their tangents.
     if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
-    const double left = 1e-5 * size_ / shortest_;
+    const double left = 3e-7 * size_ / shortest_;
     heaviest_ = std::max(heaviest_, mass);
     const double rounding = 1e-7 * most_ + heaviest_ * left * left;
     require(now <= budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding, "no energy from nowhere");

@@ -50,6 +50,15 @@ void expect_balanced(Beam& beam, double seconds, double dt, const char* what) {
       << ", numerical " << e.numerical << ", turnover " << balance.turnover;
 }
 
+// Off the wall, about the point `middle` m from it, as a rigid body turns.
+void let_spin(Beam& beam, float speed, float middle) {
+  beam.world.DestroyJoint(beam.joints[0]);
+  for (b2Body* p : beam.pieces) {
+    p->SetAngularVelocity(speed);
+    p->SetLinearVelocity(b2Cross(speed, p->GetWorldCenter() - b2Vec2(middle, 0)));
+  }
+}
+
 TEST(Ledger, ElasticCantileverSwingsToRest) {
   Beam beam({.pieces = 10, .youngs_modulus = 210e9});
   for (auto* joint : beam.joints) joint->set_stiffness(rotation, 210e9 / 12 / 2, 0.02);
@@ -76,11 +85,7 @@ TEST(Ledger, BreakingAndReforming) {
 
 TEST(Ledger, SpinWithAPlasticSet) {
   Beam beam({.pieces = 10, .length = 10, .youngs_modulus = 210e9, .gravity = 0});
-  beam.world.DestroyJoint(beam.joints[0]);
-  for (b2Body* p : beam.pieces) {
-    p->SetAngularVelocity(5);
-    p->SetLinearVelocity(b2Cross(5.0f, p->GetWorldCenter() - b2Vec2(5, 0)));
-  }
+  let_spin(beam, 5, 5);
   // The middle is pulled with ρhω²L²/8 = 2.4e6 N at first.
   for (ElasticPlasticJoint* j : beam.structure.joints()) j->set_caps(axial, 2e6, 2e6);
   expect_balanced(beam, 5, 1.0 / 60, "spin");
@@ -91,12 +96,8 @@ TEST(Ledger, SpinWithAPlasticSet) {
 // strain of their springs; what it costs otherwise is of the order of θ².
 TEST(Ledger, SpinOfHeavilyDampedJoints) {
   Beam beam({.pieces = 4, .length = 40, .youngs_modulus = 210e9, .gravity = 0});
-  beam.world.DestroyJoint(beam.joints[0]);
   const float speed = 3, turn = speed / 60;
-  for (b2Body* p : beam.pieces) {
-    p->SetAngularVelocity(speed);
-    p->SetLinearVelocity(b2Cross(speed, p->GetWorldCenter() - b2Vec2(20, 0)));
-  }
+  let_spin(beam, speed, 20);
   for (ElasticPlasticJoint* j : beam.structure.joints()) {
     for (const Row row : {axial, shear, rotation}) j->set_stiffness(row, 1e9, 30);
   }
@@ -113,12 +114,8 @@ TEST(Ledger, SpinOfHeavilyDampedJoints) {
 // a joint that goes meanwhile has the structure formed anew. At once it would be a blow of 28 m/s.
 TEST(Ledger, AJointThatGoesBetweenALongAndAShortStepOfASpin) {
   Beam beam({.pieces = 3, .length = 60, .gravity = 0});
-  beam.world.DestroyJoint(beam.joints[0]);
   const float speed = 2, turn = speed / 60;
-  for (b2Body* p : beam.pieces) {
-    p->SetAngularVelocity(speed);
-    p->SetLinearVelocity(b2Cross(speed, p->GetWorldCenter() - b2Vec2(30, 0)));
-  }
+  let_spin(beam, speed, 30);
   Balance balance(beam);
   for (int i = 0; i < 20; ++i) balance.step(1.0 / 60);
   beam.world.DestroyJoint(beam.joints[2]);
@@ -133,11 +130,7 @@ TEST(Ledger, AJointThatGoesBetweenALongAndAShortStepOfASpin) {
 // meanwhile, holds them as they are. They must not strain each other: rigid, they would with megajoules.
 TEST(Ledger, AParallelJointMadeInASpin) {
   Beam beam({.pieces = 2, .length = 40, .gravity = 0});
-  beam.world.DestroyJoint(beam.joints[0]);
-  for (b2Body* p : beam.pieces) {
-    p->SetAngularVelocity(2);
-    p->SetLinearVelocity(b2Cross(2.0f, p->GetWorldCenter() - b2Vec2(20, 0)));
-  }
+  let_spin(beam, 2, 20);
   Balance balance(beam);
   for (int i = 0; i < 20; ++i) balance.step(1.0 / 60);
   ElasticPlasticJointDef second;
@@ -153,11 +146,7 @@ TEST(Ledger, AParallelJointMadeInASpin) {
 // Likewise bodies that may not move any more: what lies between them stays parted.
 TEST(Ledger, BodiesHeldInASpin) {
   Beam beam({.pieces = 3, .length = 60, .gravity = 0});
-  beam.world.DestroyJoint(beam.joints[0]);
-  for (b2Body* p : beam.pieces) {
-    p->SetAngularVelocity(2);
-    p->SetLinearVelocity(b2Cross(2.0f, p->GetWorldCenter() - b2Vec2(30, 0)));
-  }
+  let_spin(beam, 2, 30);
   Balance balance(beam);
   for (int i = 0; i < 20; ++i) balance.step(1.0 / 60);
   beam.pieces[0]->SetType(b2_staticBody);
