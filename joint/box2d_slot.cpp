@@ -111,7 +111,7 @@ std::vector<Structure::Impl*> structures_in(b2World& world) {
   return found;
 }
 
-Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& known, SolverKind solver_kind)
+Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind)
     : members(std::move(enlisted_members)), kind(solver_kind) {
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   std::unordered_map<b2Body*, int> number, degree;
@@ -143,7 +143,6 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
   mirrors.resize(ordered.size());
   solver.bodies.resize(ordered.size());
   goal.resize(ordered.size());
-  bool held_anew = false;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number[body] = static_cast<int>(i);
@@ -155,22 +154,22 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     int edges = 0;
     for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
     mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
-    Pose pose{mirror.left.c.x, mirror.left.c.y, mirror.left.a};
-    if (const auto found = known.find(body); found != known.end()) {
-      held_anew |= found->second.turns && !(i < free_bodies && solver.bodies[i].inertia > 0);
-      Pose at = found->second.pose;
-      // Fixtures came or went.
-      const double x = double{mirror.local_center.x} - found->second.local_center.x;
-      const double y = double{mirror.local_center.y} - found->second.local_center.y;
-      at.x += std::cos(at.angle) * x - std::sin(at.angle) * y;
-      at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
-      const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)},
-                            static_cast<float>(at.angle)};
-      if (same(left, mirror.left)) pose = at;
-    }
-    Solver::place(solver.bodies[i], {pose.x - origin_x, pose.y - origin_y, pose.angle});
+    Solver::place(solver.bodies[i], relative(mirror.left));
   }
 
+  bool held_anew = false;
+  const auto remember = [&](std::size_t i, const KnownPose& known) {
+    held_anew |= known.turns && !(i < free_bodies && solver.bodies[i].inertia > 0);
+    Pose at = known.pose;
+    // Fixtures came or went.
+    const double x = double{mirrors[i].local_center.x} - known.local_center.x;
+    const double y = double{mirrors[i].local_center.y} - known.local_center.y;
+    at.x += std::cos(at.angle) * x - std::sin(at.angle) * y;
+    at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
+    const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
+    if (!same(left, mirrors[i].left)) return;
+    Solver::place(solver.bodies[i], {at.x - origin_x, at.y - origin_y, at.angle});
+  };
   solver.joints.reserve(members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
@@ -180,6 +179,10 @@ Component::Component(std::vector<Member*> enlisted_members, const KnownPoses& kn
     m.index = i;
     j.a = number[m.joint->GetBodyA()];
     j.b = number[m.joint->GetBodyB()];
+    if (!m.fresh) {
+      remember(z(j.a), m.known[0]);
+      remember(z(j.b), m.known[1]);
+    }
     // In doubles: what floats round of it changes when the centre of mass does, and would strain rigid rows.
     const b2Vec2 a = m.joint->GetLocalAnchorA(), from_a = m.joint->GetBodyA()->GetLocalCenter();
     const b2Vec2 b = m.joint->GetLocalAnchorB(), from_b = m.joint->GetBodyB()->GetLocalCenter();
@@ -408,6 +411,13 @@ b2Position Component::box2d_pose(std::size_t i) const {
   const Pose& p = solver.bodies[i].pose;
   return {{static_cast<float>(p.x + origin_x), static_cast<float>(p.y + origin_y)},
           static_cast<float>(p.angle)};
+}
+
+KnownPose Component::known(int body) const {
+  const SolverBody& b = solver.bodies[z(body)];
+  return {{b.pose.x + origin_x, b.pose.y + origin_y, b.pose.angle},
+          mirrors[z(body)].local_center,
+          z(body) < solver.free_bodies() && b.inertia > 0};
 }
 
 Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }

@@ -3,10 +3,10 @@
 
 #include <box2d/box2d.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "ductile/joint.h"
@@ -21,6 +21,13 @@ b2Body* watch_world(b2World& world, Structure::Impl& structure);
 /// The structures of a world, in an order that only their coming and going changes.
 std::vector<Structure::Impl*> structures_in(b2World& world);
 
+/// A body as a component that is no more left it: poses in double survive the re-forming of components.
+struct KnownPose {
+  Pose pose;  // of the centre of mass, in the world
+  b2Vec2 local_center{0, 0};
+  bool turns = false;  // was free to
+};
+
 /// One joint of a structure.
 struct Member {
   ElasticPlasticJoint* joint = nullptr;
@@ -30,6 +37,7 @@ struct Member {
   std::size_t index = 0;           // in component->solver.joints
   SolverJoint own;                 // configuration and state while it is in no component
   double drift_time = 0;           // likewise, of its solver
+  std::array<KnownPose, 2> known;  // likewise, of the joint's bodies
   bool fresh = true;               // never solved: its neutral position is where it is first seen
   bool broken = false;
   bool yielded = false;
@@ -43,14 +51,6 @@ struct Member {
   SolverJoint& data();
   const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }
 };
-
-/// Poses in double survive the re-forming of components here.
-struct KnownPose {
-  Pose pose;  // of the centre of mass, in the world
-  b2Vec2 local_center;
-  bool turns;  // was free to
-};
-using KnownPoses = std::unordered_map<const b2Body*, KnownPose>;
 
 /// Whether its velocity is the solver's to find; all others hold or move as they are told, a dynamic body
 /// without mass among them.
@@ -72,7 +72,7 @@ struct Component {
     b2Velocity lost{};   // velocity that limit_speed() took since
   };
 
-  Component(std::vector<Member*> enlisted, const KnownPoses& known, SolverKind kind);
+  Component(std::vector<Member*> enlisted, SolverKind kind);
 
   /// Whether the bodies are still what the component was formed for.
   bool still_fits();
@@ -89,6 +89,7 @@ struct Component {
   void advance();
   void position(const b2SolverData& data);
 
+  KnownPose known(int body) const;
   Pose relative(const b2Position& at) const;  // to the origin
   b2Position box2d_pose(std::size_t body) const;
 

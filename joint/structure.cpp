@@ -75,7 +75,7 @@ void Structure::Impl::forget(Member& member) {
   if (member.component != nullptr) {
     // The others carry on with what they were; the next island finds them in no component and forms anew.
     Component& component = *member.component;
-    dissolve(component, known_);
+    dissolve(component);
     std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
   }
   for (const double joules : member.own.dissipated) gone_.dissipated += joules;
@@ -85,22 +85,16 @@ void Structure::Impl::forget(Member& member) {
   members.erase(place);
 }
 
-void Structure::Impl::dissolve(Component& component, KnownPoses& poses) {
+void Structure::Impl::dissolve(Component& component) {
   gone_.damping += component.solver.ledger.damping;
   gone_.numerical += component.solver.ledger.numerical;
   gone_.driven += component.solver.ledger.driven;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
     m->drift_time = component.solver.drift_time;
+    m->known = {component.known(m->own.a), component.known(m->own.b)};
     if (m->broken) m->own.impulse = {};
     m->belong_to(nullptr);
-  }
-  for (std::size_t i = 0; i < component.mirrors.size(); ++i) {
-    const Pose& p = component.solver.bodies[i].pose;
-    poses[component.mirrors[i].body] = {
-        {p.x + component.origin_x, p.y + component.origin_y, p.angle},
-        component.mirrors[i].local_center,
-        i < component.solver.free_bodies() && component.solver.bodies[i].inertia > 0};
   }
 }
 
@@ -155,7 +149,7 @@ void Structure::Impl::position(const b2SolverData& data) {
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
 void Structure::Impl::form() {
-  for (Component* c : active_) dissolve(*c, known_);
+  for (Component* c : active_) dissolve(*c);
   std::erase_if(components, [&](const auto& c) {
     return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
   });
@@ -182,7 +176,7 @@ void Structure::Impl::form() {
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
   for (auto& group : groups) {
     if (group.empty()) continue;
-    components.push_back(std::make_unique<Component>(std::move(group), known_, def.solver));
+    components.push_back(std::make_unique<Component>(std::move(group), def.solver));
     Component* c = components.back().get();
     c->structure = this;
     c->report = &report;
@@ -191,7 +185,6 @@ void Structure::Impl::form() {
     c->enlisted = c->members.size();
     active_.push_back(c);
   }
-  known_.clear();
 }
 
 void Structure::Impl::look_for_breaks(Component& component) {
@@ -289,9 +282,13 @@ auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {
   return found != members.end() && (*found)->id == id ? found : members.end();
 }
 
-void Structure::Impl::shift_origin(const b2Vec2& new_origin, const Member& caller) {
+void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
   // Called for every joint; each component is shifted by its first.
   Component* c = caller.component;
+  for (KnownPose& known : caller.known) {
+    known.pose.x -= new_origin.x;
+    known.pose.y -= new_origin.y;
+  }
   if (c == nullptr || caller.index != 0) return;
   c->origin_x -= new_origin.x;
   c->origin_y -= new_origin.y;
@@ -309,7 +306,7 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, known_, pending_};
+  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, pending_};
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
     std::vector<std::uint32_t> ids;
@@ -329,7 +326,6 @@ void Structure::Impl::restore(const State& s) {
   batch_ = s.batch;
   stepped_ = s.stepped;
   gone_ = s.gone;
-  known_ = s.known;
   pending_.assign(s.pending.begin(), s.pending.end());
   broke_ = true;  // update() looks for itself
   enlisted_.clear();

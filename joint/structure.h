@@ -28,7 +28,7 @@ struct Structure::Impl {
   void restore(const State& state);
 
   void update();
-  void shift_origin(const b2Vec2& new_origin, const Member& caller);
+  void shift_origin(const b2Vec2& new_origin, Member& caller);
   std::size_t bytes() const;
   JointEnergy energy() const;
 
@@ -46,7 +46,7 @@ struct Structure::Impl {
 
  private:
   void form();
-  void dissolve(Component& component, KnownPoses& poses);
+  void dissolve(Component& component);
   void look_for_breaks(Component& component);
   void break_joint(Member& member, JointEvent::Mode mode, Row row);
   void say(const Member& member, const JointEvent& event);
@@ -63,7 +63,6 @@ struct Structure::Impl {
   bool broke_ = false;       // some joint, since then
 
   JointEnergy gone_;  // of components and joints that are no more
-  KnownPoses known_;  // of bodies whose component was dissolved
 
   struct Pending {
     std::uint32_t id;
@@ -86,7 +85,6 @@ struct Structure::Impl::State {
   std::uint64_t batch;
   bool stepped;
   JointEnergy gone;
-  KnownPoses known;
   std::vector<Pending> pending;
 };
 

@@ -81,15 +81,34 @@ Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r,
 
 }  // namespace
 
+// The sweeps descend, row by row, on the dual of solver.h's f:
+//   D(s) = ½ |v − v*|²_M + Σ s²/2G − s (J v* + b),  M (v − v*) = −Jᵀ s
+// Where the last impulses are worse than none (pieces that turn by a radian a step), they would be carried on
+// and grow without end: it starts from none there.
 void Solver::warm_start() {
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
+  double dual = 0;
   for (SolverJoint& j : joints) {
-    for (unsigned i = 0; i < 3; ++i)
-      j.impulse[i] = std::clamp(j.impulse[i], -j.law.cap_reverse[i], j.law.cap[i]);
+    const Rows v_free = relative(j, bodies[z(j.a)].v_free, bodies[z(j.b)].v_free);
+    for (unsigned i = 0; i < 3; ++i) {
+      double& s = j.impulse[i];
+      s = std::clamp(s, -j.law.cap_reverse[i], j.law.cap[i]);
+      const bool soft = j.law.G[i] > 0 && !is_rigid(j, i);
+      dual += soft ? s * (s / (2 * j.law.G[i]) - v_free[i] - j.law.bias[i]) : -s * v_free[i];
+    }
     const EffectiveMass m = effective_mass(*this, j);
     bodies[z(j.a)].v -= m.a.response(j.impulse);
     bodies[z(j.b)].v -= m.b.response(j.impulse);
   }
+  for (std::size_t i = 0; i < free_; ++i) {
+    const Vec3 given = bodies[i].v - bodies[i].v_free;
+    dual +=
+        (bodies[i].mass * (given.x * given.x + given.y * given.y) + bodies[i].inertia * given.w * given.w) /
+        2;
+  }
+  if (dual <= 0) return;
+  for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
+  for (SolverJoint& j : joints) j.impulse = {};
 }
 
 void Solver::sweep() {

@@ -441,9 +441,13 @@ class Game : b2DestructionListener {
     const int velocity = (how & 0x38u) == 0x38 ? 0 : 8, position = (how & 0xc0u) == 0xc0 ? 0 : 3;
     // A rigid row keeps its force when the step changes, and the spring that stands for it goes with the
     // step: F²/2k of what rigid rows hold against each other, jammed by what slid, is another.
+    // What sleeps, or is disabled, has not seen that yet.
     if (velocity > 0 && dt > 0) {
-      const double longer = dt / std::exchange(solved_, dt);
+      const double longer = dt / solved_;
       if (longer > 1) budget_ += structure_->energy().elastic * (longer * longer - 1);
+      const bool all = std::all_of(bodies_.begin(), bodies_.end(),
+                                   [](const b2Body* b) { return b->IsAwake() && b->IsEnabled(); });
+      solved_ = all ? dt : std::min(solved_, static_cast<double>(dt));
     }
     drop_stock_joints([this](b2Joint& j) { return !bears(*j.GetBodyA(), *j.GetBodyB()); });
     world_->Step(dt, velocity, position);
@@ -559,7 +563,7 @@ class Game : b2DestructionListener {
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
   double shortest_ = 1;           // s, of all steps
-  double solved_ = 1;             // s, of the last step that was
+  double solved_ = 1;             // s, the last step of whatever has not seen one since
   double heaviest_ = 0;           // kg, all bodies together, ever
   double turn_ = 0, back_ = 0;  // rad that bodies have turned in a step, and s to take back what that parted
   Snapshot snapshot_;
