@@ -143,7 +143,7 @@ std::vector<Case> cases() {
   }
   for (const int pieces : {1000, 10000, 100000}) {
     const std::string name = "joint/scale/chain/" + std::to_string(pieces);
-    const int steps = pieces > 10000 ? 50 : 300;
+    const int steps = 50;
     const auto layout = [=] { return serpentine(pieces); };
     all.push_back({.name = name + "/rest", .layout = layout, .settle = 1, .steps = steps});
     all.push_back(

@@ -222,7 +222,7 @@ void Solver::begin(double h) {
   }
 }
 
-// Rigid rows of joints with a yield surface keep their forces, and lose stiffness until nothing flows any
+// Rigid rows of joints with a yield surface keep their energy, and lose stiffness until nothing flows any
 // more.
 void Solver::soften() {
   softened_ = true;
@@ -233,7 +233,7 @@ void Solver::soften() {
     set_law(j);
     for (unsigned i = 0; i < 3; ++i) {
       if (!(j.spring[i] < spring[i])) continue;
-      const double more = j.strain[i] * (spring[i] / j.spring[i] - 1);
+      const double more = j.strain[i] * (std::sqrt(spring[i] / j.spring[i]) - 1);
       j.neutral[i] -= more;
       j.law.bias[i] += j.relaxation[i] * more;
       j.strain[i] += more;

@@ -258,6 +258,8 @@ class Game : b2DestructionListener {
 
   void make_joint(b2Body* a, b2Body* b) {
     if (a == b || structure_->joints().size() >= 40) return;
+    // On arms of kilometres the effective mass of a row is nothing, and what no row can hold is not judged.
+    if (judged_ && apart(*a, *b) > 100) return;
     ElasticPlasticJointDef def;
     const double out = in_.flag() ? 0.5 : 3;
     const b2Vec2 between = 0.5f * (a->GetWorldCenter() + b->GetWorldCenter());
@@ -520,8 +522,11 @@ class Game : b2DestructionListener {
   }
 
   /// Over long arms Box2D's own joints fling what they hold about until nothing is finite.
-  bool bears(const b2Body& a, const b2Body& b) const {
-    return b2Distance(a.GetWorldCenter(), b.GetWorldCenter()) < 4 * size_;
+  bool bears(const b2Body& a, const b2Body& b) const { return apart(a, b) < 4; }
+
+  /// In sizes.
+  double apart(const b2Body& a, const b2Body& b) const {
+    return b2Distance(a.GetWorldCenter(), b.GetWorldCenter()) / size_;
   }
 
   /// Not the structure's to move.
