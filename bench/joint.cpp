@@ -145,11 +145,14 @@ std::vector<Case> cases() {
     const std::string name = "joint/scale/chain/" + std::to_string(pieces);
     const int steps = 50;
     const auto layout = [=] { return serpentine(pieces); };
-    all.push_back({.name = name + "/rest", .layout = layout, .settle = 1, .steps = steps});
+    all.push_back({.name = name + "/rest", .layout = layout, .settle = 10, .steps = steps});
+    all.push_back({.name = name + "/settling", .layout = layout, .settle = 1, .steps = steps});
     all.push_back(
         {.name = name + "/swaying", .layout = layout, .before_step = shake, .settle = 1, .steps = steps});
   }
-  all.push_back({.name = "joint/scale/building/10000", .layout = [] { return frame(25, 44); }, .settle = 2});
+  const auto building = [] { return frame(25, 44); };
+  all.push_back({.name = "joint/scale/building/10000/rest", .layout = building, .settle = 2, .damping = 3});
+  all.push_back({.name = "joint/scale/building/10000/settling", .layout = building, .settle = 2});
   return all;
 }
 

@@ -254,6 +254,11 @@ void Solver::predict() {
 
 bool Solver::at_rest() {
   if (flows_ || coasting_ || !(speed_ <= 1e-10 * scale_)) return false;
+  // What poses do not resolve moves nothing, whatever it asks of stiff rows.
+  double farthest = 0;
+  for (const SolverBody& b : bodies) farthest = std::max({farthest, std::abs(b.pose.x), std::abs(b.pose.y)});
+  const double last_bits = 2 * std::numeric_limits<double>::epsilon() * farthest;
+  if (h_ * h_ * speed_ <= mass_ * last_bits * last_bits) return true;
   // Moving on by h v changes a row's impulse by G J v at most.
   std::fill(g_.begin(), g_.end(), Vec3{});
   for (const SolverJoint& j : joints) {
