@@ -203,9 +203,14 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       j.neutral = j.gap;
       continue;
     }
-    // The gap is still what the joint last saw: bodies that were moved meanwhile are brought back to it.
-    for (unsigned row = 0; row < 3; ++row) parted_ |= std::abs(j.gap[row] - members[i]->own.gap[row]) > 1e-9;
-    j.gap = members[i]->own.gap;
+    // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
+    // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
+    const Rows& seen = members[i]->own.gap;
+    bool moved = false;
+    for (unsigned row = 0; row < 3; ++row) moved |= std::abs(j.gap[row] - seen[row]) > 1e-9;
+    for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += j.gap[row] - seen[row];
+    if (moved) j.gap = seen;
+    parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
       if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, row);
     }

@@ -831,6 +831,13 @@ double Solver::largest_turn() const {
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   factor_holding();
+  double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
+  // It gives way by less than a thousandth: the structure holds it.
+  const auto holds = [&] { return (size = correction(d_)) < 1e-6 * distance; };
+  if (!try_goal) {
+    distance = pull(goal);
+    if (holds()) return true;
+  }
   for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
   double reach = 1;  // farthest coordinate, longest arm
@@ -845,22 +852,27 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     const double pulled = pull(goal);
     return pulled + strain();
   };
-  double distance = 0;  // |goal|²_M / 2 where nothing is strained
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
+  bool small = true;
   if (try_goal) {
-    // Where all of it was moved alike, the goal itself is the better start.
-    const double given = pull_and_strain();
-    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
-    if (!(pull_and_strain() <= given)) {
-      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], poses_[i]);
+    // Where all of it was moved alike, the goal itself is the better start. Otherwise, from where nothing is
+    // strained, it is a push like any other.
+    const auto place_all = [this](std::span<const Pose> at) {
+      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], at[i]);
+    };
+    place_all(goal);
+    const double there = pull_and_strain();
+    place_all(start_);
+    const double pulled = pull(goal), strained = strain();
+    small = pulled + strained < there && strained <= rigid_ratio * mass_ * rounding * rounding;
+    if (small) distance = pulled;
+    if (there <= pulled + strained) {
+      place_all(goal);
       pull_and_strain();
     }
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
-  } else {
-    distance = pull(goal);
+    if (holds()) return true;
   }
-  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
-  const double size = correction(d_);
-  if (size < 1e-6 * distance) return true;  // it gives way by less than a thousandth: the structure holds it
   const double enough = 1e-8 * size + rounding * rounding * mass_;
   const auto let_go = [&] {
     std::fill_n(g_.begin(), free_, Vec3{});
@@ -872,7 +884,6 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   };
   // A small push: let go of what the pull strains, which may be all of it, and of what a step along the
   // tangent misses the gaps by, its square.
-  bool small = !try_goal;
   double last = size;
   for (int round = 0; small && (round == 0 || last > enough); ++round) {
     displace_all(1);
