@@ -107,10 +107,11 @@ void BlockLdlt::factor() {
   }
 }
 
-void BlockLdlt::solve(std::span<Vec3> x) const {
-  const std::size_t n = diagonal_.size();
-  for (std::size_t j = 0; j < n; ++j) {
+double BlockLdlt::forward(std::span<Vec3> x) const {
+  double energy = 0;
+  for (std::size_t j = 0; j < diagonal_.size(); ++j) {
     const Vec3 v = x[j];
+    if (v.x == 0 && v.y == 0 && v.w == 0) continue;
     for (int k = column_[j]; k < column_[j + 1]; ++k) {
       const double* l = lower_[z(k)].a;
       Vec3& r = x[z(row_[z(k)])];
@@ -119,8 +120,13 @@ void BlockLdlt::solve(std::span<Vec3> x) const {
       r.w -= l[6] * v.x + l[7] * v.y + l[8] * v.w;
     }
     solve_block(diagonal_[j], x[j].x, x[j].y, x[j].w);
+    energy += dot(v, x[j]);
   }
-  for (std::size_t j = n; j-- > 0;) {
+  return energy;
+}
+
+void BlockLdlt::backward(std::span<Vec3> x) const {
+  for (std::size_t j = diagonal_.size(); j-- > 0;) {
     Vec3 v = x[j];
     for (int k = column_[j]; k < column_[j + 1]; ++k) {
       const double* l = lower_[z(k)].a;

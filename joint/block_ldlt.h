@@ -61,7 +61,14 @@ class BlockLdlt {
   void factor();
 
   /// x ← H⁻¹ x with the last factor.
-  void solve(std::span<Vec3> x) const;
+  void solve(std::span<Vec3> x) const {
+    forward(x);
+    backward(x);
+  }
+  /// Its halves: x ← D⁻¹ L⁻¹ x, which costs as much as x has entries and what they reach, and gives xᵀ H⁻¹ x
+  /// of the x it was given; then x ← L⁻ᵀ x.
+  double forward(std::span<Vec3> x) const;
+  void backward(std::span<Vec3> x) const;
 
   int size() const { return static_cast<int>(diagonal_.size()); }
   /// Block products of one factorisation and of one solve: what each costs.

@@ -74,6 +74,7 @@ void Solver::form(std::size_t free_bodies) {
   gaps_.assign(joints.size(), {});
   before.assign(bodies.size(), {});
   turns_.assign(bodies.size(), {});
+  touched_.assign(free_, 0);
   factored_ = false;
   mass_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
@@ -162,6 +163,7 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   newton_ = false;
+  touches_ = 0;
   slowed_ = 1;
   if (softened_ && !flows_) softened_ = laws_set_ = false;
   const bool changed = h != h_ || !laws_set_;
@@ -192,6 +194,8 @@ void Solver::begin(double h) {
       for (unsigned i = 0; i < 3; ++i) {
         // The same force, but none larger than the step: what was rough in a short one would be a blow.
         j.impulse[i] *= std::min(1.0, longer);
+        // What holds nothing any more, as both its bodies are held, forgets its force.
+        if (!(j.spring[i] > 0)) j.neutral[i] = j.gap[i], strain[i] = 0;
         if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
         const auto strain_by = [&](double by) {
           j.neutral[i] += strain[i] * (1 - by);
@@ -486,6 +490,7 @@ void Solver::push(std::size_t body, const Vec3& change) {
   b.v_free += change;
   g_[body] -= {b.mass * change.x, b.mass * change.y, b.inertia * change.w};
   pushed_ = true;
+  if (touches_ < touched_.size()) touched_[touches_++] = body;
 }
 
 bool Solver::solve(SolveReport& report) {
@@ -547,7 +552,13 @@ bool Solver::solve(SolveReport& report) {
       rate_ = std::pow(rate_, 1.1);  // in the hope that the next step's motion calls for less
     }
     ++used;
-    std::copy_n(g_.begin(), free_, z_.begin());
+    if (round == 0 && same_v && norm > 1e4 * left_) {
+      // The pushes are all that there is to answer to: a few right-hand sides, and half a solve.
+      std::fill_n(z_.begin(), free_, Vec3{});
+      for (std::size_t k = 0; k < touches_; ++k) z_[touched_[k]] = g_[touched_[k]];
+    } else {
+      std::copy_n(g_.begin(), free_, z_.begin());
+    }
     ldlt_.solve({z_.data(), free_});
     double beta = 0;
     if (conjugate) {
@@ -593,6 +604,8 @@ bool Solver::solve(SolveReport& report) {
     coast();
   }
   report.residual = norm > 0 ? tolerance * std::sqrt(norm / target()) : 0;
+  left_ = norm;
+  touches_ = 0;
   return round > 0;
 }
 
@@ -760,13 +773,15 @@ double Solver::strain() {
   return sum;
 }
 
-// d = −H⁻¹g; |d|²_M.
-double Solver::correction(std::span<Vec3> d) {
+// d = −H⁻¹g; |d|²_M. As M ≤ H, that is no more than gᵀH⁻¹g: where this is less than `enough`, d is not
+// needed.
+double Solver::correction(std::span<Vec3> d, double enough) {
   for (std::size_t i = 0; i < free_; ++i) {
     if (bodies[i].inverse_inertia == 0) g_[i].w = 0;
     d[i] = -1.0 * g_[i];
   }
-  ldlt_.solve(d.first(free_));
+  if (ldlt_.forward(d.first(free_)) < enough) return 0;
+  ldlt_.backward(d.first(free_));
   double size = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
@@ -833,7 +848,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   factor_holding();
   double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
   // It gives way by less than a thousandth: the structure holds it.
-  const auto holds = [&] { return (size = correction(d_)) < 1e-6 * distance; };
+  const auto holds = [&] { return (size = correction(d_, 1e-6 * distance)) < 1e-6 * distance; };
   if (!try_goal) {
     distance = pull(goal);
     if (holds()) return true;

@@ -197,10 +197,12 @@ class Solver {
   double strain();
   bool push_far(std::span<const Pose> goal, double enough);
   double largest_turn() const;
-  double correction(std::span<Vec3> d);
+  double correction(std::span<Vec3> d, double enough = 0);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
-  bool is_rigid(const SolverJoint& joint, unsigned row) const;
+  static bool is_rigid(const SolverJoint& joint, unsigned row) {
+    return joint.spring[row] != joint.stiffness[row];
+  }
   bool line_search(double slope0, double slope1);
   double objective() const;
   double rounding_of_impulses() const;
@@ -228,7 +230,10 @@ class Solver {
   bool coasting_ = false;
   bool swept_ = false;   // the last velocities are sweep()'s: x of rows that flow is but their direction
   bool pushed_ = false;  // push() has kept g_ what it is at v
-  double slowed_ = 1;    // share of the solution that the bodies move with
+  std::vector<std::size_t> touched_;  // by push(), since the last solve: so many
+  std::size_t touches_ = 0;
+  double left_ = 0;    // |∇f|² that the last solve ended with
+  double slowed_ = 1;  // share of the solution that the bodies move with
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M

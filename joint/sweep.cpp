@@ -178,6 +178,4 @@ void Solver::sweep_positions(std::span<const Pose> at) {
   locate();
 }
 
-bool Solver::is_rigid(const SolverJoint& j, unsigned i) const { return j.spring[i] != j.stiffness[i]; }
-
 }  // namespace ductile
