@@ -81,32 +81,23 @@ Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r,
 
 }  // namespace
 
-// The sweeps descend, row by row, on the dual of solver.h's f:
-//   D(s) = ½ |v − v*|²_M + Σ s²/2G − s (J v* + b),  M (v − v*) = −Jᵀ s
-// Where the last impulses are worse than none (pieces that turn by a radian a step), they would be carried on
-// and grow without end: it starts from none there.
+// Sweeps that do not converge, as of pieces that turn by a radian a step, leave impulses that would be
+// carried on and grow without end: where they would move a body by more than Box2D lets it move, and back,
+// they are forgotten.
 void Solver::warm_start() {
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
-  double dual = 0;
   for (SolverJoint& j : joints) {
-    const Rows v_free = relative(j, bodies[z(j.a)].v_free, bodies[z(j.b)].v_free);
-    for (unsigned i = 0; i < 3; ++i) {
-      double& s = j.impulse[i];
-      s = std::clamp(s, -j.law.cap_reverse[i], j.law.cap[i]);
-      const bool soft = j.law.G[i] > 0 && !is_rigid(j, i);
-      dual += soft ? s * (s / (2 * j.law.G[i]) - v_free[i] - j.law.bias[i]) : -s * v_free[i];
-    }
+    for (unsigned i = 0; i < 3; ++i)
+      j.impulse[i] = std::clamp(j.impulse[i], -j.law.cap_reverse[i], j.law.cap[i]);
     const EffectiveMass m = effective_mass(*this, j);
     bodies[z(j.a)].v -= m.a.response(j.impulse);
     bodies[z(j.b)].v -= m.b.response(j.impulse);
   }
-  for (std::size_t i = 0; i < free_; ++i) {
-    const Vec3 given = bodies[i].v - bodies[i].v_free;
-    dual +=
-        (bodies[i].mass * (given.x * given.x + given.y * given.y) + bodies[i].inertia * given.w * given.w) /
-        2;
-  }
-  if (dual <= 0) return;
+  const auto sane = [this](const SolverBody& b) {
+    const Vec3 given = b.v - b.v_free;
+    return h_ * std::hypot(given.x, given.y) <= 2 * 2.0 && h_ * std::abs(given.w) <= std::numbers::pi;
+  };
+  if (std::all_of(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(free_), sane)) return;
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
   for (SolverJoint& j : joints) j.impulse = {};
 }
