@@ -1,17 +1,20 @@
 // The paper's scheme as an option: good for few pieces, and with high caps the weld that Box2D has.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "beam.h"
 #include "bodies.h"
 
 namespace ductile {
 namespace {
 
+// By what eight sweeps add to those of the steps before: from none, the root of five pieces errs by half.
 TEST(Iterative, HoldsFewPieces) {
-  for (const int pieces : {1, 2}) {
+  for (const auto& [pieces, error] : {std::pair{1, 1e-5}, {2, 1e-5}, {5, 0.1}}) {
     Beam beam({.pieces = pieces, .solver = SolverKind::iterative});
     beam.run(5);
-    EXPECT_NEAR(beam.joints[0]->force(rotation) / beam.root_moment(), 1, 1e-5) << pieces;
+    EXPECT_NEAR(beam.joints[0]->force(rotation) / beam.root_moment(), 1, error) << pieces;
   }
 }
 
