@@ -489,7 +489,6 @@ void Solver::push(std::size_t body, const Vec3& change) {
   SolverBody& b = bodies[body];
   b.v_free += change;
   g_[body] -= {b.mass * change.x, b.mass * change.y, b.inertia * change.w};
-  pushed_ = true;
   if (touches_ < touched_.size()) touched_[touches_++] = body;
 }
 
@@ -499,7 +498,7 @@ bool Solver::solve(SolveReport& report) {
   // velocity's last bits are multiplied by κ.
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
-  const bool same_v = std::exchange(pushed_, false) && !coasting_;
+  const bool same_v = touches_ > 0 && !coasting_;
   coasting_ = false;
   double norm = same_v ? norm_of_gradient() : evaluate();
   if (norm > target() && flows_ && !same_v) {
@@ -621,9 +620,13 @@ void Solver::slow_down(double share) {
 // The safe way out of a solve that did not end: the structure exerts nothing for a step. What its gaps do
 // meanwhile becomes neutral in advance(), so that no energy is stored or given.
 void Solver::coast() {
+  drop_impulses();
+  coasting_ = true;
+}
+
+void Solver::drop_impulses() {
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
   for (SolverJoint& j : joints) j.impulse = {};
-  coasting_ = true;
 }
 
 void Solver::advance() {
@@ -868,13 +871,13 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     return pulled + strain();
   };
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
+  const auto place_all = [this](std::span<const Pose> at) {
+    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], at[i]);
+  };
   bool small = true;
   if (try_goal) {
     // Where all of it was moved alike, the goal itself is the better start. Otherwise, from where nothing is
     // strained, it is a push like any other.
-    const auto place_all = [this](std::span<const Pose> at) {
-      for (std::size_t i = 0; i < free_; ++i) place(bodies[i], at[i]);
-    };
     place_all(goal);
     const double there = pull_and_strain();
     place_all(start_);
@@ -909,9 +912,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   bool kept = small || push_far(goal, enough);
   // Where the nearest is not found (a joint that turns far under the pull), what keeps the gaps will do, from
   // where the bodies were.
-  if (!kept) {
-    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], start_[i]);
-  }
+  if (!kept) place_all(start_);
   for (int round = 0; !kept && round < 20; ++round) {
     let_go();
     factor();
@@ -929,7 +930,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     displace_all(1);
     for (double next; last > trifle && (next = let_go()) < 0.1 * last; last = next) displace_all(1);
   } else {
-    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], goal[i]);
+    place_all(goal);
   }
   locate();
   // Rows that flow, and gaps that could not be kept (supports that were moved apart), take their new place as

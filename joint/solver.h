@@ -207,6 +207,7 @@ class Solver {
   double objective() const;
   double rounding_of_impulses() const;
   void coast();
+  void drop_impulses();
   void flow(SolverJoint& joint) const;
   Vec3 told_velocity(std::size_t body) const;
   void open_ledger();
@@ -228,12 +229,11 @@ class Solver {
   double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
-  bool swept_ = false;   // the last velocities are sweep()'s: x of rows that flow is but their direction
-  bool pushed_ = false;  // push() has kept g_ what it is at v
-  std::vector<std::size_t> touched_;  // by push(), since the last solve: so many
-  std::size_t touches_ = 0;
-  double left_ = 0;    // |∇f|² that the last solve ended with
-  double slowed_ = 1;  // share of the solution that the bodies move with
+  bool swept_ = false;  // the last velocities are sweep()'s: x of rows that flow is but their direction
+  std::vector<std::size_t> touched_;  // by push(), which has kept g_ what it is at v since the last solve:
+  std::size_t touches_ = 0;           // so many
+  double left_ = 0;                   // |∇f|² that the last solve ended with
+  double slowed_ = 1;                 // share of the solution that the bodies move with
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
   double speed_ = 0;      // |v|²_M

@@ -98,8 +98,7 @@ void Solver::warm_start() {
     return h_ * std::hypot(given.x, given.y) <= 2 * 2.0 && h_ * std::abs(given.w) <= std::numbers::pi;
   };
   if (std::all_of(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(free_), sane)) return;
-  for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
-  for (SolverJoint& j : joints) j.impulse = {};
+  drop_impulses();
 }
 
 void Solver::sweep() {
