@@ -171,7 +171,7 @@ void Solver::begin(double h) {
   laws_set_ = true;
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
-  // once it would be a blow.
+  // once it would be a blow. What these part themselves is taken back at once: it would pile up.
   const double share = h < drift_time ? h / drift_time : 1;
   drift_time = std::max(h, drift_time - h);
   if (!changed && share == 1 && !peculiar_) {
@@ -182,6 +182,7 @@ void Solver::begin(double h) {
   }
   for (SolverJoint& j : joints) {
     Rows strain{};
+    const bool shorter = h < j.law.h;
     if (changed || share < 1 || damped_ || j.surface != nullptr)
       strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
     if (changed) {
@@ -208,7 +209,13 @@ void Solver::begin(double h) {
     }
     for (unsigned i = 0; i < 3; ++i) {
       double e = j.gap[i] - j.neutral[i];
-      if (share < 1) e = strain[i] + share * (e - strain[i]);
+      if (share < 1) {
+        const double parted = e - strain[i];
+        const double late =
+            shorter ? parted : std::clamp(j.late[i], std::min(0.0, parted), std::max(0.0, parted));
+        j.late[i] = (1 - share) * late;
+        e -= j.late[i];
+      }
       j.law.bias[i] = j.relaxation[i] * e;
       if (j.damping[i] > 0) {
         // A damper would let what turning bodies part grow from step to step, and the spring store it.

@@ -64,6 +64,7 @@ struct SolverJoint {
   double reference = 0;  // angle of B against A at rest
   Rows relaxation{};     // hk/G: bias per strain, 1/s
   Rows strain{};         // elastic, at the step's start; where rows are damped or on a yield surface
+  Rows late{};           // what a longer step parted and is not taken back yet
 
   // Factorisation.
   Rows slope{};                                     // ds/dx that is in H
@@ -116,7 +117,7 @@ class Solver {
   /// Rows that are stiffer than so many m_eff/h² are taken as rigid.
   double elastic_ratio = rigid_ratio;
   int round_bound = 100;
-  /// s in which what turning bodies have parted is still to be taken back.
+  /// s in which what turning bodies parted in a longer step is still to be taken back.
   double drift_time = 0;
   static constexpr int newton_rounds = 5;
 
