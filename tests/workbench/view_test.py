@@ -1,6 +1,6 @@
 """The window of `ductile view` under Xvfb, with pointer, keys and dropped files.
 
-    view_test.py COMMAND SCENES [PART [slow]]      exit 77: no window can be opened here; slow: a build with sanitizers
+    view_test.py COMMAND SCENES [PART]      exit 77: no window can be opened here
 """
 import json
 import struct
@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import xwindow  # noqa: E402
 from breaking_bar import breaking_bar  # noqa: E402
 
-COMMAND, SCENES, PART, SLOW = sys.argv[1], Path(sys.argv[2]), sys.argv[3:4], "slow" in sys.argv[4:]
+COMMAND, SCENES, PART = sys.argv[1], Path(sys.argv[2]), sys.argv[3:4]
 
 SCENE = breaking_bar()
 JOINTS = ["bar/0-bar/1", "bar/1-bar/2", "bar/2-bar/3", "wall-bar/0", "bar/3-tag"]
@@ -46,10 +46,15 @@ class Batch(unittest.TestCase):
                 self.assertEqual((run.returncode, run.stderr), (0, ""))
                 self.assertEqual(json.loads(run.stdout)["frames"], 600)
 
-    def test_2000_joints_are_drawn_in_4_ms(self):
-        run = view(SCENES / "frame_large.scene.json", "--frames", 60, "--forces", "--select",
-                   "beam_6/10-beam_6/11", "--json")
-        self.assertLess(json.loads(run.stdout)["drawing_ms"]["median"], 40 if SLOW else 4)
+    def test_drawing_grows_no_faster_than_the_joints(self):
+        """As a ratio: how many ms it is, the machine decides (docs/window.md)."""
+        cost = {}
+        for name, joints, joint in (("cantilever", 10, "beam/8-beam/9"),
+                                    ("frame_large", 2085, "beam_6/10-beam_6/11")):
+            run = view(SCENES / f"{name}.scene.json", "--frames", 60, "--forces", "--select", joint, "--json")
+            cost[name] = json.loads(run.stdout)["drawing_ms"]["median"] / joints
+        self.assertGreater(cost["frame_large"], 0)
+        self.assertLess(cost["frame_large"], cost["cantilever"])
 
     def test_screenshots_have_the_size_asked_for(self):
         for scale, size in ((1, (1280, 720)), (2, (2560, 1440))):
