@@ -110,7 +110,7 @@ void BlockLdlt::factor() {
 double BlockLdlt::forward(std::span<Vec3> x) const {
   double energy = 0;
   for (std::size_t j = 0; j < diagonal_.size(); ++j) {
-    const Vec3 v = x[j];
+    const Vec3 v{x[j].x, x[j].y, x[j].w};
     if (v.x == 0 && v.y == 0 && v.w == 0) continue;
     for (int k = column_[j]; k < column_[j + 1]; ++k) {
       const double* l = lower_[z(k)].a;

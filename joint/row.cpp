@@ -4,7 +4,8 @@
 
 namespace ductile {
 
-Response respond_beyond(const RowLaw& law, const Rows& trial) {
+Response respond_beyond(const RowLaw& law, const Rows& x) {
+  const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
   Response r{trial, 0};
   if (law.surface != nullptr) {
     r.piece = law.surface->project(law.G, law.h, r.s) ? on_surface : 0;

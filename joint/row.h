@@ -33,7 +33,7 @@ struct Response {
 };
 
 /// s(x) where it is not simply G x.
-Response respond_beyond(const RowLaw& law, const Rows& trial);
+Response respond_beyond(const RowLaw& law, const Rows& x);
 
 /// Whether G x is within all caps: then it is s(x), and no row flows.
 inline bool within_caps(const RowLaw& law, const Rows& trial) {
@@ -44,7 +44,7 @@ inline bool within_caps(const RowLaw& law, const Rows& trial) {
 inline Response respond(const RowLaw& law, const Rows& x) {
   const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
   if (within_caps(law, trial)) return {trial, 0};
-  return respond_beyond(law, trial);
+  return respond_beyond(law, x);
 }
 
 /// The rows that flow in that piece, one bit each.

@@ -12,17 +12,21 @@ namespace {
 
 constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
-// Joints bend little from step to step and in all: a few terms of the series do, to the last bit.
-Turn turn_of(double angle) {
-  constexpr auto over = [](double n) { return 1 / n; };
+constexpr double over(double n) { return 1 / n; }
+
+Turn turn_of_more(double angle) {
   const double t = angle * angle;
-  if (t < 6e-5) {
-    return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30))),
-            angle * (1 - t * over(6) * (1 - t * over(20)))};
-  }
   if (!(t < 4e-3)) return {std::cos(angle), std::sin(angle)};
   return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30) * (1 - t * over(56) * (1 - t * over(90))))),
           angle * (1 - t * over(6) * (1 - t * over(20) * (1 - t * over(42) * (1 - t * over(72)))))};
+}
+
+// Joints bend little from step to step and in all: a few terms of the series do, to the last bit.
+inline Turn turn_of(double angle) {
+  const double t = angle * angle;
+  if (!(t < 6e-5)) return turn_of_more(angle);
+  return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30))),
+          angle * (1 - t * over(6) * (1 - t * over(20)))};
 }
 
 // J v
@@ -107,8 +111,8 @@ void Solver::form(std::size_t free_bodies) {
 void Solver::locate(SolverJoint& j) const {
   const SolverBody &a = bodies[z(j.a)], &b = bodies[z(j.b)];
   const Turn relative = inverse(a.turn) * b.turn;
-  j.gap[2] = b.pose.angle - a.pose.angle - j.reference;
-  j.axis_a = j.follow == 0 ? j.axis : j.axis * turn_of(j.follow * j.gap[2]);
+  const double bend = b.pose.angle - a.pose.angle - j.reference;
+  j.axis_a = j.follow == 0 ? j.axis : j.axis * turn_of(j.follow * bend);
   j.axis_b = j.axis_a * inverse(relative);
   // From anchor to anchor, in A's frame and then along and across the axis.
   const double wx = b.pose.x - a.pose.x, wy = b.pose.y - a.pose.y;
@@ -116,8 +120,7 @@ void Solver::locate(SolverJoint& j) const {
   const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * j.bx + relative.c * j.by - j.ay;
   const double u = j.axis_a.c * dx + j.axis_a.s * dy;
   const double v = -j.axis_a.s * dx + j.axis_a.c * dy;
-  j.gap[0] = u;
-  j.gap[1] = v;
+  j.gap = {u, v, bend};
   // J of u and v with the frame turning at (1 − follow)·ω_a + follow·ω_b: the entries ±v, ∓u take J at the
   // midpoint of the two anchors, without which a spin with a plastic set gains energy.
   j.au = -(j.ax * j.axis_a.s - j.ay * j.axis_a.c) + (1 - j.follow) * v;
@@ -306,12 +309,12 @@ double Solver::evaluate() {
       j.piece = static_cast<std::uint8_t>(piece);
       changed_ += std::popcount(flowing(piece) ^ j.factored);
     };
-    // Two calls: the one that most joints take keeps all in registers.
+    // Two calls: the one that most joints take keeps all in registers, as no address of `trial` is taken.
     const Rows trial{j.law.G[0] * x[0], j.law.G[1] * x[1], j.law.G[2] * x[2]};
     if (within_caps(j.law, trial)) {
       take(trial, 0);
     } else {
-      const Response beyond = respond_beyond(j.law, trial);
+      const Response beyond = respond_beyond(j.law, j.x);
       take(beyond.s, beyond.piece);
     }
   }
@@ -649,10 +652,24 @@ void Solver::advance() {
     const Rows booked = j.dissipated;
     if (!coasting_ && j.piece != 0) flow(j);
     if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
+    if (slowed_ < 1 && !coasting_) slow_down(j);
     set_bias(j);  // while it is at hand
   }
   biased_ = true;
   coasting_ = false;
+}
+
+// The bodies went less far than was solved for, and so did a spring that has a damper beside it. What other
+// rows are strained by, begin() reads from their gaps.
+void Solver::slow_down(SolverJoint& j) {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!(j.damping[i] > 0)) continue;
+    const double before = j.strain[i], after = before + slowed_ * (elastic(j, i) - before);
+    j.impulse[i] = j.law.G[i] / h_ * after - j.damping[i] * before;
+    if (!keeps_ledger) continue;
+    ledger.numerical += std::exchange(j.stored[i], j.spring[i] * after * after / 2);
+    ledger.numerical -= j.stored[i];
+  }
 }
 
 // Of the next step, if it is as long: hk/G is 1/h without a damper.

@@ -210,6 +210,7 @@ class Solver {
   void coast();
   void drop_impulses();
   void flow(SolverJoint& joint) const;
+  void slow_down(SolverJoint& joint);
   Vec3 told_velocity(std::size_t body) const;
   void open_ledger();
   void account(SolverJoint& joint, const Rows& strain_before, const Rows& booked);

@@ -481,13 +481,17 @@ class Game : b2DestructionListener {
       mass += b->GetMass();
       turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
     }
+    for (ElasticPlasticJoint* j : structure_->joints()) {
+      const float bends = j->GetBodyB()->GetAngularVelocity() - j->GetBodyA()->GetAngularVelocity();
+      turn = std::max(turn, static_cast<double>(dt * std::abs(bends)));
+    }
     // What is left of the gaps after a push, 3e-7 sizes, is closed in a step, and the shortest is the
     // fastest; and what turning bodies have parted along their tangents.
     if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
     const double left = 3e-7 * size_ / shortest_;
     heaviest_ = std::max(heaviest_, mass);
     const double rounding = 1e-7 * most_ + heaviest_ * left * left;
-    require(now <= budget_ * (1 + 1e-4 + 10 * turn_ * turn_) + rounding, "no energy from nowhere");
+    require(now <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding, "no energy from nowhere");
     const bool above = now > budget_;
     budget_ = std::min(budget_, now);
     // They take it back in as much time as they parted in, be it in several shorter steps; steps without

@@ -191,6 +191,21 @@ TEST(Ledger, SlowedByTheSpeedLimit) {
   EXPECT_GT(beam.structure.energy().clamped, 1e9);
 }
 
+// A spring with a damper beside it, too, goes only as far as the bodies do, not as far as was solved for.
+TEST(Ledger, DamperSlowedByTheSpeedLimit) {
+  Beam beam({.pieces = 2, .length = 2, .gravity = 0});
+  let_spin(beam, 0, 0);
+  beam.joints[1]->set_stiffness(axial, 1000, 200);
+  beam.pieces[1]->SetLinearVelocity({8000, 0});
+  Balance balance(beam);
+  balance.step(1.0 / 60);
+  const float apart = beam.pieces[1]->GetWorldCenter().x - beam.pieces[0]->GetWorldCenter().x - 1;
+  EXPECT_NEAR(beam.joints[1]->elastic(axial), apart, 1e-6);
+  EXPECT_GT(apart, 3.9f);  // 2 m each
+  balance.step(1.0 / 60);
+  EXPECT_LE(std::abs(balance.error()), 1e-4 * balance.turnover);
+}
+
 // What short steps part is not to be taken back as late as if the long one before them had parted it.
 TEST(Ledger, SpinThatBeginsAfterALongStep) {
   Beam beam({.pieces = 2, .length = 72, .gravity = 0});
