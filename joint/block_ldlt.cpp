@@ -3,22 +3,33 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cstring>
 
 namespace ductile {
 
 namespace {
 
-inline Block transposed(const Block& block) {
-  const double* a = block.a;
-  return {{a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}};
+// Two doubles that are added or multiplied at once. Compilers find few of them in products of 3×3 blocks.
+using Pair [[gnu::vector_size(16)]] = double;
+
+inline Pair load(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
 }
 
-// target −= l t. Row by row, and with t nowhere else: so the compiler takes entries in pairs.
-inline void subtract_product(double* __restrict target, const double* l, const double* __restrict t) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double x = l[3 * i], y = l[3 * i + 1], w = l[3 * i + 2];
-    for (std::size_t j = 0; j < 3; ++j) target[3 * i + j] -= x * t[j] + y * t[3 + j] + w * t[6 + j];
-  }
+inline void subtract(double* from, const Pair& what) {
+  const Pair left = load(from) - what;
+  std::memcpy(from, &left, sizeof left);
+}
+
+// Two entries of a product: columns `from` and the next of `right`, with each column's entries on the left.
+inline Pair product(const Pair (&left)[3], const double (&right)[3][4], int from) {
+  return left[0] * load(right[0] + from) + left[1] * load(right[1] + from) + left[2] * load(right[2] + from);
+}
+
+inline double last_product(const double (&left)[3], const double (&right)[3][4]) {
+  return left[0] * right[0][2] + left[1] * right[1][2] + left[2] * right[2][2];
 }
 
 constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
@@ -72,7 +83,6 @@ void BlockLdlt::analyse(int n, std::span<const std::pair<int, int>> edges) {
     longest = std::max(longest, column.size());
     for (std::size_t p = 0; p < column.size(); ++p) {
       for (std::size_t q = 0; q < p; ++q) targets_.push_back(slot(column[p], column[q]));
-      targets_.push_back(-1 - column[p]);
     }
   }
   unscaled_.resize(longest);
@@ -91,18 +101,44 @@ void BlockLdlt::clear() {
 void BlockLdlt::factor() {
   const int* target = targets_.data();
   for (std::size_t j = 0; j < diagonal_.size(); ++j) {
-    const Block& d = diagonal_[j];
     factor_block(diagonal_[j]);
-    Block* const column = lower_.data() + column_[j];
-    const int count = column_[j + 1] - column_[j];
-    for (int p = 0; p < count; ++p) {
-      double* l = column[p].a;
-      unscaled_[z(p)] = transposed(column[p]);
-      for (std::size_t i = 0; i < 3; ++i) solve_block(d, l[3 * i], l[3 * i + 1], l[3 * i + 2]);
-      for (int q = 0; q <= p; ++q) {
-        const int place = *target++;
-        subtract_product(place < 0 ? diagonal_[z(-1 - place)].a : lower_[z(place)].a, l, unscaled_[z(q)].a);
+    const Block d = diagonal_[j];
+    for (int k = column_[j], p = 0; k < column_[j + 1]; ++k, ++p) {
+      double* l = lower_[z(k)].a;
+      auto& own = unscaled_[z(p)].row;
+      Pair upper[3];     // rows 0 and 1 of L_p, column by column
+      double bottom[3];  // row 2
+      for (int i = 0; i < 3; ++i) {
+        upper[i] = Pair{l[i], l[3 + i]};
+        bottom[i] = l[6 + i];
+        const Pair rest{l[6 + i], l[i]};
+        std::memcpy(own[i], &upper[i], sizeof(Pair));
+        std::memcpy(own[i] + 2, &rest, sizeof(Pair));
       }
+      solve_block(d, upper[0], upper[1], upper[2]);
+      solve_block(d, bottom[0], bottom[1], bottom[2]);
+      Pair row_0[3], row_1[3], row_2[3];
+      for (int i = 0; i < 3; ++i) {
+        l[i] = upper[i][0], l[3 + i] = upper[i][1], l[6 + i] = bottom[i];
+        row_0[i] = Pair{l[i], l[i]};
+        row_1[i] = Pair{l[3 + i], l[3 + i]};
+        row_2[i] = Pair{l[6 + i], l[6 + i]};
+      }
+      for (int q = 0; q < p; ++q) {
+        double* to = lower_[z(*target++)].a;
+        const auto& other = unscaled_[z(q)].row;
+        subtract(to, product(row_0, other, 0));
+        subtract(to + 2, product(upper, other, 2));
+        subtract(to + 4, product(row_1, other, 1));
+        subtract(to + 6, product(row_2, other, 0));
+        to[8] -= last_product(bottom, other);
+      }
+      // The lower triangle.
+      double* to = diagonal_[z(row_[z(k)])].a;
+      to[0] -= upper[0][0] * own[0][0] + upper[1][0] * own[1][0] + upper[2][0] * own[2][0];
+      subtract(to + 3, product(row_1, own, 0));
+      subtract(to + 6, product(row_2, own, 0));
+      to[8] -= last_product(bottom, own);
     }
   }
 }
@@ -141,7 +177,7 @@ void BlockLdlt::backward(std::span<Vec3> x) const {
 
 std::size_t BlockLdlt::bytes() const {
   return (column_.size() + row_.size() + targets_.size()) * sizeof(int) +
-         (lower_.size() + diagonal_.size() + unscaled_.size()) * sizeof(Block);
+         (lower_.size() + diagonal_.size()) * sizeof(Block) + unscaled_.size() * sizeof(unscaled_[0]);
 }
 
 }  // namespace ductile

@@ -31,8 +31,9 @@ inline void factor_block(Block& block) {
   a[0] = d0, a[3] = l10, a[4] = d1, a[6] = l20, a[7] = l21, a[8] = d2;
 }
 
-/// (x0, x1, x2) ← block⁻¹ (x0, x1, x2) of a factored block.
-inline void solve_block(const Block& block, double& x0, double& x1, double& x2) {
+/// (x0, x1, x2) ← block⁻¹ (x0, x1, x2) of a factored block; of several at once where a Number is several.
+template <class Number>
+void solve_block(const Block& block, Number& x0, Number& x1, Number& x2) {
   const double* a = block.a;
   x1 -= a[3] * x0;
   x2 -= a[6] * x0 + a[7] * x1;
@@ -72,7 +73,7 @@ class BlockLdlt {
 
   int size() const { return static_cast<int>(diagonal_.size()); }
   /// Block products of one factorisation and of one solve: what each costs.
-  std::size_t factor_work() const { return targets_.size() + lower_.size() + diagonal_.size(); }
+  std::size_t factor_work() const { return targets_.size() + 2 * lower_.size() + diagonal_.size(); }
   std::size_t solve_work() const { return (2 * lower_.size() + diagonal_.size()) / 3; }
   std::size_t bytes() const;
 
@@ -81,10 +82,14 @@ class BlockLdlt {
   std::vector<int> column_, row_;
   std::vector<Block> lower_;
   std::vector<Block> diagonal_;  // after factor(): L₃ and 1/D₃ of the block's own scalar L D Lᵀ
-  // For each column and each pair p ≥ q of its blocks, where L_p D L_qᵀ is subtracted: a slot of lower_, or
-  // −1 − row for a diagonal block.
+  // For each column and each pair p > q of its blocks, where in lower_ L_p D L_qᵀ is subtracted.
   std::vector<int> targets_;
-  std::vector<Block> unscaled_;  // the column at hand before it is divided by D, each block transposed
+  // A block transposed, the first entry of each row once more at its end: any two entries that follow each
+  // other in a product are made of two that follow each other here.
+  struct RightFactor {
+    double row[3][4];
+  };
+  std::vector<RightFactor> unscaled_;  // the column at hand before it is divided by D
 };
 
 }  // namespace ductile

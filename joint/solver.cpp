@@ -52,13 +52,16 @@ struct JacobianRows {
 
 // block += leftᵀ right, with left.w = (0, 0, ±1)
 inline void add_product(Block& block, const JacobianRows& left, const JacobianRows& right) {
-  const Vec3 rows[3] = {left.u.x * right.u + left.v.x * right.v, left.u.y * right.u + left.v.y * right.v,
-                        left.u.w * right.u + left.v.w * right.v + left.w.w * right.w};
-  for (std::size_t r = 0; r < 3; ++r) {
-    block.a[3 * r] += rows[r].x;
-    block.a[3 * r + 1] += rows[r].y;
-    block.a[3 * r + 2] += rows[r].w;
-  }
+  double* a = block.a;
+  a[0] += left.u.x * right.u.x + left.v.x * right.v.x;
+  a[1] += left.u.x * right.u.y + left.v.x * right.v.y;
+  a[2] += left.u.x * right.u.w + left.v.x * right.v.w;
+  a[3] += left.u.y * right.u.x + left.v.y * right.v.x;
+  a[4] += left.u.y * right.u.y + left.v.y * right.v.y;
+  a[5] += left.u.y * right.u.w + left.v.y * right.v.w;
+  a[6] += left.u.w * right.u.x + left.v.w * right.v.x + left.w.w * right.w.x;
+  a[7] += left.u.w * right.u.y + left.v.w * right.v.y + left.w.w * right.w.y;
+  a[8] += left.u.w * right.u.w + left.v.w * right.v.w + left.w.w * right.w.w;
 }
 
 }  // namespace
@@ -422,19 +425,26 @@ void Solver::factor() {
                          {0, 0, -turns_a}};
     const JacobianRows b{
         {j.axis_b.c, j.axis_b.s, turns_b * j.bu}, {-j.axis_b.s, j.axis_b.c, turns_b * j.bv}, {0, 0, turns_b}};
+    const auto add = [&](const JacobianRows& da, const JacobianRows& db) {
+      if (free_a) add_product(ldlt_.diagonal(j.a), a, da);
+      if (free_b) add_product(ldlt_.diagonal(j.b), b, db);
+      if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
+    };
     const auto scaled = [&j](const JacobianRows& rows) {
-      JacobianRows d{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
-      if (j.piece == on_surface) {
-        d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
-        d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
-        d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
-      }
+      return JacobianRows{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
+    };
+    const auto coupled = [&](const JacobianRows& rows) {
+      JacobianRows d = scaled(rows);
+      d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
+      d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
+      d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
       return d;
     };
-    const JacobianRows da = scaled(a), db = scaled(b);
-    if (free_a) add_product(ldlt_.diagonal(j.a), a, da);
-    if (free_b) add_product(ldlt_.diagonal(j.b), b, db);
-    if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
+    if (j.piece == on_surface) {
+      add(coupled(a), coupled(b));
+    } else {
+      add(scaled(a), scaled(b));
+    }
   }
   ldlt_.factor();
   factored_ = true;
@@ -608,10 +618,13 @@ bool Solver::solve(SolveReport& report) {
     if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
   }
   report.rounds += round;
-  if (round == round_bound) {
+  const bool lost =
+      !std::isfinite(norm);  // gaps of 100 km: what H gains from rigid rows is all that it holds
+  if (round == round_bound || lost) {
     report.bound_hit = true;
     coast();
   }
+  if (lost) factored_ = false;
   report.residual = norm > 0 ? tolerance * std::sqrt(norm / target()) : 0;
   left_ = norm;
   touches_ = 0;
@@ -636,7 +649,7 @@ void Solver::coast() {
 
 void Solver::drop_impulses() {
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
-  for (SolverJoint& j : joints) j.impulse = {};
+  for (SolverJoint& j : joints) j.x = j.impulse = {};
 }
 
 void Solver::advance() {
@@ -832,7 +845,7 @@ bool Solver::push_far(std::span<const Pose> goal, double enough) {
   move(0);
   double size = correction(d_);
   bool fresh = false;  // d_ is of a factor of its own poses
-  for (int round = 0; size > enough; ++round) {
+  for (int round = 0; !(size <= enough); ++round) {
     if (round == 20) return false;
     for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
     const double whole = 1 / largest_turn();
@@ -953,9 +966,10 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     if (!small) last = let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
     displace_all(1);
     for (double next; last > trifle && (next = let_go()) < 0.1 * last; last = next) displace_all(1);
-  } else {
-    place_all(goal);
+    kept = std::all_of(bodies.begin(), bodies.end(),
+                       [](const SolverBody& b) { return std::isfinite(b.pose.x + b.pose.y + b.pose.angle); });
   }
+  if (!kept) place_all(goal);
   locate();
   // Rows that flow, and gaps that could not be kept (supports that were moved apart), take their new place as
   // neutral: a push stores no energy.

@@ -481,10 +481,21 @@ class Game : b2DestructionListener {
       mass += b->GetMass();
       turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
     }
+    // Against each other as against the world. Where a body is light to turn on a long arm, what closes the
+    // gap turns it the more: 4 for a rod that is held at its end.
+    double lever = 4;
     for (ElasticPlasticJoint* j : structure_->joints()) {
-      const float bends = j->GetBodyB()->GetAngularVelocity() - j->GetBodyA()->GetAngularVelocity();
-      turn = std::max(turn, static_cast<double>(dt * std::abs(bends)));
+      const b2Body *a = j->GetBodyA(), *b = j->GetBodyB();
+      turn = std::max(turn,
+                      static_cast<double>(dt * std::abs(b->GetAngularVelocity() - a->GetAngularVelocity())));
+      for (const auto& [body, anchor] : {std::pair{a, j->GetAnchorA()}, std::pair{b, j->GetAnchorB()}}) {
+        const float inertia = body->GetInertia() - body->GetMass() * body->GetLocalCenter().LengthSquared();
+        if (!(inertia > 0)) continue;
+        const float r = b2Distance(anchor, body->GetWorldCenter());
+        lever = std::max(lever, std::min(20.0, 1 + double{body->GetMass()} * r * r / inertia));
+      }
     }
+    turn *= std::sqrt(lever / 4);
     // What is left of the gaps after a push, 3e-7 sizes, is closed in a step, and the shortest is the
     // fastest; and what turning bodies have parted along their tangents.
     if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));

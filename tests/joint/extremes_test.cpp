@@ -266,5 +266,37 @@ TEST(StretchingChain, EverySolveEnds) {
   EXPECT_LE(kinetic_energy(pieces), energy);
 }
 
+// In H the inertia of such bodies is lost beside what rigid rows on such arms add to it.
+TEST(Extremes, JointsAcrossAHundredKilometres) {
+  for (const double apart : {1e3, 1e4, 1e5, 1e6}) {
+    for (const bool surface : {false, true}) {
+      for (int seed = 0; seed < 100; ++seed) {
+        b2World world({0, -10});
+        Structure structure(world);
+        b2Body* a = add_box(world, {.mass = 76.0 + seed});
+        b2Body* b = add_box(world, {.x = apart, .y = -apart / 3, .mass = 2000, .angle = 0.1 * seed});
+        ElasticPlasticJointDef def;
+        def.Initialize(a, b, {0, 0}, {1, 0});
+        def.localAnchorB = {0.1f * static_cast<float>(seed), 0};
+        def.axisFollow = static_cast<float>(seed % 3) * 0.5f;
+        const double cap = std::pow(10, 2 + seed % 11);
+        def.rows[axial] = def.rows[shear] = def.rows[rotation] = {.cap = cap, .cap_reverse = cap};
+        if (surface) def.interaction = {{cap, 0}, {0, cap}, {-cap, 0}, {0, -cap}};
+        structure.create_joint(def);
+        a->SetAngularVelocity(1);
+        for (int i = 0; i < 100; ++i) {
+          world.Step(1.0f / 60, 8, 3);
+          structure.update();
+          for (const b2Body* body : {a, b}) {
+            ASSERT_TRUE(std::isfinite(body->GetPosition().x + body->GetAngle() + body->GetLinearVelocity().x +
+                                      body->GetAngularVelocity()))
+                << apart << " " << surface << " " << seed << " " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ductile
