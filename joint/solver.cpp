@@ -177,9 +177,30 @@ void Solver::begin(double h) {
   laws_set_ = true;
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
-  // once it would be a blow. What these part themselves is taken back at once: it would pile up.
+  // once it would be a blow. What these part themselves is taken back at once: it would pile up. Which is
+  // which, is known by size alone; all rows wait for the same share of theirs, so that those of parallel
+  // joints agree.
   const double share = h < drift_time ? h / drift_time : 1;
   drift_time = std::max(h, drift_time - h);
+  const auto parted = [](const SolverJoint& j) {
+    double sum = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      const double d = j.gap[i] - j.neutral[i] - elastic(j, i);
+      if (j.law.G[i] > 0) sum += j.m_eff[i] * d * d;
+    }
+    return sum;
+  };
+  double waits = 0;  // share of what is parted that is not taken back in this step
+  if (share < 1) {
+    double late = 0, all = 0;
+    for (SolverJoint& j : joints) {
+      const double now = parted(j);
+      late += h < j.law.h ? now : j.late;
+      all += now;
+    }
+    waits = (1 - share) * (late < all ? std::sqrt(late / all) : 1);
+    for (SolverJoint& j : joints) j.late = waits * waits * parted(j);
+  }
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
       for (SolverJoint& j : joints) set_bias(j);
@@ -188,7 +209,6 @@ void Solver::begin(double h) {
   }
   for (SolverJoint& j : joints) {
     Rows strain{};
-    const bool shorter = h < j.law.h;
     if (changed || share < 1 || damped_ || j.surface != nullptr)
       strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
     if (changed) {
@@ -215,13 +235,7 @@ void Solver::begin(double h) {
     }
     for (unsigned i = 0; i < 3; ++i) {
       double e = j.gap[i] - j.neutral[i];
-      if (share < 1) {
-        const double parted = e - strain[i];
-        const double late =
-            shorter ? parted : std::clamp(j.late[i], std::min(0.0, parted), std::max(0.0, parted));
-        j.late[i] = (1 - share) * late;
-        e -= j.late[i];
-      }
+      e -= waits * (e - strain[i]);
       j.law.bias[i] = j.relaxation[i] * e;
       if (j.damping[i] > 0) {
         // A damper would let what turning bodies part grow from step to step, and the spring store it.

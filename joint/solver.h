@@ -64,7 +64,7 @@ struct SolverJoint {
   double reference = 0;  // angle of B against A at rest
   Rows relaxation{};     // hk/G: bias per strain, 1/s
   Rows strain{};         // elastic, at the step's start; where rows are damped or on a yield surface
-  Rows late{};           // what a longer step parted and is not taken back yet
+  double late = 0;       // Σ m_eff d² of what a longer step parted and is not taken back yet
 
   // Factorisation.
   Rows slope{};                                     // ds/dx that is in H
