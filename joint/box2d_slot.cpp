@@ -21,6 +21,7 @@ namespace {
 bool same(float a, float b) { return std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
 
 bool same(const b2Position& a, const b2Position& b) {
+  if (a.c == b.c && a.a == b.a) return true;
   return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
 }
 
@@ -228,14 +229,17 @@ void Component::read_mass(std::size_t i) {
   solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
 }
 
-bool Component::still_fits() {
+bool Component::look() {
   bool masses = true;
+  alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    const Mirror& m = mirrors[i];
+    Mirror& m = mirrors[i];
     if (m.body->GetType() != m.type) return false;
-    if (m.type != b2_dynamicBody) continue;
-    masses &= m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
-              m.body->GetLocalCenter() == m.local_center;
+    if (m.type == b2_staticBody) continue;
+    m.island_index = of(*m.body, b2Body_m_islandIndex{});
+    alone_ &= i >= solver.free_bodies() || only_ours(m);
+    masses &= m.type != b2_dynamicBody || (m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
+                                           m.body->GetLocalCenter() == m.local_center);
   }
   return masses;
 }
@@ -254,16 +258,12 @@ void Component::disturb() {
 // same.
 bool Component::as_before(const b2SolverData& data) {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
-  alone_ = true;
-  for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    Mirror& m = mirrors[i];
+  for (const Mirror& m : mirrors) {
     if (m.type == b2_staticBody) {
       if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
       continue;
     }
-    m.island_index = of(*m.body, b2Body_m_islandIndex{});
     const b2Velocity& v = data.velocities[m.island_index];
-    alone_ &= i >= solver.free_bodies() || only_ours(m);
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
                                    m.gyration * std::abs(v.w - m.taken.w)});
     if (!(change <= slack_) || !same(data.positions[m.island_index], m.left)) return false;
@@ -281,17 +281,13 @@ void Component::first_velocity(const b2SolverData& data) {
     return;
   }
   bool moved = std::exchange(parted_, false);
-  alone_ = kind == SolverKind::direct;
-  for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    Mirror& m = mirrors[i];
+  for (Mirror& m : mirrors) {
     if (m.type == b2_staticBody) {
       moved |= !same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left);
       continue;
     }
-    m.island_index = of(*m.body, b2Body_m_islandIndex{});
     moved |= !same(data.positions[m.island_index], m.left);
     m.taken = m.given = data.velocities[m.island_index];
-    alone_ &= i >= solver.free_bodies() || only_ours(m);
   }
   solver.begin(data.step.dt);
   if (moved) {
@@ -392,7 +388,11 @@ void Component::give(const b2SolverData& data) {
 }
 
 void Component::position(const b2SolverData& data) {
-  if (alone_) return write_poses(data);
+  if (alone_) {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
+      data.positions[mirrors[i].island_index] = mirrors[i].left;
+    return;
+  }
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     b2Position& at = data.positions[mirrors[i].island_index];

@@ -74,8 +74,9 @@ struct Component {
 
   Component(std::vector<Member*> enlisted, SolverKind kind);
 
-  /// Whether the bodies are still what the component was formed for.
-  bool still_fits();
+  /// Before a step: where the island has the bodies, and whether they are still what the component was formed
+  /// for.
+  bool look();
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);

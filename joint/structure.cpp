@@ -128,8 +128,11 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   enlisting_ = false;
   if (velocity_calls_++ == 0) {
     bool fits = !incomplete_;
-    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->still_fits();
-    if (!fits) form();
+    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look();
+    if (!fits) {
+      form();
+      for (Component* c : active_) c->look();
+    }
     for (Component* c : active_) c->first_velocity(data);
   } else {
     for (Component* c : active_) c->next_velocity(data);
