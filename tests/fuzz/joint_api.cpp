@@ -506,14 +506,14 @@ class Game : b2DestructionListener {
     const bool above = now > budget_;
     budget_ = std::min(budget_, now);
     // They take it back in as much time as they parted in, be it in several shorter steps; steps without
-    // velocity iterations, which the structure does not see, part them further. What that gave is not asked
-    // back.
+    // velocity iterations, which the structure does not see, part them further; and the speed limit keeps
+    // them from it. What that gave is not asked back.
     if (velocity == 0) {
       turn_ += turn;
       back_ += dt;
     } else {
       back_ = std::max(back_ - dt, static_cast<double>(dt));
-      turn_ = back_ == dt && !above ? turn : std::max(turn_, turn);
+      turn_ = back_ == dt && !above && report.slowed == 0 ? turn : std::max(turn_, turn);
     }
   }
 
