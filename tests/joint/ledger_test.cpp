@@ -143,6 +143,23 @@ TEST(Ledger, AParallelJointMadeInASpin) {
   }
 }
 
+// Nor may parallel joints that wait for what a long step parted strain each other: all by the same share.
+TEST(Ledger, ParallelJointsInShorterStepsOfASpin) {
+  Beam beam({.pieces = 2, .length = 40, .gravity = 0});
+  for (const float angle : {0.7f, 2.0f}) {
+    ElasticPlasticJointDef more;
+    more.Initialize(beam.pieces[0], beam.pieces[1], {20 + 10 * std::cos(angle), 10 * std::sin(angle)},
+                    {std::cos(2 * angle), std::sin(2 * angle)});
+    beam.structure.create_joint(more);
+  }
+  let_spin(beam, 3, 20);
+  Balance balance(beam);
+  for (int i = 0; i < 60; ++i) {
+    balance.step(i % 6 == 0 ? 1.0 / 15 : i % 6 < 3 ? 1.0 / 240 : 1.0 / 100);
+    EXPECT_LE(beam.structure.energy().elastic, 1e-4 * balance.start) << i;
+  }
+}
+
 // Likewise bodies that may not move any more: what lies between them stays parted, in each of the islands
 // that they make of one.
 void hold_in_a_spin(int pieces, std::initializer_list<std::size_t> held) {
