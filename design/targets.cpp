@@ -162,7 +162,7 @@ Answer depth_for(const SceneDef& scene, const std::string& body, double reserve)
 Answer youngs_modulus_for(const SceneDef& scene, const std::string& body, Point at, double displacement) {
   require_positive(displacement, "the displacement");
   SceneDef own = scene;
-  material_of(own, body);  // throws where there is none
+  material_of(own, body);                         // throws where there is none
   own.loads.push_back({.body = body, .at = at});  // finds the piece
   const Plan plan = calibrate(own);
   const auto piece = static_cast<std::size_t>(plan.loads.back().piece);
