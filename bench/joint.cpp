@@ -144,11 +144,11 @@ std::vector<Case> cases() {
   for (const int pieces : {1000, 10000, 100000}) {
     const std::string name = "joint/scale/chain/" + std::to_string(pieces);
     const auto layout = [=] { return serpentine(pieces); };
-    // The same steps of all sizes: what settles asks for fewer rounds from second to second.
-    all.push_back({.name = name + "/rest", .layout = layout, .settle = 10, .steps = 50});
-    all.push_back({.name = name + "/settling", .layout = layout, .settle = 1, .steps = 50});
+    const int steps = 50;  // of all sizes the same: what settles asks for fewer rounds from second to second
+    all.push_back({.name = name + "/rest", .layout = layout, .settle = 10, .steps = steps});
+    all.push_back({.name = name + "/settling", .layout = layout, .settle = 1, .steps = steps});
     all.push_back(
-        {.name = name + "/swaying", .layout = layout, .before_step = shake, .settle = 1, .steps = 50});
+        {.name = name + "/swaying", .layout = layout, .before_step = shake, .settle = 1, .steps = steps});
   }
   const auto building = [] { return frame(25, 44); };
   all.push_back({.name = "joint/scale/building/10000/rest", .layout = building, .settle = 2, .damping = 3});

@@ -21,7 +21,6 @@ namespace {
 bool same(float a, float b) { return std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
 
 bool same(const b2Position& a, const b2Position& b) {
-  if (a.c == b.c && a.a == b.a) return true;
   return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
 }
 
@@ -256,7 +255,7 @@ void Component::disturb() {
 
 // A structure at rest is brought the same poses and velocities step after step, and answers them with the
 // same.
-bool Component::as_before(const b2SolverData& data) {
+bool Component::as_before(const b2SolverData& data) const {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
   for (const Mirror& m : mirrors) {
     if (m.type == b2_staticBody) {

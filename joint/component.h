@@ -107,7 +107,7 @@ struct Component {
   bool open = false;         // the ledger of the last step is to be closed
 
  private:
-  bool as_before(const b2SolverData& data);
+  bool as_before(const b2SolverData& data) const;
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
   void solve(const b2SolverData& data);

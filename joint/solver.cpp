@@ -52,16 +52,13 @@ struct JacobianRows {
 
 // block += leftᵀ right, with left.w = (0, 0, ±1)
 inline void add_product(Block& block, const JacobianRows& left, const JacobianRows& right) {
-  double* a = block.a;
-  a[0] += left.u.x * right.u.x + left.v.x * right.v.x;
-  a[1] += left.u.x * right.u.y + left.v.x * right.v.y;
-  a[2] += left.u.x * right.u.w + left.v.x * right.v.w;
-  a[3] += left.u.y * right.u.x + left.v.y * right.v.x;
-  a[4] += left.u.y * right.u.y + left.v.y * right.v.y;
-  a[5] += left.u.y * right.u.w + left.v.y * right.v.w;
-  a[6] += left.u.w * right.u.x + left.v.w * right.v.x + left.w.w * right.w.x;
-  a[7] += left.u.w * right.u.y + left.v.w * right.v.y + left.w.w * right.w.y;
-  a[8] += left.u.w * right.u.w + left.v.w * right.v.w + left.w.w * right.w.w;
+  const Vec3 rows[3] = {left.u.x * right.u + left.v.x * right.v, left.u.y * right.u + left.v.y * right.v,
+                        left.u.w * right.u + left.v.w * right.v + left.w.w * right.w};
+  for (std::size_t r = 0; r < 3; ++r) {
+    block.a[3 * r] += rows[r].x;
+    block.a[3 * r + 1] += rows[r].y;
+    block.a[3 * r + 2] += rows[r].w;
+  }
 }
 
 }  // namespace
@@ -197,9 +194,10 @@ void Solver::begin(double h) {
       const double now = parted(j);
       late += h < j.law.h ? now : j.late;
       all += now;
+      j.late = now;
     }
     waits = (1 - share) * (late < all ? std::sqrt(late / all) : 1);
-    for (SolverJoint& j : joints) j.late = waits * waits * parted(j);
+    for (SolverJoint& j : joints) j.late *= waits * waits;
   }
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
@@ -439,26 +437,19 @@ void Solver::factor() {
                          {0, 0, -turns_a}};
     const JacobianRows b{
         {j.axis_b.c, j.axis_b.s, turns_b * j.bu}, {-j.axis_b.s, j.axis_b.c, turns_b * j.bv}, {0, 0, turns_b}};
-    const auto add = [&](const JacobianRows& da, const JacobianRows& db) {
-      if (free_a) add_product(ldlt_.diagonal(j.a), a, da);
-      if (free_b) add_product(ldlt_.diagonal(j.b), b, db);
-      if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
-    };
     const auto scaled = [&j](const JacobianRows& rows) {
-      return JacobianRows{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
-    };
-    const auto coupled = [&](const JacobianRows& rows) {
-      JacobianRows d = scaled(rows);
-      d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
-      d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
-      d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
+      JacobianRows d{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
+      if (j.piece == on_surface) {
+        d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
+        d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
+        d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
+      }
       return d;
     };
-    if (j.piece == on_surface) {
-      add(coupled(a), coupled(b));
-    } else {
-      add(scaled(a), scaled(b));
-    }
+    const JacobianRows da = scaled(a), db = scaled(b);
+    if (free_a) add_product(ldlt_.diagonal(j.a), a, da);
+    if (free_b) add_product(ldlt_.diagonal(j.b), b, db);
+    if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
   }
   ldlt_.factor();
   factored_ = true;
@@ -632,8 +623,8 @@ bool Solver::solve(SolveReport& report) {
     if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
   }
   report.rounds += round;
-  const bool lost =
-      !std::isfinite(norm);  // gaps of 100 km: what H gains from rigid rows is all that it holds
+  // Across gaps of 100 km all that H holds is what it gains from rigid rows.
+  const bool lost = !std::isfinite(norm);
   if (round == round_bound || lost) {
     report.bound_hit = true;
     coast();

@@ -489,7 +489,7 @@ class Game : b2DestructionListener {
       turn = std::max(turn,
                       static_cast<double>(dt * std::abs(b->GetAngularVelocity() - a->GetAngularVelocity())));
       for (const auto& [body, anchor] : {std::pair{a, j->GetAnchorA()}, std::pair{b, j->GetAnchorB()}}) {
-        const float inertia = body->GetInertia() - body->GetMass() * body->GetLocalCenter().LengthSquared();
+        const double inertia = central_inertia(*body);
         if (!(inertia > 0)) continue;
         const float r = b2Distance(anchor, body->GetWorldCenter());
         lever = std::max(lever, std::min(20.0, 1 + double{body->GetMass()} * r * r / inertia));
@@ -562,12 +562,15 @@ class Game : b2DestructionListener {
     return held > 1 && moving;
   }
 
+  static double central_inertia(const b2Body& b) {
+    return double{b.GetInertia()} - double{b.GetMass()} * b.GetLocalCenter().LengthSquared();
+  }
+
   double kinetic() const {
     double sum = 0;
     for (const b2Body* b : bodies_) {
       if (b->GetType() != b2_dynamicBody || !b->IsEnabled()) continue;
-      const double inertia =
-          double{b->GetInertia()} - double{b->GetMass()} * b->GetLocalCenter().LengthSquared();
+      const double inertia = central_inertia(*b);
       sum += (double{b->GetMass()} * b->GetLinearVelocity().LengthSquared() +
               inertia * b->GetAngularVelocity() * b->GetAngularVelocity()) /
              2;
