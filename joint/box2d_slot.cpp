@@ -30,10 +30,15 @@ Vec3 into_own_frame(const Turn& turn, double x, double y, double w) {
   return {turn.c * x + turn.s * y, turn.c * y - turn.s * x, w};
 }
 
-b2Velocity to_box2d(const Turn& turn, const Vec3& v) {
-  return {{static_cast<float>(turn.c * v.x - turn.s * v.y), static_cast<float>(turn.s * v.x + turn.c * v.y)},
-          static_cast<float>(v.w)};
+Vec3 into_world(const Turn& turn, const Vec3& v) {
+  return {turn.c * v.x - turn.s * v.y, turn.s * v.x + turn.c * v.y, v.w};
 }
+
+b2Velocity in_floats(const Vec3& v) {
+  return {{static_cast<float>(v.x), static_cast<float>(v.y)}, static_cast<float>(v.w)};
+}
+
+Vec3 in_doubles(const b2Velocity& v) { return {v.v.x, v.v.y, v.w}; }
 
 }  // namespace
 
@@ -149,6 +154,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     Mirror& mirror = mirrors[i];
     mirror.body = body;
     mirror.left = {body->GetWorldCenter(), body->GetAngle()};
+    mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
+    mirror.exact = in_doubles(mirror.given);
     mirror.type = body->GetType();
     read_mass(i);
     int edges = 0;
@@ -220,6 +227,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
 void Component::read_mass(std::size_t i) {
   Mirror& m = mirrors[i];
   m.mass = m.body->GetMass();
+  m.inverse_mass = 1.0f / m.mass;
   m.inertia = m.body->GetInertia();
   m.local_center = m.body->GetLocalCenter();
   const double offset = m.local_center.LengthSquared();
@@ -270,6 +278,33 @@ bool Component::as_before(const b2SolverData& data) const {
   return true;
 }
 
+// The velocity that Box2D brings. Where its floats, bit by bit, are what gravity and damping make of those
+// that we gave, so are the doubles: rounded anew in each step, they would shake what swings, and spoil the
+// forecast.
+void Component::take(Mirror& m, const b2SolverData& data) const {
+  m.taken = data.velocities[m.island_index];
+  if (m.type != b2_dynamicBody || kind != SolverKind::direct) {
+    m.exact = in_doubles(m.given = m.taken);
+    return;
+  }
+  // As b2Island::Solve does it, without forces.
+  const b2Vec2& gravity = m.body->GetWorld()->GetGravity();
+  const float h = data.step.dt, scale = m.body->GetGravityScale();
+  const float damping = m.body->GetLinearDamping(), turn_damping = m.body->GetAngularDamping();
+  b2Velocity v = m.given;
+  v.v += h * m.inverse_mass * (scale * m.mass * gravity);
+  v.v *= 1.0f / (1.0f + h * damping);
+  v.w *= 1.0f / (1.0f + h * turn_damping);
+  if (v.v == m.taken.v && v.w == m.taken.w) {
+    const double weight = double{h} * scale, slower = 1 / (1 + double{h} * damping);
+    m.exact = {slower * (m.exact.x + weight * gravity.x), slower * (m.exact.y + weight * gravity.y),
+               m.exact.w / (1 + double{h} * turn_damping)};
+  } else {
+    m.exact = in_doubles(m.taken);
+  }
+  m.given = m.taken;
+}
+
 void Component::first_velocity(const b2SolverData& data) {
   resting = as_before(data);
   if (resting) {
@@ -286,7 +321,7 @@ void Component::first_velocity(const b2SolverData& data) {
       continue;
     }
     moved |= !same(data.positions[m.island_index], m.left);
-    m.taken = m.given = data.velocities[m.island_index];
+    take(m, data);
   }
   solver.begin(data.step.dt);
   if (moved) {
@@ -308,9 +343,9 @@ void Component::first_velocity(const b2SolverData& data) {
     write_poses(data);
   }
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    const b2Velocity& v = mirrors[i].given;
+    const Vec3& v = mirrors[i].exact;
     SolverBody& b = solver.bodies[i];
-    const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.v.x, v.v.y, v.w);
+    const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.x, v.y, v.w);
     (i < solver.free_bodies() ? b.v_free : b.v) = own;
   }
   if (solver.keeps_ledger) {
@@ -382,7 +417,9 @@ void Component::project(bool try_goal) {
 void Component::give(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const SolverBody& b = solver.bodies[i];
-    data.velocities[mirrors[i].island_index] = mirrors[i].given = to_box2d(b.turn, b.v);
+    Mirror& m = mirrors[i];
+    m.exact = into_world(b.turn, b.v);
+    data.velocities[m.island_index] = m.given = in_floats(m.exact);
   }
 }
 
@@ -437,9 +474,9 @@ void Component::write_poses(const b2SolverData& data) {
 // together.
 void Component::limit_speed(const b2SolverData& data) {
   if (kind != SolverKind::direct) return;
-  constexpr double in_floats = 1 - 1e-5;  // Box2D shall have nothing left to do
+  constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
   const auto share = [&](double limit, double speed) {
-    return std::min(1.0, in_floats * limit / (solver.step() * speed));
+    return std::min(1.0, rounding * limit / (solver.step() * speed));
   };
   const auto kinetic = [&] {
     double sum = 0;
@@ -470,7 +507,7 @@ void Component::limit_speed(const b2SolverData& data) {
       const double linear = together ? least : share(b2_maxTranslation, std::hypot(b.v.x, b.v.y));
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
-      const b2Velocity lost = to_box2d(b.turn, less);
+      const b2Velocity lost = in_floats(into_world(b.turn, less));
       mirrors[i].lost.v += lost.v;
       mirrors[i].lost.w += lost.w;
       if (together) continue;

@@ -63,7 +63,8 @@ struct Component {
     b2Position left{};   // pose as we left it
     b2Velocity given{};  // velocity as we left it
     b2Velocity taken{};  // velocity as Box2D brought it at the step's start
-    float mass = 0, inertia = 0, gyration = 0;
+    Vec3 exact;          // what `given` is rounded of, world axes
+    float mass = 0, inverse_mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
@@ -110,6 +111,7 @@ struct Component {
   bool as_before(const b2SolverData& data) const;
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
+  void take(Mirror& mirror, const b2SolverData& data) const;
   void solve(const b2SolverData& data);
   void project(bool try_goal);
   void give(const b2SolverData& data);

@@ -86,7 +86,9 @@ void Solver::form(std::size_t free_bodies) {
     mass_ += b.mass;
     b.inverse_mass = 1 / b.mass;
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
+    d_[i] = {b.mass, b.mass, b.inertia};
   }
+  forecast_.form({d_.data(), free_});
   for (SolverJoint& j : joints) {
     j.block = is_free(j.a) && is_free(j.b) ? ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b)) : -1;
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
@@ -171,6 +173,7 @@ void Solver::begin(double h) {
   if (softened_ && !flows_) softened_ = laws_set_ = false;
   const bool changed = h != h_ || !laws_set_;
   if (changed) factored_ = false;
+  if (h != h_) forecast_.forget();
   laws_set_ = true;
   h_ = h;
   // What turning bodies parted in a step is taken back in as much time, be it in several shorter steps: at
@@ -271,13 +274,13 @@ void Solver::soften() {
 }
 
 void Solver::predict() {
+  const std::span<Vec3> newest = forecast_.newest();
+  for (std::size_t i = 0; i < free_; ++i) newest[i] = bodies[i].v;
+  forecast_.fit();
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
-    const Vec3 v = b.v, rise = b.v - b.v_last;
-    if (!flows_) b.v += 2.0 * rise - b.rise_last;
+    if (!flows_) b.v = forecast_.next(i);
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
-    b.v_last = v;
-    b.rise_last = rise;
   }
 }
 
@@ -545,6 +548,7 @@ bool Solver::solve(SolveReport& report) {
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
   bool smoothed = false;   // interior_point() was called
   double zg = 0;
+  double first = norm;                // |∇f|² where the factor at hand began
   int round = 0, idle = 0, used = 0;  // rounds, those that gained nothing, those with the factor at hand
   short_step_ = false;
   for (; norm > target() && round < round_bound; ++round) {
@@ -572,6 +576,7 @@ bool Solver::solve(SolveReport& report) {
       factor_tangents();
       ++report.factorisations;
       used = 0;
+      first = norm;
       conjugate = false;
       rate_ = std::pow(rate_, 1.1);  // in the hope that the next step's motion calls for less
     }
@@ -620,7 +625,7 @@ bool Solver::solve(SolveReport& report) {
     if (!gains && norm <= rounding_of_impulses()) break;
     idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
-    if (!newton_ && !searched) rate_ = std::min(0.9, std::sqrt(norm / before));
+    if (!newton_ && !searched) rate_ = std::min(0.9, std::pow(norm / first, 0.5 / used));
   }
   report.rounds += round;
   // Across gaps of 100 km all that H holds is what it gains from rigid rows.
@@ -1022,7 +1027,7 @@ Rows Solver::force(const SolverJoint& j) {
 
 std::size_t Solver::bytes() const {
   return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
-         (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity()) * sizeof(Vec3) +
+         forecast_.bytes() + (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity()) * sizeof(Vec3) +
          (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }

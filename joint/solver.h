@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "block_ldlt.h"
+#include "forecast.h"
 #include "row.h"
 #include "vec3.h"
 
@@ -37,7 +38,6 @@ struct SolverBody {
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;                                   // v*: m/s and rad/s in the body's own frame
   Vec3 v;                                        // the solution; also where the next solve starts
-  Vec3 v_last, rise_last;  // the solution of the step before, and how it differed from that before it
 };
 
 /// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what
@@ -132,7 +132,7 @@ class Solver {
 
   /// Prepares a step of h seconds from the current poses.
   void begin(double h);
-  /// Starts the next solve where the last three solutions point to: on their parabola.
+  /// Starts the next solve where the last solutions point to.
   void predict();
   /// Something else changed a body's velocity since the last solve: v_free, in the body's own frame. All that
   /// happens between two solves of a step is told so, or none of it.
@@ -220,6 +220,7 @@ class Solver {
   double mass_ = 0;  // of all free bodies
   double h_ = 0;
   BlockLdlt ldlt_;
+  Forecast forecast_;
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness

@@ -1,0 +1,56 @@
+// Where a structure is heading, from where it has been: linear prediction of its velocities.
+//
+// What swings freely or is driven steadily is a sum of few modes, each a geometric sequence from step to
+// step:
+//   v_next = v + Σ a_k ∇ᵏv   with k = 0 … terms − 1 and ∇ the difference from the step before.
+// The a_k are those that would have told best what the last steps became: least squares in the norm of
+// kinetic energy, each step counting half as much as the one after it. Of v itself instead of its differences
+// the normal equations would be singular to rounding. Polynomials (all a_k = 1) miss what swings by its (ωh)
+// to the power of their order, and a solve that starts there needs more rounds, or a factor, than this costs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "vec3.h"
+
+namespace ductile {
+
+class Forecast {
+ public:
+  /// For bodies of these masses (m, m, I). Allocates.
+  void form(std::span<const Vec3> masses);
+  /// What comes does not go on from what was.
+  void forget() { known_ = 0; }
+  /// Where to write the newest velocities, in place of the oldest; then fit(), then next().
+  std::span<Vec3> newest();
+  void fit();
+  Vec3 next(std::size_t body) const {
+    Vec3 v;
+    for (std::size_t k = 0; k < terms; ++k) v += share_[k] * past_[k][body];
+    return v;
+  }
+  std::size_t bytes() const;
+
+ private:
+  static constexpr int terms = 7;
+  static constexpr std::size_t sampled = 4;  // bodies tell of the few a_k what all of them would
+  struct Sample {
+    std::size_t body;
+    Vec3 mass;
+    double x[terms + 1], y[terms + 1], w[terms + 1];  // ∇ᵏ of its newest velocity
+  };
+
+  bool solve(int n, double (&a)[terms]) const;
+
+  std::array<std::vector<Vec3>, terms> past_;  // a ring
+  std::array<double, terms> share_{};          // of each in what comes next
+  int newest_ = 0;
+  int known_ = 0;  // solutions since the last forget(), as far as it matters
+  std::vector<Sample> samples_;
+  double gram_[terms][terms + 1] = {};  // the normal equations; the last column is their right side
+};
+
+}  // namespace ductile

@@ -1,0 +1,108 @@
+// What a forecast tells, against sums of modes, which it must know to rounding once it has seen enough of them.
+#include "../../joint/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ductile {
+namespace {
+
+struct Mode {
+  double decay, angle;  // per step
+  Vec3 shape(std::size_t body) const {
+    const double i = static_cast<double>(body);
+    return {std::cos(i + angle), std::sin(2 * i + angle), 0.3 * std::cos(3 * i)};
+  }
+};
+
+// What bodies have at step n: damped swinging in the modes, their phases different from body to body.
+Vec3 sum(const std::vector<Mode>& modes, std::size_t body, int n) {
+  Vec3 v;
+  for (const Mode& m : modes)
+    v += std::pow(m.decay, n) * std::cos(m.angle * n + 0.1 * static_cast<double>(body)) * m.shape(body);
+  return v;
+}
+
+struct Told {
+  explicit Told(std::size_t n) : masses(n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double m = 100 + 10 * static_cast<double>(i);
+      masses[i] = {m, m, m / 3};
+    }
+    forecast.form(masses);
+  }
+  template <class Velocity>
+  void see(const Velocity& velocity) {
+    const std::span<Vec3> newest = forecast.newest();
+    for (std::size_t i = 0; i < newest.size(); ++i) newest[i] = velocity(i);
+    forecast.fit();
+  }
+  /// Largest difference of what is told and what comes.
+  template <class Velocity>
+  double error(const Velocity& velocity) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      const Vec3 d = forecast.next(i) - velocity(i);
+      largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.w)});
+    }
+    return largest;
+  }
+  std::vector<Vec3> masses;
+  Forecast forecast;
+};
+
+// k terms know k − 1 geometric sequences and what stays: three damped modes are six.
+TEST(Forecast, KnowsASumOfModes) {
+  const std::vector<Mode> modes{{0.99, 0.2}, {0.9, 0.7}, {1, 0.05}};
+  for (const std::size_t bodies : {4u, 5u, 40u}) {
+    Told told(bodies);
+    for (int n = 0; n < 30; ++n) {
+      // The slow modes among fast ones are a matter of seventh differences, 1e-16 / 0.05⁷ at worst.
+      if (n >= 20) {
+        EXPECT_LE(told.error([&](std::size_t i) { return sum(modes, i, n); }), 1e-7) << bodies << ", " << n;
+      }
+      told.see([&](std::size_t i) { return sum(modes, i, n); });
+    }
+  }
+}
+
+TEST(Forecast, OfWhatStaysIsThatItStays) {
+  Told told(3);
+  const auto same = [](std::size_t i) { return Vec3{1, 2.0 * static_cast<double>(i), -3}; };
+  for (int n = 0; n < 12; ++n) {
+    told.see(same);
+    EXPECT_LE(told.error(same), 1e-13);
+  }
+}
+
+TEST(Forecast, OfNothingIsNothing) {
+  Told told(2);
+  for (int n = 0; n < 12; ++n) told.see([](std::size_t) { return Vec3{}; });
+  EXPECT_EQ(told.error([](std::size_t) { return Vec3{}; }), 0);
+  Told none(0);
+  none.see([](std::size_t) { return Vec3{}; });
+}
+
+// What swings on with another law than before, as after a blow, is known again once what was is forgotten.
+TEST(Forecast, LearnsAnew) {
+  const std::vector<Mode> before{{1, 1.3}}, after{{0.95, 0.3}};
+  Told told(6);
+  for (int n = 0; n < 10; ++n) told.see([&](std::size_t i) { return sum(before, i, n); });
+  told.forecast.forget();
+  for (int n = 0; n < 8; ++n) told.see([&](std::size_t i) { return sum(after, i, n); });
+  EXPECT_LE(told.error([&](std::size_t i) { return sum(after, i, 8); }), 1e-7);
+}
+
+TEST(Forecast, IsFiniteAgainAfterWhatIsNot) {
+  Told told(4);
+  for (int n = 0; n < 10; ++n) told.see([](std::size_t) { return Vec3{std::sin(1e3), 1e200, 0}; });
+  told.see([](std::size_t) { return Vec3{std::numeric_limits<double>::quiet_NaN(), 0, 0}; });
+  const auto calm = [](std::size_t) { return Vec3{1, 1, 1}; };
+  for (int n = 0; n < 10; ++n) told.see(calm);
+  EXPECT_LE(told.error(calm), 1e-12);
+}
+
+}  // namespace
+}  // namespace ductile
