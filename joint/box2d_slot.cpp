@@ -315,13 +315,21 @@ void Component::first_velocity(const b2SolverData& data) {
     return;
   }
   bool moved = std::exchange(parted_, false);
-  for (Mirror& m : mirrors) {
+  const auto start_from = [this](std::size_t i) {
+    SolverBody& b = solver.bodies[i];
+    const Vec3& v = mirrors[i].exact;
+    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(b.turn, v.x, v.y, v.w);
+  };
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    Mirror& m = mirrors[i];
     if (m.type == b2_staticBody) {
       moved |= !same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left);
-      continue;
+      m.exact = {};
+    } else {
+      moved |= !same(data.positions[m.island_index], m.left);
+      take(m, data);
     }
-    moved |= !same(data.positions[m.island_index], m.left);
-    take(m, data);
+    start_from(i);
   }
   solver.begin(data.step.dt);
   if (moved) {
@@ -341,12 +349,7 @@ void Component::first_velocity(const b2SolverData& data) {
       solver.begin(data.step.dt);
     }
     write_poses(data);
-  }
-  for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    const Vec3& v = mirrors[i].exact;
-    SolverBody& b = solver.bodies[i];
-    const Vec3 own = mirrors[i].type == b2_staticBody ? Vec3{} : into_own_frame(b.turn, v.x, v.y, v.w);
-    (i < solver.free_bodies() ? b.v_free : b.v) = own;
+    for (std::size_t i = 0; i < mirrors.size(); ++i) start_from(i);
   }
   if (solver.keeps_ledger) {
     // b2Body still has the velocities from before gravity.

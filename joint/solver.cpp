@@ -277,11 +277,7 @@ void Solver::predict() {
   const std::span<Vec3> newest = forecast_.newest();
   for (std::size_t i = 0; i < free_; ++i) newest[i] = bodies[i].v;
   forecast_.fit();
-  for (std::size_t i = 0; i < free_; ++i) {
-    SolverBody& b = bodies[i];
-    if (!flows_) b.v = forecast_.next(i);
-    if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
-  }
+  predicted_ = true;
 }
 
 bool Solver::at_rest() {
@@ -302,16 +298,28 @@ bool Solver::at_rest() {
   return norm_of_gradient() <= rest_tolerance * rest_tolerance * scale_;
 }
 
-// ∇f at bodies' v, into g_; returns |∇f|² in the norm of M⁻¹.
-double Solver::evaluate() {
+// ∇f at bodies' v, once `change` has changed it, into g_; returns |∇f|² in the norm of M⁻¹.
+template <class Change>
+double Solver::evaluate(const Change& change) {
   scale_ = speed_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
-    const SolverBody& b = bodies[i];
+    SolverBody& b = bodies[i];
+    change(i, b);
     const Vec3 given = b.v - b.v_free;
     g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
     scale_ += dot(given, g_[i]);
     speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
   }
+  add_impulses();
+  return norm_of_gradient();
+}
+
+double Solver::evaluate() {
+  return evaluate([](std::size_t, SolverBody&) {});
+}
+
+// The joints' part of ∇f.
+void Solver::add_impulses() {
   changed_ = 0;
   unsigned crossed = 0, any = 0;
   for (SolverJoint& j : joints) {
@@ -339,7 +347,6 @@ double Solver::evaluate() {
   crossed_ = crossed != 0;
   flows_ = any != 0;
   curved_ = (any & on_surface) != 0;
-  return norm_of_gradient();
 }
 
 Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) {
@@ -528,7 +535,12 @@ bool Solver::solve(SolveReport& report) {
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
   const bool same_v = touches_ > 0 && !coasting_;
   coasting_ = false;
-  double norm = same_v ? norm_of_gradient() : evaluate();
+  const auto start = [this, predicted = std::exchange(predicted_, false)](std::size_t i, SolverBody& b) {
+    if (!predicted) return;
+    if (!flows_) b.v = forecast_.next(i);
+    if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
+  };
+  double norm = same_v ? norm_of_gradient() : evaluate(start);
   if (norm > target() && flows_ && !same_v) {
     // Start from the lower of the last solution and v*.
     const double f_last = objective();
@@ -595,19 +607,18 @@ bool Solver::solve(SolveReport& report) {
       for (std::size_t i = 0; i < free_; ++i) z_dg += dot(z_[i], g_[i] - g0_[i]);
       beta = std::max(0.0, z_dg / zg);
     }
+    const bool exact = newton_ && beta == 0 && changed_ == 0 && !curved_;
+    const double before = norm;
     double slope0 = 0;
     zg = 0;
-    for (std::size_t i = 0; i < free_; ++i) {
+    norm = evaluate([&](std::size_t i, SolverBody& b) {
       d_[i] = beta == 0 ? -1.0 * z_[i] : beta * d_[i] - z_[i];
       slope0 += dot(g_[i], d_[i]);
       zg += dot(g_[i], z_[i]);
       g0_[i] = g_[i];
-      bodies[i].v += d_[i];
-    }
+      b.v += d_[i];
+    });
     conjugate = true;
-    const bool exact = newton_ && beta == 0 && changed_ == 0 && !curved_;
-    const double before = norm;
-    norm = evaluate();
     searched = crossed_;
     if (exact && !searched) {
       ++round;

@@ -193,7 +193,10 @@ class Solver {
   void factor();
   int interior_point();
   static Rows relative(const SolverJoint& joint, const Vec3& a, const Vec3& b);
+  template <class Change>
+  double evaluate(const Change& change);
   double evaluate();
+  void add_impulses();
   double pull(std::span<const Pose> goal);
   double strain();
   bool push_far(std::span<const Pose> goal, double enough);
@@ -221,6 +224,7 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   Forecast forecast_;
+  bool predicted_ = false;  // the next solve starts where forecast_ says
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness

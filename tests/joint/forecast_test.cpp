@@ -1,4 +1,5 @@
-// What a forecast tells, against sums of modes, which it must know to rounding once it has seen enough of them.
+// What a forecast tells, against sums of modes, which it must know to rounding once it has seen enough of
+// them.
 #include "../../joint/forecast.h"
 
 #include <gtest/gtest.h>
