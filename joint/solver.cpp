@@ -79,7 +79,7 @@ void Solver::form(std::size_t free_bodies) {
   before.assign(bodies.size(), {});
   turns_.assign(bodies.size(), {});
   touched_.assign(free_, 0);
-  factored_ = false;
+  factored_ = held_ = false;
   mass_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
@@ -168,11 +168,12 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   newton_ = false;
+  pushed_ = 0;
   touches_ = 0;
   slowed_ = 1;
   if (softened_ && !flows_) softened_ = laws_set_ = false;
   const bool changed = h != h_ || !laws_set_;
-  if (changed) factored_ = false;
+  if (changed) factored_ = held_ = false;
   if (h != h_) forecast_.forget();
   laws_set_ = true;
   h_ = h;
@@ -258,7 +259,7 @@ void Solver::begin(double h) {
 // more.
 void Solver::soften() {
   softened_ = true;
-  factored_ = false;
+  factored_ = held_ = false;
   for (SolverJoint& j : joints) {
     if (j.surface == nullptr) continue;
     const Rows spring = j.spring;
@@ -322,6 +323,7 @@ double Solver::evaluate() {
 void Solver::add_impulses() {
   changed_ = 0;
   unsigned crossed = 0, any = 0;
+  held_ = false;
   for (SolverJoint& j : joints) {
     Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     for (unsigned i = 0; i < 3; ++i) x[i] += j.law.bias[i];
@@ -359,11 +361,14 @@ void Solver::scatter(const SolverJoint& j, const Rows& s) { add_transposed(j, s,
 double Solver::norm_of_gradient() {
   double norm = 0;
   for (std::size_t i = 0; i < free_; ++i) {
-    const SolverBody& b = bodies[i];
-    if (b.inertia == 0) g_[i].w = 0;
-    norm += (g_[i].x * g_[i].x + g_[i].y * g_[i].y) * b.inverse_mass + g_[i].w * g_[i].w * b.inverse_inertia;
+    if (bodies[i].inertia == 0) g_[i].w = 0;
+    norm += square(bodies[i], g_[i]);
   }
   return norm;
+}
+
+double Solver::square(const SolverBody& b, const Vec3& g) {
+  return (g.x * g.x + g.y * g.y) * b.inverse_mass + g.w * g.w * b.inverse_inertia;
 }
 
 // What the last bits of impulses are in |∇f|².
@@ -403,7 +408,7 @@ void Solver::factor_tangents() {
     j.factored = static_cast<std::uint8_t>(flowing(j.piece));
   }
   factor();
-  holding_ = false;
+  holding_ = held_ = false;
   newton_ = !short_step_;
   changed_ = 0;
 }
@@ -412,6 +417,8 @@ void Solver::factor_tangents() {
 // not give. With their own stiffness in it, rows took up a share of every push, and a block on a beam was
 // catapulted.
 void Solver::factor_holding() {
+  if (held_) return;
+  held_ = true;
   bool at_hand = factored_ && (holding_ || changed_ == 0);
   for (SolverJoint& j : joints) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -523,7 +530,10 @@ bool Solver::line_search(double slope0, double slope1) {
 void Solver::push(std::size_t body, const Vec3& change) {
   SolverBody& b = bodies[body];
   b.v_free += change;
-  g_[body] -= {b.mass * change.x, b.mass * change.y, b.inertia * change.w};
+  Vec3& g = g_[body];
+  pushed_ -= square(b, g);
+  g -= {b.mass * change.x, b.mass * change.y, b.inertia * change.w};
+  pushed_ += square(b, g);
   if (touches_ < touched_.size()) touched_[touches_++] = body;
 }
 
@@ -540,7 +550,7 @@ bool Solver::solve(SolveReport& report) {
     if (!flows_) b.v = forecast_.next(i);
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
   };
-  double norm = same_v ? norm_of_gradient() : evaluate(start);
+  double norm = same_v ? std::max(0.0, left_ + pushed_) : evaluate(start);
   if (norm > target() && flows_ && !same_v) {
     // Start from the lower of the last solution and v*.
     const double f_last = objective();
@@ -645,9 +655,10 @@ bool Solver::solve(SolveReport& report) {
     report.bound_hit = true;
     coast();
   }
-  if (lost) factored_ = false;
+  if (lost) factored_ = held_ = false;
   report.residual = norm > 0 ? tolerance * std::sqrt(norm / target()) : 0;
   left_ = norm;
+  pushed_ = 0;
   touches_ = 0;
   return round > 0;
 }

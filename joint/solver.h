@@ -204,6 +204,7 @@ class Solver {
   double correction(std::span<Vec3> d, double enough = 0);
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
+  static double square(const SolverBody& b, const Vec3& g);
   static bool is_rigid(const SolverJoint& joint, unsigned row) {
     return joint.spring[row] != joint.stiffness[row];
   }
@@ -227,6 +228,7 @@ class Solver {
   bool predicted_ = false;  // the next solve starts where forecast_ says
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
+  bool held_ = false;        // and of what holds now
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool damped_ = false;      // any row is
   bool peculiar_ = true;     // any row is damped or on a yield surface
@@ -240,6 +242,7 @@ class Solver {
   std::vector<std::size_t> touched_;  // by push(), which has kept g_ what it is at v since the last solve:
   std::size_t touches_ = 0;           // so many
   double left_ = 0;                   // |∇f|² that the last solve ended with
+  double pushed_ = 0;                 // and by how much it has grown by them
   double slowed_ = 1;                 // share of the solution that the bodies move with
   // Of the last evaluation:
   double scale_ = 0;      // |v − v*|²_M
