@@ -630,9 +630,11 @@ bool Solver::solve(SolveReport& report) {
     });
     conjugate = true;
     searched = crossed_;
-    if (exact && !searched) {
+    // A Newton step within one linear piece: this is the solution, as far as rounding allows; and that is not
+    // far where the step came from much faster velocities.
+    if (exact && !searched && !(norm > target() && norm <= 1e-4 * before)) {
       ++round;
-      break;  // a Newton step within one linear piece: this is the solution, as far as rounding allows
+      break;
     }
     if (norm > target()) {
       double slope1 = 0;

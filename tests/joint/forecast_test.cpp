@@ -96,6 +96,19 @@ TEST(Forecast, LearnsAnew) {
   EXPECT_LE(told.error([&](std::size_t i) { return sum(after, i, 8); }), 1e-7);
 }
 
+// What lay still but for rounding and is thrown does not become the same multiple of itself once more.
+TEST(Forecast, IsNotCarriedAwayByAThrow) {
+  Told told(4);
+  for (int n = 0; n < 12; ++n) {
+    told.see([&](std::size_t i) {
+      return Vec3{1e-12 * std::sin(5.0 * n + static_cast<double>(i)), 1e-12 * std::cos(7.0 * n), 0};
+    });
+  }
+  const auto thrown = [](std::size_t) { return Vec3{8e3, -2e3, 1}; };
+  told.see(thrown);
+  EXPECT_LE(told.error(thrown), 1e6);
+}
+
 TEST(Forecast, IsFiniteAgainAfterWhatIsNot) {
   Told told(4);
   for (int n = 0; n < 10; ++n) told.see([](std::size_t) { return Vec3{std::sin(1e3), 1e200, 0}; });
