@@ -576,7 +576,7 @@ bool Solver::solve(SolveReport& report) {
   for (; norm > target() && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
     // contraction.
-    const double by_rate = std::ceil(std::log(norm / target()) / (-2 * std::log(rate_)));
+    const double by_rate = std::ceil(std::log(norm / target()) / gain_);
     const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
     const bool stale = !newton_ || changed_ > 0 || short_step_;
     // What a row that changed its state asks for is but a guess: rounding may deny conjugate directions.
@@ -600,7 +600,7 @@ bool Solver::solve(SolveReport& report) {
       used = 0;
       first = norm;
       conjugate = false;
-      rate_ = std::pow(rate_, 1.1);  // in the hope that the next step's motion calls for less
+      gain_ *= 1.1;  // in the hope that the next step's motion calls for less
     }
     ++used;
     if (round == 0 && same_v && norm > 1e4 * left_) {
@@ -648,7 +648,7 @@ bool Solver::solve(SolveReport& report) {
     if (!gains && norm <= rounding_of_impulses()) break;
     idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
-    if (!newton_ && !searched) rate_ = std::min(0.9, std::pow(norm / first, 0.5 / used));
+    if (!newton_ && !searched) gain_ = std::clamp(std::log(first / norm) / used, 0.2, 40.0);
   }
   report.rounds += round;
   // Across gaps of 100 km all that H holds is what it gains from rigid rows.

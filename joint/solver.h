@@ -235,7 +235,7 @@ class Solver {
   bool biased_ = false;      // laws' biases are those of a step like the last from where the bodies are
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
-  double rate_ = 1e-3;       // what a round with a factor of an earlier step leaves of the residual
+  double gain_ = 14;         // of a round with a factor of an earlier step: −Δ log |∇f|²
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
   bool swept_ = false;  // the last velocities are sweep()'s: x of rows that flow is but their direction
