@@ -651,8 +651,10 @@ bool Solver::solve(SolveReport& report) {
     if (!newton_ && !searched) gain_ = std::clamp(std::log(first / norm) / used, 0.2, 40.0);
   }
   report.rounds += round;
-  // Across gaps of 100 km all that H holds is what it gains from rigid rows.
-  const bool lost = !std::isfinite(norm);
+  // Across gaps of 100 km all that H holds is what it gains from rigid rows, and what rounding makes of a
+  // turn there is as fast as anything else.
+  const bool lost = !std::isfinite(norm) || !(norm <= target() || norm <= 1e-4 * (scale_ + speed_) ||
+                                              norm <= 1e4 * rounding_of_impulses());
   if (round == round_bound || lost) {
     report.bound_hit = true;
     coast();
