@@ -168,8 +168,6 @@ void Solver::set_law(SolverJoint& j) const {
 
 void Solver::begin(double h) {
   newton_ = false;
-  pushed_ = 0;
-  touches_ = 0;
   slowed_ = 1;
   if (softened_ && !flows_) softened_ = laws_set_ = false;
   const bool changed = h != h_ || !laws_set_;
@@ -543,7 +541,7 @@ bool Solver::solve(SolveReport& report) {
   // velocity's last bits are multiplied by κ.
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
-  const bool same_v = touches_ > 0 && !coasting_;
+  const bool same_v = std::exchange(gradient_known_, true) && touches_ > 0 && !coasting_;
   coasting_ = false;
   const auto start = [this, predicted = std::exchange(predicted_, false)](std::size_t i, SolverBody& b) {
     if (!predicted) return;
@@ -570,6 +568,7 @@ bool Solver::solve(SolveReport& report) {
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
   bool smoothed = false;   // interior_point() was called
   double zg = 0;
+  double best = norm;                 // |∇f|² so far
   double first = norm;                // |∇f|² where the factor at hand began
   int round = 0, idle = 0, used = 0;  // rounds, those that gained nothing, those with the factor at hand
   short_step_ = false;
@@ -585,13 +584,13 @@ bool Solver::solve(SolveReport& report) {
       // Many rows change their state against each other: find out which, the robust way, and go on from
       // there.
       report.factorisations += interior_point();
-      norm = evaluate();
+      best = norm = evaluate();
       smoothed = true;
       searched = conjugate = false;
     }
     if (round == soften_round && curved_ && !softened_) {
       soften();
-      norm = evaluate();
+      best = norm = evaluate();
     }
     if (!factored_ || holding_ || searched || curved_ ||
         (stale && (in_vain || (expected - 1) * round_work > factor_work))) {
@@ -644,7 +643,8 @@ bool Solver::solve(SolveReport& report) {
     // Rounding may be worse than `floor` says (what others move is not in speed_, long arms): where round
     // after round gains nothing, this is the minimum. So it is where what is left of joints that press
     // against each other is the last bits of their impulses.
-    const bool gains = norm <= 0.999 * before;
+    const bool gains = norm <= 0.999 * best;
+    best = std::min(best, norm);
     if (!gains && norm <= rounding_of_impulses()) break;
     idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
@@ -689,6 +689,9 @@ void Solver::drop_impulses() {
 }
 
 void Solver::advance() {
+  gradient_known_ = false;
+  pushed_ = 0;
+  touches_ = 0;
   if (keeps_ledger) open_ledger();
   for (SolverBody& b : bodies) displace(b, h_ * b.v);
   for (std::size_t k = 0; k < joints.size(); ++k) {

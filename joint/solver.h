@@ -241,6 +241,7 @@ class Solver {
   bool swept_ = false;  // the last velocities are sweep()'s: x of rows that flow is but their direction
   std::vector<std::size_t> touched_;  // by push(), which has kept g_ what it is at v since the last solve:
   std::size_t touches_ = 0;           // so many
+  bool gradient_known_ = false;       // no pose was moved since the last solve
   double left_ = 0;                   // |∇f|² that the last solve ended with
   double pushed_ = 0;                 // and by how much it has grown by them
   double slowed_ = 1;                 // share of the solution that the bodies move with
