@@ -504,7 +504,8 @@ class Game : b2DestructionListener {
     const double rounding = 1e-7 * most_ + heaviest_ * left * left;
     require(now <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding, "no energy from nowhere");
     const bool above = now > budget_;
-    budget_ = std::min(budget_, now);
+    // While the speed limit keeps a gap from closing, what it takes comes back with the gap.
+    if (report.slowed == 0) budget_ = std::min(budget_, now);
     // They take it back in as much time as they parted in, be it in several shorter steps; steps without
     // velocity iterations, which the structure does not see, part them further; and the speed limit keeps
     // them from it. What that gave is not asked back.
