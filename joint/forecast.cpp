@@ -79,7 +79,7 @@ void Forecast::fit() {
 // L D Lᵀ; a trifle on the diagonal keeps terms out that rounding alone tells apart. False where nothing
 // moves, or nothing is finite.
 bool Forecast::solve(int n, double (&a)[terms]) const {
-  double l[terms][terms], inverse[terms], x[terms];
+  double l[terms][terms], inverse[terms], x[terms] = {};
   for (int i = 0; i < n; ++i) {
     double d = gram_[i][i] * (1 + 1e-14), scaled[terms];
     x[i] = gram_[i][terms];

@@ -549,6 +549,11 @@ bool Solver::solve(SolveReport& report) {
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
   };
   double norm = same_v ? std::max(0.0, left_ + pushed_) : evaluate(start);
+  if (!std::isfinite(norm)) {
+    // The past, too, knew what is not finite; this step need not.
+    for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
+    norm = evaluate();
+  }
   if (norm > target() && flows_ && !same_v) {
     // Start from the lower of the last solution and v*.
     const double f_last = objective();

@@ -118,5 +118,22 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   }
 }
 
+// A solution that was not finite is forecast for as long as it is known; the solves end all the same.
+TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
+  Line line(3);
+  line.solver.keeps_ledger = false;
+  for (int i = 0; i < 12; ++i) {
+    line.solver.begin(1.0 / 60);
+    if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    line.solver.predict();
+    for (SolverBody& b : line.solver.bodies) b.v_free = {1, 0, 0};
+    SolveReport report;
+    line.solver.solve(report);
+    EXPECT_FALSE(report.bound_hit) << i;
+    for (const SolverBody& b : line.solver.bodies) EXPECT_NEAR(b.v.x, 1, 1e-9) << i;
+    line.solver.advance();
+  }
+}
+
 }  // namespace
 }  // namespace ductile
