@@ -55,7 +55,8 @@ EffectiveMass effective_mass(const Solver& solver, const SolverJoint& j) {
   return m;
 }
 
-// x with (K + diag(compliance)) x = r over the rows in `held`, and x as given in the others.
+// x with (K + diag(compliance)) x = r over the rows in `held`, and x as given in the others; in all of them
+// where arms are so long that K is singular to rounding.
 Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r, unsigned held, Rows x) {
   Block m{};
   Rows rhs{};
@@ -73,6 +74,7 @@ Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r,
   }
   factor_block(m);
   solve_block(m, rhs[0], rhs[1], rhs[2]);
+  if (!std::isfinite(rhs[0] + rhs[1] + rhs[2])) return x;
   for (std::size_t i = 0; i < 3; ++i) {
     if ((held >> i & 1u) != 0) x[i] = rhs[i];
   }
