@@ -213,6 +213,7 @@ class Solver {
   double rounding_of_impulses() const;
   void coast();
   void drop_impulses();
+  void drop_if_beyond(double times);
   void flow(SolverJoint& joint) const;
   void slow_down(SolverJoint& joint);
   Vec3 told_velocity(std::size_t body) const;

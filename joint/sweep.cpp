@@ -95,11 +95,17 @@ void Solver::warm_start() {
     bodies[z(j.a)].v -= m.a.response(j.impulse);
     bodies[z(j.b)].v -= m.b.response(j.impulse);
   }
-  const auto sane = [this](const SolverBody& b) {
+  drop_if_beyond(1);
+}
+
+// Impulses that would move a body by more than so many times what Box2D lets it move, there and back.
+void Solver::drop_if_beyond(double times) {
+  const auto within = [&](const SolverBody& b) {
     const Vec3 given = b.v - b.v_free;
-    return h_ * std::hypot(given.x, given.y) <= 2 * 2.0 && h_ * std::abs(given.w) <= std::numbers::pi;
+    return h_ * std::hypot(given.x, given.y) <= times * 2 * 2.0 &&
+           h_ * std::abs(given.w) <= times * std::numbers::pi;
   };
-  if (std::all_of(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(free_), sane)) return;
+  if (std::all_of(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(free_), within)) return;
   drop_impulses();
 }
 
@@ -142,6 +148,7 @@ void Solver::sweep() {
     bodies[z(j.a)].v -= m.a.response(change);
     bodies[z(j.b)].v -= m.b.response(change);
   }
+  drop_if_beyond(1e3);
 }
 
 void Solver::sweep_positions(std::span<const Pose> at) {
