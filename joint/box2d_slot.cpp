@@ -166,7 +166,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
 
   bool held_anew = false;
   const auto remember = [&](std::size_t i, const KnownPose& known) {
-    held_anew |= known.turns && !(i < free_bodies && solver.bodies[i].inertia > 0);
+    held_anew |= freedom(i, free_bodies) < known.freedom;
     Pose at = known.pose;
     // Fixtures came or went.
     const double x = double{mirrors[i].local_center.x} - known.local_center.x;
@@ -457,11 +457,15 @@ b2Position Component::box2d_pose(std::size_t i) const {
           static_cast<float>(p.angle)};
 }
 
+int Component::freedom(std::size_t body, std::size_t free_bodies) const {
+  return body >= free_bodies ? 0 : solver.bodies[body].inertia > 0 ? 3 : 2;
+}
+
 KnownPose Component::known(int body) const {
   const SolverBody& b = solver.bodies[z(body)];
   return {{b.pose.x + origin_x, b.pose.y + origin_y, b.pose.angle},
           mirrors[z(body)].local_center,
-          z(body) < solver.free_bodies() && b.inertia > 0};
+          freedom(z(body), solver.free_bodies())};
 }
 
 Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }

@@ -25,7 +25,7 @@ std::vector<Structure::Impl*> structures_in(b2World& world);
 struct KnownPose {
   Pose pose;  // of the centre of mass, in the world
   b2Vec2 local_center{0, 0};
-  bool turns = false;  // was free to
+  int freedom = 0;  // of motion: 2, 3 where it turned, too; 0: held
 };
 
 /// One joint of a structure.
@@ -111,6 +111,7 @@ struct Component {
   bool as_before(const b2SolverData& data) const;
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
+  int freedom(std::size_t body, std::size_t free_bodies) const;
   void take(Mirror& mirror, const b2SolverData& data) const;
   void solve(const b2SolverData& data);
   void project(bool try_goal);
