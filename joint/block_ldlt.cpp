@@ -5,23 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "pair.h"
+
 namespace ductile {
 
 namespace {
-
-// Two doubles that are added or multiplied at once. Compilers find few of them in products of 3×3 blocks.
-using Pair [[gnu::vector_size(16)]] = double;
-
-inline Pair load(const double* from) {
-  Pair pair;
-  std::memcpy(&pair, from, sizeof pair);
-  return pair;
-}
-
-inline void subtract(double* from, const Pair& what) {
-  const Pair left = load(from) - what;
-  std::memcpy(from, &left, sizeof left);
-}
 
 // Two entries of a product: columns `from` and the next of `right`, with each column's entries on the left.
 inline Pair product(const Pair (&left)[3], const double (&right)[3][4], int from) {

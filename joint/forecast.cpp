@@ -2,28 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
+#include "pair.h"
+
 namespace ductile {
-
-namespace {
-
-// Two doubles at once: compilers shuffle more than they add in loops this short.
-using Pair [[gnu::vector_size(16)]] = double;
-
-inline Pair load(const double* from) {
-  Pair pair;
-  std::memcpy(&pair, from, sizeof pair);
-  return pair;
-}
-
-inline void add(double* to, const Pair& what) {
-  const Pair sum = load(to) + what;
-  std::memcpy(to, &sum, sizeof sum);
-}
-
-}  // namespace
 
 void Forecast::form(std::span<const Vec3> masses) {
   for (auto& v : past_) v.assign(masses.size(), {});
