@@ -18,7 +18,7 @@ DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 namespace {
 
 // Floats that differ by no more than their own rounding say the same: nothing pushed the body.
-bool same(float a, float b) { return std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
+bool same(float a, float b) { return a == b || std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b)); }
 
 bool same(const b2Position& a, const b2Position& b) {
   return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
@@ -148,6 +148,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   mirrors.resize(ordered.size());
   solver.bodies.resize(ordered.size());
   goal.resize(ordered.size());
+  accounts.resize(ordered.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number[body] = static_cast<int>(i);
@@ -355,17 +356,13 @@ void Component::first_velocity(const b2SolverData& data) {
     // b2Body still has the velocities from before gravity.
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       const b2Velocity v =
-          mirrors[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
+          accounts[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.bodies[i].turn, v.v.x, v.v.y, v.w);
-      mirrors[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
+      accounts[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     }
     open = true;
   }
-  if (kind == SolverKind::iterative) {
-    solver.warm_start();
-  } else {
-    solver.predict();
-  }
+  if (kind == SolverKind::iterative) solver.warm_start();
   solve(data);
 }
 
@@ -495,14 +492,8 @@ void Component::limit_speed(const b2SolverData& data) {
   };
   double before = 0;
   for (int pass = 0;; ++pass) {
-    double fastest = 0, turning = 0;  // squares
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-      const Vec3& v = solver.bodies[i].v;
-      fastest = std::max(fastest, v.x * v.x + v.y * v.y);
-      turning = std::max(turning, v.w * v.w);
-    }
     const double least =
-        std::min(share(b2_maxTranslation, std::sqrt(fastest)), share(b2_maxRotation, std::sqrt(turning)));
+        std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
     if (least == 1) {
       if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
       return;
@@ -515,8 +506,8 @@ void Component::limit_speed(const b2SolverData& data) {
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
       const b2Velocity lost = in_floats(into_world(b.turn, less));
-      mirrors[i].lost.v += lost.v;
-      mirrors[i].lost.w += lost.w;
+      accounts[i].lost.v += lost.v;
+      accounts[i].lost.w += lost.w;
       if (together) continue;
       b.v_free -= less;
       b.v -= less;
@@ -565,11 +556,11 @@ double Component::close_ledger() {
     if (i >= solver.free_bodies()) continue;
     solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
-    b2Velocity lost = m.lost;
+    b2Velocity lost = accounts[i].lost;
     if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
     if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
-    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (m.began.v + v)) +
-               solver.bodies[i].inertia * lost.w * (m.began.w + w) / 2;
+    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (accounts[i].began.v + v)) +
+               solver.bodies[i].inertia * lost.w * (accounts[i].began.w + w) / 2;
   }
   solver.close_ledger(solver.before);
   return clamped;

@@ -69,7 +69,10 @@ struct Component {
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
-    b2Velocity began{};  // velocity before gravity, when a ledger is kept
+  };
+  /// Of a body, when a ledger is kept.
+  struct Account {
+    b2Velocity began{};  // velocity before gravity
     b2Velocity lost{};   // velocity that limit_speed() took since
   };
 
@@ -98,6 +101,7 @@ struct Component {
   Solver solver;
   std::vector<Member*> members;       // as solver.joints
   std::vector<Mirror> mirrors;        // as solver.bodies
+  std::vector<Account> accounts;      // likewise
   double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
   SolverKind kind;
   Structure::Impl* structure = nullptr;

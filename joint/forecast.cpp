@@ -11,7 +11,7 @@ namespace ductile {
 void Forecast::form(std::span<const Vec3> masses) {
   for (auto& v : past_) v.assign(masses.size(), {});
   samples_.clear();
-  const std::size_t count = std::min(masses.size(), sampled);
+  const std::size_t count = std::min(sampled, (masses.size() + 4) / 5);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t body = i * masses.size() / count;
     samples_.push_back({body, masses[body], {}, {}, {}});

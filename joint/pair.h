@@ -24,4 +24,6 @@ inline void subtract(double* from, const Pair& what) {
   std::memcpy(from, &left, sizeof left);
 }
 
+inline Pair swapped(const Pair& p) { return Pair{p[1], p[0]}; }
+
 }  // namespace ductile

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "pair.h"
+
 namespace ductile {
 
 namespace {
@@ -29,20 +31,35 @@ inline Turn turn_of(double angle) {
           angle * (1 - t * over(6) * (1 - t * over(20)))};
 }
 
+constexpr Pair second_negated{1, -1}, first_negated{-1, 1};
+
 // J v
 inline Rows relative_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) {
-  return {
-      j.axis_b.c * b.x + j.axis_b.s * b.y - j.axis_a.c * a.x - j.axis_a.s * a.y + j.au * a.w + j.bu * b.w,
-      -j.axis_b.s * b.x + j.axis_b.c * b.y + j.axis_a.s * a.x - j.axis_a.c * a.y + j.av * a.w + j.bv * b.w,
-      b.w - a.w};
+  const Pair axis_a = load(&j.axis_a.c), axis_b = load(&j.axis_b.c);
+  const Pair uv = b.x * (second_negated * axis_b) + b.y * swapped(axis_b) -
+                  (a.x * (second_negated * axis_a) + a.y * swapped(axis_a)) + a.w * load(&j.au) +
+                  b.w * load(&j.bu);
+  return {uv[0], uv[1], b.w - a.w};
 }
 
 // g += Jᵀ s
 inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b) {
-  a += {-j.axis_a.c * s[0] + j.axis_a.s * s[1], -j.axis_a.s * s[0] - j.axis_a.c * s[1],
-        j.au * s[0] + j.av * s[1] - s[2]};
-  b += {j.axis_b.c * s[0] - j.axis_b.s * s[1], j.axis_b.s * s[0] + j.axis_b.c * s[1],
-        j.bu * s[0] + j.bv * s[1] + s[2]};
+  const Pair axis_a = load(&j.axis_a.c), axis_b = load(&j.axis_b.c), uv{s[0], s[1]};
+  subtract(&a.x, s[0] * axis_a + s[1] * (first_negated * swapped(axis_a)));
+  add(&b.x, s[0] * axis_b + s[1] * (first_negated * swapped(axis_b)));
+  const Pair on_a = uv * load(&j.au), on_b = uv * load(&j.bu);
+  a.w += on_a[0] + on_a[1] - s[2];
+  b.w += on_b[0] + on_b[1] + s[2];
+}
+
+// Adds to g what the joint will answer to the velocities v, if the next step is like the last; false where
+// that is not linear.
+bool foresee(const SolverJoint& j, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
+  Rows s = relative_velocity(j, v[z(j.a)], v[z(j.b)]);
+  for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (s[i] + j.law.bias[i]);
+  if (j.factored != 0 || !within_caps(j.law, s)) return false;
+  add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
+  return true;
 }
 
 // The three rows of one body's share of J, and of what they are multiplied by.
@@ -71,7 +88,7 @@ void Solver::form(std::size_t free_bodies) {
     if (is_free(j.a) && is_free(j.b)) edges.emplace_back(j.a, j.b);
   }
   ldlt_.analyse(static_cast<int>(free_), edges);
-  for (auto* v : {&g_, &d_, &z_, &g0_}) v->assign(bodies.size(), {});
+  for (auto* v : {&g_, &d_, &z_}) v->assign(bodies.size(), {});
   poses_.assign(bodies.size(), {});
   start_.assign(bodies.size(), {});
   barrier_.assign(joints.size(), {});
@@ -81,9 +98,11 @@ void Solver::form(std::size_t free_bodies) {
   touched_.assign(free_, 0);
   factored_ = held_ = false;
   mass_ = 0;
+  all_turn_ = true;
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
     mass_ += b.mass;
+    all_turn_ &= b.inertia > 0;
     b.inverse_mass = 1 / b.mass;
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
     d_[i] = {b.mass, b.mass, b.inertia};
@@ -132,7 +151,7 @@ void Solver::locate(SolverJoint& j) const {
 }
 
 void Solver::locate() {
-  biased_ = false;
+  biased_ = foreseen_ = false;
   for (SolverJoint& j : joints) locate(j);
 }
 
@@ -203,10 +222,12 @@ void Solver::begin(double h) {
   }
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
+      foreseen_ = false;
       for (SolverJoint& j : joints) set_bias(j);
     }
     return;
   }
+  foreseen_ = false;
   for (SolverJoint& j : joints) {
     Rows strain{};
     if (changed || share < 1 || damped_ || j.surface != nullptr)
@@ -272,14 +293,13 @@ void Solver::soften() {
   }
 }
 
-void Solver::predict() {
-  const std::span<Vec3> newest = forecast_.newest();
-  for (std::size_t i = 0; i < free_; ++i) newest[i] = bodies[i].v;
-  forecast_.fit();
-  predicted_ = true;
+bool Solver::at_rest() {
+  const bool rests = stands_still();
+  if (rests) predicted_ = foreseen_ = false;  // it will go on from this solution
+  return rests;
 }
 
-bool Solver::at_rest() {
+bool Solver::stands_still() {
   if (flows_ || coasting_ || !(speed_ <= 1e-10 * scale_)) return false;
   // What poses do not resolve moves nothing, whatever it asks of stiff rows.
   double farthest = 0;
@@ -287,6 +307,7 @@ bool Solver::at_rest() {
   const double last_bits = 2 * std::numeric_limits<double>::epsilon() * farthest;
   if (h_ * h_ * speed_ <= mass_ * last_bits * last_bits) return true;
   // Moving on by h v changes a row's impulse by G J v at most.
+  foreseen_ = false;
   std::fill(g_.begin(), g_.end(), Vec3{});
   for (const SolverJoint& j : joints) {
     Rows s;
@@ -300,10 +321,12 @@ bool Solver::at_rest() {
 // ∇f at bodies' v, once `change` has changed it, into g_; returns |∇f|² in the norm of M⁻¹.
 template <class Change>
 double Solver::evaluate(const Change& change) {
-  scale_ = speed_ = 0;
+  scale_ = speed_ = fastest_ = fastest_turn_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
     change(i, b);
+    fastest_ = std::max(fastest_, b.v.x * b.v.x + b.v.y * b.v.y);
+    fastest_turn_ = std::max(fastest_turn_, b.v.w * b.v.w);
     const Vec3 given = b.v - b.v_free;
     g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
     scale_ += dot(given, g_[i]);
@@ -315,6 +338,29 @@ double Solver::evaluate(const Change& change) {
 
 double Solver::evaluate() {
   return evaluate([](std::size_t, SolverBody&) {});
+}
+
+// evaluate() at the velocities in z_, where all joints are foreseen.
+double Solver::evaluate_foreseen() {
+  scale_ = speed_ = 0;
+  double norm = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    SolverBody& b = bodies[i];
+    b.v = z_[i];
+    const Vec3 given = b.v - b.v_free;
+    const Vec3 momentum{b.mass * given.x, b.mass * given.y, b.inertia * given.w};
+    g_[i] += momentum;
+    scale_ += dot(given, momentum);
+    speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    norm += square(b, g_[i]);
+  }
+  crossed_ = false;
+  return norm;
+}
+
+bool Solver::others_stand() const {
+  return std::all_of(bodies.begin() + static_cast<std::ptrdiff_t>(free_), bodies.end(),
+                     [](const SolverBody& b) { return b.v.x == 0 && b.v.y == 0 && b.v.w == 0; });
 }
 
 // The joints' part of ∇f.
@@ -543,12 +589,13 @@ bool Solver::solve(SolveReport& report) {
   const auto target = [this] { return tolerance * tolerance * scale_ + floor * floor * speed_; };
   const bool same_v = std::exchange(gradient_known_, true) && touches_ > 0 && !coasting_;
   coasting_ = false;
-  const auto start = [this, predicted = std::exchange(predicted_, false)](std::size_t i, SolverBody& b) {
-    if (!predicted) return;
-    if (!flows_) b.v = forecast_.next(i);
+  const bool guessed = std::exchange(predicted_, false) && !flows_;
+  const auto start = [this, guessed](std::size_t i, SolverBody& b) {
+    if (guessed) b.v = forecast_.next(i);
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
   };
-  double norm = same_v ? std::max(0.0, left_ + pushed_) : evaluate(start);
+  const bool foreseen = std::exchange(foreseen_, false) && others_stand();
+  double norm = same_v ? std::max(0.0, left_ + pushed_) : foreseen ? evaluate_foreseen() : evaluate(start);
   if (!std::isfinite(norm)) {
     // The past, too, knew what is not finite; this step need not.
     for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
@@ -572,12 +619,13 @@ bool Solver::solve(SolveReport& report) {
   bool conjugate = false;  // d_ continues the last one
   bool searched = false;   // rows changed their state in the last round: its tangent is not this one's
   bool smoothed = false;   // interior_point() was called
-  double zg = 0;
+  double zg = 0, beta = 0;
   double best = norm;                 // |∇f|² so far
   double first = norm;                // |∇f|² where the factor at hand began
   int round = 0, idle = 0, used = 0;  // rounds, those that gained nothing, those with the factor at hand
   short_step_ = false;
-  for (; norm > target() && round < round_bound; ++round) {
+  // What is only a guess takes a round in any case; what is foreseen, its impulses thereby.
+  for (; (norm > target() || (guessed && round == 0)) && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
     // contraction.
     const double by_rate = std::ceil(std::log(norm / target()) / gain_);
@@ -607,29 +655,32 @@ bool Solver::solve(SolveReport& report) {
       gain_ *= 1.1;  // in the hope that the next step's motion calls for less
     }
     ++used;
+    double turned = 0;  // gᵀ H⁻¹ of the last g
+    if (conjugate) {
+      const std::vector<Vec3>& last = beta == 0 ? d_ : z_;
+      for (std::size_t i = 0; i < free_; ++i) turned -= dot(g_[i], last[i]);
+    }
     if (round == 0 && same_v && norm > 1e4 * left_) {
       // The pushes are all that there is to answer to: a few right-hand sides, and half a solve.
       std::fill_n(z_.begin(), free_, Vec3{});
-      for (std::size_t k = 0; k < touches_; ++k) z_[touched_[k]] = g_[touched_[k]];
+      for (std::size_t k = 0; k < touches_; ++k) z_[touched_[k]] = -1.0 * g_[touched_[k]];
     } else {
-      std::copy_n(g_.begin(), free_, z_.begin());
+      for (std::size_t i = 0; i < free_; ++i) z_[i] = -1.0 * g_[i];
     }
-    ldlt_.solve({z_.data(), free_});
-    double beta = 0;
-    if (conjugate) {
-      double z_dg = 0;
-      for (std::size_t i = 0; i < free_; ++i) z_dg += dot(z_[i], g_[i] - g0_[i]);
-      beta = std::max(0.0, z_dg / zg);
+    const double last_zg = zg;
+    zg = ldlt_.forward({z_.data(), free_});  // gᵀ H⁻¹ g
+    ldlt_.backward({z_.data(), free_});
+    beta = conjugate ? std::max(0.0, (zg - turned) / last_zg) : 0;
+    if (beta == 0) {
+      std::swap(d_, z_);
+    } else {
+      for (std::size_t i = 0; i < free_; ++i) d_[i] = z_[i] + beta * d_[i];
     }
     const bool exact = newton_ && beta == 0 && changed_ == 0 && !curved_;
     const double before = norm;
     double slope0 = 0;
-    zg = 0;
     norm = evaluate([&](std::size_t i, SolverBody& b) {
-      d_[i] = beta == 0 ? -1.0 * z_[i] : beta * d_[i] - z_[i];
       slope0 += dot(g_[i], d_[i]);
-      zg += dot(g_[i], z_[i]);
-      g0_[i] = g_[i];
       b.v += d_[i];
     });
     conjugate = true;
@@ -653,7 +704,8 @@ bool Solver::solve(SolveReport& report) {
     if (!gains && norm <= rounding_of_impulses()) break;
     idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
-    if (!newton_ && !searched) gain_ = std::clamp(std::log(first / norm) / used, 0.2, 40.0);
+    if (!newton_ && !searched && first > target())
+      gain_ = std::clamp(std::log(first / norm) / used, 0.2, 40.0);
   }
   report.rounds += round;
   // Across gaps of 100 km all that H holds is what it gains from rigid rows, and what rounding makes of a
@@ -689,7 +741,12 @@ void Solver::coast() {
 }
 
 void Solver::drop_impulses() {
-  for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
+  fastest_ = fastest_turn_ = 0;
+  for (std::size_t i = 0; i < free_; ++i) {
+    const Vec3& v = bodies[i].v = bodies[i].v_free;
+    fastest_ = std::max(fastest_, v.x * v.x + v.y * v.y);
+    fastest_turn_ = std::max(fastest_turn_, v.w * v.w);
+  }
   for (SolverJoint& j : joints) j.x = j.impulse = {};
 }
 
@@ -698,7 +755,20 @@ void Solver::advance() {
   pushed_ = 0;
   touches_ = 0;
   if (keeps_ledger) open_ledger();
-  for (SolverBody& b : bodies) displace(b, h_ * b.v);
+  predicted_ = !swept_;
+  const std::span<Vec3> newest = forecast_.newest();
+  for (std::size_t i = 0; i < free_; ++i) {
+    newest[i] = bodies[i].v;
+    displace(bodies[i], h_ * bodies[i].v);
+  }
+  for (std::size_t i = free_; i < bodies.size(); ++i) displace(bodies[i], h_ * bodies[i].v);
+  if (predicted_) forecast_.fit();
+  // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
+  foreseen_ = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
+  if (foreseen_) {
+    std::fill(g_.begin(), g_.end(), Vec3{});
+    for (std::size_t i = 0; i < free_; ++i) z_[i] = forecast_.next(i);
+  }
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
     const Rows before_gap = j.gap;
@@ -710,7 +780,8 @@ void Solver::advance() {
     if (!coasting_ && j.piece != 0) flow(j);
     if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
     if (slowed_ < 1 && !coasting_) slow_down(j);
-    set_bias(j);  // while it is at hand
+    set_bias(j);
+    foreseen_ = foreseen_ && foresee(j, z_, g_);
   }
   biased_ = true;
   coasting_ = false;
@@ -929,6 +1000,7 @@ double Solver::largest_turn() const {
 }
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
+  foreseen_ = false;
   factor_holding();
   double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
   // It gives way by less than a thousandth: the structure holds it.
@@ -1061,7 +1133,7 @@ Rows Solver::force(const SolverJoint& j) {
 
 std::size_t Solver::bytes() const {
   return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
-         forecast_.bytes() + (g_.capacity() + d_.capacity() + z_.capacity() + g0_.capacity()) * sizeof(Vec3) +
+         forecast_.bytes() + (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
          (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }

@@ -62,9 +62,11 @@ struct SolverJoint {
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
   double reference = 0;  // angle of B against A at rest
-  Rows relaxation{};     // hk/G: bias per strain, 1/s
-  Rows strain{};         // elastic, at the step's start; where rows are damped or on a yield surface
-  double late = 0;       // Σ m_eff d² of what a longer step parted and is not taken back yet
+
+  // Where steps change their length, rows are damped or flow on a yield surface.
+  Rows relaxation{};  // hk/G: bias per strain, 1/s
+  Rows strain{};      // elastic, at the step's start
+  double late = 0;    // Σ m_eff d² of what a longer step parted and is not taken back yet
 
   // Factorisation.
   Rows slope{};                                     // ds/dx that is in H
@@ -132,8 +134,6 @@ class Solver {
 
   /// Prepares a step of h seconds from the current poses.
   void begin(double h);
-  /// Starts the next solve where the last solutions point to.
-  void predict();
   /// Something else changed a body's velocity since the last solve: v_free, in the body's own frame. All that
   /// happens between two solves of a step is told so, or none of it.
   void push(std::size_t body, const Vec3& change);
@@ -141,7 +141,7 @@ class Solver {
   bool solve(SolveReport& report);
   /// After solve(): all velocities, to a share of them.
   void slow_down(double share);
-  /// Moves poses by h v, books plastic flow.
+  /// Moves poses by h v, books plastic flow. The next solve starts where the last solutions point to.
   void advance();
   /// Moves the bodies toward poses that something else pushed them to, in such a way that no joint is
   /// strained by it: least ½|x − goal|²_M with the gaps of all rows that hold kept. With `try_goal` the goal
@@ -155,6 +155,9 @@ class Solver {
   static constexpr double rest_tolerance = 1e-7;
   /// Whether any row was beyond its cap in the last solve.
   bool any_flows() const { return flows_; }
+  /// Of the bodies in the last solve, m/s and rad/s.
+  double fastest() const { return std::sqrt(fastest_); }
+  double fastest_turn() const { return std::sqrt(fastest_turn_); }
   /// Root mean square of the velocity that the structure's impulses made in the last solve, m/s.
   double impulse_speed() const { return mass_ > 0 ? std::sqrt(scale_ / mass_) : 0; }
 
@@ -196,6 +199,9 @@ class Solver {
   template <class Change>
   double evaluate(const Change& change);
   double evaluate();
+  double evaluate_foreseen();
+  bool others_stand() const;
+  bool stands_still();
   void add_impulses();
   double pull(std::span<const Pose> goal);
   double strain();
@@ -226,7 +232,9 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   Forecast forecast_;
-  bool predicted_ = false;  // the next solve starts where forecast_ says
+  bool predicted_ = false;  // the next solve starts where forecast_ says,
+  bool foreseen_ = false;   // that is in z_, and what all joints answer to it, in g_
+  bool all_turn_ = false;   // no body's rotation is fixed
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool held_ = false;        // and of what holds now
@@ -247,13 +255,14 @@ class Solver {
   double pushed_ = 0;                 // and by how much it has grown by them
   double slowed_ = 1;                 // share of the solution that the bodies move with
   // Of the last evaluation:
-  double scale_ = 0;      // |v − v*|²_M
-  double speed_ = 0;      // |v|²_M
-  int changed_ = 0;       // rows whose state is not the factor's
-  bool crossed_ = false;  // rows changed their state since the evaluation before
-  bool curved_ = false;   // any joint flows on its yield surface
-  bool flows_ = false;    // any row is beyond its cap
-  std::vector<Vec3> g_, d_, z_, g0_;
+  double scale_ = 0;                       // |v − v*|²_M
+  double speed_ = 0;                       // |v|²_M
+  double fastest_ = 0, fastest_turn_ = 0;  // squares
+  int changed_ = 0;                        // rows whose state is not the factor's
+  bool crossed_ = false;                   // rows changed their state since the evaluation before
+  bool curved_ = false;                    // any joint flows on its yield surface
+  bool flows_ = false;                     // any row is beyond its cap
+  std::vector<Vec3> g_, d_, z_;
   // One row in interior_point(): see there. Sides: the cap and the reverse cap.
   struct Barrier {
     double s, ds, r, hardening;

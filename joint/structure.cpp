@@ -303,7 +303,8 @@ std::size_t Structure::Impl::bytes() const {
                     joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending);
   for (const auto& c : components) {
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
-           c->mirrors.capacity() * sizeof(Component::Mirror);
+           c->mirrors.capacity() * sizeof(Component::Mirror) +
+           c->accounts.capacity() * sizeof(Component::Account);
   }
   return sum;
 }

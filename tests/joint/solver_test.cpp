@@ -124,14 +124,18 @@ TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
   line.solver.keeps_ledger = false;
   for (int i = 0; i < 12; ++i) {
     line.solver.begin(1.0 / 60);
-    if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
-    line.solver.predict();
     for (SolverBody& b : line.solver.bodies) b.v_free = {1, 0, 0};
     SolveReport report;
     line.solver.solve(report);
     EXPECT_FALSE(report.bound_hit) << i;
     for (const SolverBody& b : line.solver.bodies) EXPECT_NEAR(b.v.x, 1, 1e-9) << i;
+    if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     line.solver.advance();
+    if (i != 2) continue;
+    for (int k = 0; k < 3; ++k)
+      Solver::place(line.solver.bodies[static_cast<std::size_t>(k)], {2.0 * k, 0, 0});
+    line.solver.locate();
+    line.solver.bodies[1].v = {};
   }
 }
 
