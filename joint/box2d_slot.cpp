@@ -179,9 +179,11 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     Solver::place(solver.bodies[i], {at.x - origin_x, at.y - origin_y, at.angle});
   };
   solver.joints.reserve(members.size());
+  solver.records.reserve(members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
     SolverJoint& j = solver.joints.emplace_back(m.own);
+    solver.records.push_back(m.own_record);
     solver.drift_time = std::max(solver.drift_time, m.drift_time);
     m.belong_to(this);
     m.index = i;
@@ -220,7 +222,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     if (moved) j.gap = seen;
     parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
-      if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, row);
+      if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, solver.records[i], row);
     }
   }
 }

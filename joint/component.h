@@ -36,6 +36,7 @@ struct Member {
   Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
   std::size_t index = 0;           // in component->solver.joints
   SolverJoint own;                 // configuration and state while it is in no component
+  JointRecord own_record;          // likewise
   double drift_time = 0;           // likewise, of its solver
   std::array<KnownPose, 2> known;  // likewise, of the joint's bodies
   bool fresh = true;               // never solved: its neutral position is where it is first seen
@@ -49,7 +50,9 @@ struct Member {
 
   void belong_to(Component* to) { joint->component_ = component = to; }
   SolverJoint& data();
+  JointRecord& record();
   const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }
+  const JointRecord& record() const { return const_cast<Member*>(this)->record(); }
 };
 
 /// Whether its velocity is the solver's to find; all others hold or move as they are told, a dynamic body
@@ -130,5 +133,8 @@ struct Component {
 };
 
 inline SolverJoint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }
+inline JointRecord& Member::record() {
+  return component != nullptr ? component->solver.records[index] : own_record;
+}
 
 }  // namespace ductile

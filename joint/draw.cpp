@@ -32,15 +32,16 @@ double ElasticPlasticJoint::stage() const {
 void Structure::draw(b2Draw& canvas, const JointDrawing& how) const {
   for (const ElasticPlasticJoint* joint : impl_->joints) {
     const SolverJoint& j = joint->state();
+    const Rows& plastic = joint->record().plastic;
     const b2Vec2 at = 0.5f * (joint->GetAnchorA() + joint->GetAnchorB()), t = joint->axis(), n{-t.y, t.x};
     if (how.neutral > 0) {
       // Where anchor B, and a piece of it along the axis, would be without stress: from A, and turned.
       const double relative =
           double{joint->m_bodyB->GetAngle()} - double{joint->m_bodyA->GetAngle()} - j.reference;
       const double axis_of_a = std::atan2(t.y, t.x) - j.follow * relative;
-      const b2Vec2 rest = joint->GetAnchorA() + static_cast<float>(j.plastic[axial]) * t +
-                          static_cast<float>(j.plastic[shear]) * n;
-      canvas.DrawSegment(rest, rest + how.neutral * turned(axis_of_a + j.plastic[rotation]), neutral_colour);
+      const b2Vec2 rest = joint->GetAnchorA() + static_cast<float>(plastic[axial]) * t +
+                          static_cast<float>(plastic[shear]) * n;
+      canvas.DrawSegment(rest, rest + how.neutral * turned(axis_of_a + plastic[rotation]), neutral_colour);
     }
     if (how.force > 0) {
       const b2Vec2 force =

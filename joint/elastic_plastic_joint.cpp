@@ -68,9 +68,13 @@ ElasticPlasticJoint* ElasticPlasticJoint::cast(b2Joint* joint) {
 
 namespace {
 const SolverJoint none{};
-}
+const JointRecord no_record{};
+}  // namespace
 
 const SolverJoint& ElasticPlasticJoint::state() const { return member_ != nullptr ? member_->data() : none; }
+const JointRecord& ElasticPlasticJoint::record() const {
+  return member_ != nullptr ? member_->record() : no_record;
+}
 
 std::uint32_t ElasticPlasticJoint::id() const { return member_ != nullptr ? member_->id : UINT32_MAX; }
 
@@ -84,7 +88,7 @@ b2Vec2 ElasticPlasticJoint::axis() const {
 double ElasticPlasticJoint::force(Row row) const { return Solver::force(state())[row]; }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
-  return (reverse ? state().cap_reverse : state().cap)[row];
+  return (reverse ? record().cap_reverse : record().cap)[row];
 }
 
 double ElasticPlasticJoint::usage(Row row) const {
@@ -93,16 +97,16 @@ double ElasticPlasticJoint::usage(Row row) const {
   return limit > 0 ? std::abs(f) / limit : 0;
 }
 
-double ElasticPlasticJoint::elastic(Row row) const { return Solver::elastic(state(), row); }
-double ElasticPlasticJoint::plastic(Row row) const { return state().plastic[row]; }
+double ElasticPlasticJoint::elastic(Row row) const { return Solver::elastic(state(), record(), row); }
+double ElasticPlasticJoint::plastic(Row row) const { return record().plastic[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {
-  return state().flowed_forward[rotation] + state().flowed_back[rotation];
+  return record().flowed_forward[rotation] + record().flowed_back[rotation];
 }
-double ElasticPlasticJoint::elongation() const { return state().flowed_forward[axial]; }
-double ElasticPlasticJoint::compression() const { return state().flowed_back[axial]; }
+double ElasticPlasticJoint::elongation() const { return record().flowed_forward[axial]; }
+double ElasticPlasticJoint::compression() const { return record().flowed_back[axial]; }
 double ElasticPlasticJoint::slip() const {
-  return state().flowed_forward[shear] + state().flowed_back[shear];
+  return record().flowed_forward[shear] + record().flowed_back[shear];
 }
 
 double ElasticPlasticJoint::capacity_used() const {
@@ -116,26 +120,27 @@ double ElasticPlasticJoint::capacity_used() const {
 bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_->broken; }
 
 double ElasticPlasticJoint::dissipated() const {
-  const Rows& d = state().dissipated;
+  const Rows& d = record().dissipated;
   return std::max(0.0, d[0] + d[1] + d[2]);  // rows on a yield surface may cancel but for rounding
 }
 
 double ElasticPlasticJoint::elastic_energy() const {
   double sum = 0;
-  for (const Row row : {axial, shear, rotation}) sum += state().spring[row] * elastic(row) * elastic(row) / 2;
+  for (const Row row : {axial, shear, rotation})
+    sum += record().spring[row] * elastic(row) * elastic(row) / 2;
   return sum;
 }
 
 bool ElasticPlasticJoint::stiffness_limited(Row row) const {
-  const SolverJoint& j = state();
-  return std::isfinite(j.stiffness[row]) && j.spring[row] > 0 && j.spring[row] < j.stiffness[row];
+  const JointRecord& r = record();
+  return std::isfinite(r.stiffness[row]) && r.spring[row] > 0 && r.spring[row] < r.stiffness[row];
 }
 
 void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
   if (!(cap >= 0 && cap_reverse >= 0)) throw std::invalid_argument("elastic-plastic joint: caps must be ≥ 0");
   if (member_ == nullptr || member_->broken) return;
-  member_->data().cap[row] = cap;
-  member_->data().cap_reverse[row] = cap_reverse;
+  member_->record().cap[row] = cap;
+  member_->record().cap_reverse[row] = cap_reverse;
   wake();
 }
 
@@ -144,8 +149,8 @@ void ElasticPlasticJoint::set_stiffness(Row row, double stiffness, double dampin
     throw std::invalid_argument("elastic-plastic joint: stiffness must be > 0 and damping_ratio ≥ 0");
   }
   if (member_ == nullptr) return;
-  member_->data().stiffness[row] = stiffness;
-  member_->data().damping_ratio[row] = damping_ratio;
+  member_->record().stiffness[row] = stiffness;
+  member_->record().damping_ratio[row] = damping_ratio;
   wake();
 }
 

@@ -92,7 +92,7 @@ int Solver::interior_point() {
         for (int side = 0; side < 2; ++side) {
           if (w.bounded[side]) compliance += w.z[side] / (w.p[side] + w.hardening * w.z[side]);
         }
-        j.slope[i] = j.law.G[i] > 0 ? 1 / compliance : 0;
+        records[k].slope[i] = j.law.G[i] > 0 ? 1 / compliance : 0;
       }
     }
     factor();
@@ -121,7 +121,7 @@ int Solver::interior_point() {
             const double over = w.z[side], after = w.hardening * over;
             w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side] + after * over) / (w.p[side] + after);
           }
-          s[i] = w.s + j.slope[i] * w.r;
+          s[i] = w.s + records[k].slope[i] * w.r;
         }
         scatter(j, s);
       }
@@ -135,7 +135,7 @@ int Solver::interior_point() {
         const Rows y = relative(j, d_[z(j.a)], d_[z(j.b)]);
         for (unsigned i = 0; i < 3; ++i) {
           Barrier& w = barrier_[k][i];
-          w.ds = j.slope[i] * (y[i] + w.r);
+          w.ds = records[k].slope[i] * (y[i] + w.r);
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
             const double over = w.z[side], ds = side == 0 ? w.ds : -w.ds;

@@ -109,6 +109,7 @@ void Solver::form(std::size_t free_bodies) {
   }
   forecast_.form({d_.data(), free_});
   for (SolverJoint& j : joints) {
+    JointRecord& r = record(j);
     j.block = is_free(j.a) && is_free(j.b) ? ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b)) : -1;
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
     const auto inverse_mass = [&](int body) { return z(body) < free_ ? bodies[z(body)].inverse_mass : 0; };
@@ -124,7 +125,7 @@ void Solver::form(std::size_t free_bodies) {
     const double la = along(j.ax, j.ay, in_a), lb = along(j.bx, j.by, in_b);
     const Rows inverse_m{ma + mb + ia * ca * ca + ib * cb * cb, ma + mb + ia * la * la + ib * lb * lb,
                          ia + ib};
-    for (unsigned i = 0; i < 3; ++i) j.m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
+    for (unsigned i = 0; i < 3; ++i) r.m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
   }
   laws_set_ = false;
 }
@@ -155,33 +156,34 @@ void Solver::locate() {
   for (SolverJoint& j : joints) locate(j);
 }
 
-void Solver::set_law(SolverJoint& j) const {
+void Solver::set_law(SolverJoint& j) {
+  JointRecord& r = record(j);
   for (unsigned i = 0; i < 3; ++i) {
     RowLaw& law = j.law;
-    const double limit = rigid_ratio * j.m_eff[i];
-    if (!(j.stiffness[i] > 0) || !(limit > 0) || (j.cap[i] <= 0 && j.cap_reverse[i] <= 0)) {
-      law.G[i] = law.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = j.spring[i] =
-          j.damping[i] = j.relaxation[i] = 0;
+    const double limit = rigid_ratio * r.m_eff[i];
+    if (!(r.stiffness[i] > 0) || !(limit > 0) || (r.cap[i] <= 0 && r.cap_reverse[i] <= 0)) {
+      law.G[i] = law.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = r.spring[i] =
+          r.damping[i] = r.relaxation[i] = 0;
       continue;
     }
-    double k = j.stiffness[i], c = 0;
-    if (h_ * h_ * k < elastic_ratio * j.m_eff[i]) {
-      c = std::min(2 * j.damping_ratio[i] * std::sqrt(k * j.m_eff[i]), (limit - h_ * h_ * k) / h_);
+    double k = r.stiffness[i], c = 0;
+    if (h_ * h_ * k < elastic_ratio * r.m_eff[i]) {
+      c = std::min(2 * r.damping_ratio[i] * std::sqrt(k * r.m_eff[i]), (limit - h_ * h_ * k) / h_);
     } else {
-      k = (softened_ && j.surface != nullptr ? soft_ratio * j.m_eff[i] : limit) / (h_ * h_);
+      k = (softened_ && r.surface != nullptr ? soft_ratio * r.m_eff[i] : limit) / (h_ * h_);
     }
     const double G = h_ * h_ * k + h_ * c;
-    j.spring[i] = k;
-    j.damping[i] = c;
+    r.spring[i] = k;
+    r.damping[i] = c;
     law.G[i] = G;
-    j.relaxation[i] = h_ * k / G;
-    law.cap[i] = h_ * j.cap[i];
-    law.cap_reverse[i] = h_ * j.cap_reverse[i];
+    r.relaxation[i] = h_ * k / G;
+    law.cap[i] = h_ * r.cap[i];
+    law.cap_reverse[i] = h_ * r.cap_reverse[i];
     // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
-    const double after = std::min(j.hardening[i], 0.99 * k), H = after * k / (k - after);
+    const double after = std::min(r.hardening[i], 0.99 * k), H = after * k / (k - after);
     law.after_yield[i] = h_ * h_ * H / (h_ * h_ * H + G);
   }
-  j.law.surface = j.surface;
+  j.law.surface = r.surface;
   j.law.h = h_;
 }
 
@@ -200,11 +202,12 @@ void Solver::begin(double h) {
   // joints agree.
   const double share = h < drift_time ? h / drift_time : 1;
   drift_time = std::max(h, drift_time - h);
-  const auto parted = [](const SolverJoint& j) {
+  const auto parted = [this](const SolverJoint& j) {
+    const JointRecord& r = record(j);
     double sum = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      const double d = j.gap[i] - j.neutral[i] - elastic(j, i);
-      if (j.law.G[i] > 0) sum += j.m_eff[i] * d * d;
+      const double d = j.gap[i] - j.neutral[i] - elastic(j, r, i);
+      if (j.law.G[i] > 0) sum += r.m_eff[i] * d * d;
     }
     return sum;
   };
@@ -212,13 +215,14 @@ void Solver::begin(double h) {
   if (share < 1) {
     double late = 0, all = 0;
     for (SolverJoint& j : joints) {
+      JointRecord& r = record(j);
       const double now = parted(j);
-      late += h < j.law.h ? now : j.late;
+      late += h < j.law.h ? now : r.late;
       all += now;
-      j.late = now;
+      r.late = now;
     }
     waits = (1 - share) * (late < all ? std::sqrt(late / all) : 1);
-    for (SolverJoint& j : joints) j.late *= waits * waits;
+    for (JointRecord& r : records) r.late *= waits * waits;
   }
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
@@ -229,48 +233,49 @@ void Solver::begin(double h) {
   }
   foreseen_ = false;
   for (SolverJoint& j : joints) {
+    JointRecord& r = record(j);
     Rows strain{};
-    if (changed || share < 1 || damped_ || j.surface != nullptr)
-      strain = {elastic(j, 0), elastic(j, 1), elastic(j, 2)};
+    if (changed || share < 1 || damped_ || r.surface != nullptr)
+      strain = {elastic(j, r, 0), elastic(j, r, 1), elastic(j, r, 2)};
     if (changed) {
       // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid
       // one's masses, it keeps its force if it became stiffer, its strain if softer: no energy comes of it.
-      Rows spring = j.spring;
+      Rows spring = r.spring;
       const double longer = j.law.h > 0 ? h / j.law.h : 1;
-      const std::array<bool, 3> was_rigid{is_rigid(j, 0), is_rigid(j, 1), is_rigid(j, 2)};
+      const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
         // The same force, but none larger than the step: what was rough in a short one would be a blow.
         j.impulse[i] *= std::min(1.0, longer);
         // What holds nothing any more, as both its bodies are held, forgets its force.
-        if (!(j.spring[i] > 0)) j.neutral[i] = j.gap[i], strain[i] = 0;
-        if (!(spring[i] > 0 && j.spring[i] > 0)) continue;
+        if (!(r.spring[i] > 0)) j.neutral[i] = j.gap[i], strain[i] = 0;
+        if (!(spring[i] > 0 && r.spring[i] > 0)) continue;
         const auto strain_by = [&](double by) {
           j.neutral[i] += strain[i] * (1 - by);
           strain[i] *= by;
           spring[i] /= by;
         };
-        if (was_rigid[i] && is_rigid(j, i)) strain_by(longer * longer);
-        if (j.spring[i] > spring[i]) strain_by(spring[i] / j.spring[i]);
+        if (was_rigid[i] && is_rigid(r, i)) strain_by(longer * longer);
+        if (r.spring[i] > spring[i]) strain_by(spring[i] / r.spring[i]);
       }
     }
     for (unsigned i = 0; i < 3; ++i) {
       double e = j.gap[i] - j.neutral[i];
       e -= waits * (e - strain[i]);
-      j.law.bias[i] = j.relaxation[i] * e;
-      if (j.damping[i] > 0) {
+      j.law.bias[i] = r.relaxation[i] * e;
+      if (r.damping[i] > 0) {
         // A damper would let what turning bodies part grow from step to step, and the spring store it.
-        j.law.bias[i] = j.relaxation[i] * strain[i] + (e - strain[i]) / h;
+        j.law.bias[i] = r.relaxation[i] * strain[i] + (e - strain[i]) / h;
       }
     }
-    if (damped_ || changed || j.surface != nullptr) j.strain = strain;
+    if (damped_ || changed || r.surface != nullptr) r.strain = strain;
   }
   if (changed) {
-    damped_ = std::any_of(joints.begin(), joints.end(), [](const SolverJoint& j) {
-      return j.damping[0] > 0 || j.damping[1] > 0 || j.damping[2] > 0;
+    damped_ = std::any_of(records.begin(), records.end(), [](const JointRecord& r) {
+      return r.damping[0] > 0 || r.damping[1] > 0 || r.damping[2] > 0;
     });
-    peculiar_ = damped_ || std::any_of(joints.begin(), joints.end(),
-                                       [](const SolverJoint& j) { return j.surface != nullptr; });
+    peculiar_ = damped_ || std::any_of(records.begin(), records.end(),
+                                       [](const JointRecord& r) { return r.surface != nullptr; });
   }
 }
 
@@ -280,15 +285,16 @@ void Solver::soften() {
   softened_ = true;
   factored_ = held_ = false;
   for (SolverJoint& j : joints) {
-    if (j.surface == nullptr) continue;
-    const Rows spring = j.spring;
+    JointRecord& r = record(j);
+    if (r.surface == nullptr) continue;
+    const Rows spring = r.spring;
     set_law(j);
     for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.spring[i] < spring[i])) continue;
-      const double more = j.strain[i] * (std::sqrt(spring[i] / j.spring[i]) - 1);
+      if (!(r.spring[i] < spring[i])) continue;
+      const double more = r.strain[i] * (std::sqrt(spring[i] / r.spring[i]) - 1);
       j.neutral[i] -= more;
-      j.law.bias[i] += j.relaxation[i] * more;
-      j.strain[i] += more;
+      j.law.bias[i] += r.relaxation[i] * more;
+      r.strain[i] += more;
     }
   }
 }
@@ -419,7 +425,8 @@ double Solver::square(const SolverBody& b, const Vec3& g) {
 double Solver::rounding_of_impulses() const {
   double sum = 0;
   for (const SolverJoint& j : joints) {
-    for (unsigned i = 0; i < 3; ++i) sum += j.m_eff[i] > 0 ? j.impulse[i] * j.impulse[i] / j.m_eff[i] : 0;
+    const JointRecord& r = record(j);
+    for (unsigned i = 0; i < 3; ++i) sum += r.m_eff[i] > 0 ? j.impulse[i] * j.impulse[i] / r.m_eff[i] : 0;
   }
   return 1e-28 * sum;
 }
@@ -437,17 +444,18 @@ double Solver::objective() const {
 
 void Solver::factor_tangents() {
   for (SolverJoint& j : joints) {
+    JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
-      j.slope[i] = tangent(j.law, j.piece, i);
+      r.slope[i] = tangent(j.law, j.piece, i);
       if (short_step_ && flows(j.piece, i) && j.piece != on_surface)
-        j.slope[i] = std::max(j.slope[i], j.impulse[i] / j.x[i]);
+        r.slope[i] = std::max(r.slope[i], j.impulse[i] / j.x[i]);
     }
-    j.slope_nq = j.slope_nm = j.slope_qm = 0;
+    r.slope_nq = r.slope_nm = r.slope_qm = 0;
     if (j.piece == on_surface) {
       const Coupling c = j.law.surface->tangent(
           j.law.G, h_, {j.law.G[0] * j.x[0], j.law.G[1] * j.x[1], j.law.G[2] * j.x[2]});
-      j.slope = {c.nn, c.qq, c.mm};
-      j.slope_nq = c.nq, j.slope_nm = c.nm, j.slope_qm = c.qm;
+      r.slope = {c.nn, c.qq, c.mm};
+      r.slope_nq = c.nq, r.slope_nm = c.nm, r.slope_qm = c.qm;
     }
     j.factored = static_cast<std::uint8_t>(flowing(j.piece));
   }
@@ -465,14 +473,15 @@ void Solver::factor_holding() {
   held_ = true;
   bool at_hand = factored_ && (holding_ || changed_ == 0);
   for (SolverJoint& j : joints) {
+    JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
       const bool holds = j.law.G[i] > 0 && !flows(j.piece, i);
-      const bool stiffest = is_rigid(j, i) && !softened_;
-      const double stiff = !holds ? 0 : stiffest ? j.law.G[i] : rigid_ratio * j.m_eff[i];
-      at_hand &= j.slope[i] == stiff;
-      j.slope[i] = stiff;
+      const bool stiffest = is_rigid(r, i) && !softened_;
+      const double stiff = !holds ? 0 : stiffest ? j.law.G[i] : rigid_ratio * r.m_eff[i];
+      at_hand &= r.slope[i] == stiff;
+      r.slope[i] = stiff;
     }
-    j.slope_nq = j.slope_nm = j.slope_qm = 0;
+    r.slope_nq = r.slope_nm = r.slope_qm = 0;
     at_hand &= j.piece != on_surface;
   }
   if (!at_hand) {
@@ -491,6 +500,7 @@ void Solver::factor() {
     d[8] = b.inertia > 0 ? b.inertia : 1;
   }
   for (const SolverJoint& j : joints) {
+    const JointRecord& r = record(j);
     const bool free_a = z(j.a) < free_, free_b = z(j.b) < free_;
     const double turns_a = bodies[z(j.a)].inertia > 0 ? 1 : 0, turns_b = bodies[z(j.b)].inertia > 0 ? 1 : 0;
     const JacobianRows a{{-j.axis_a.c, -j.axis_a.s, turns_a * j.au},
@@ -498,12 +508,12 @@ void Solver::factor() {
                          {0, 0, -turns_a}};
     const JacobianRows b{
         {j.axis_b.c, j.axis_b.s, turns_b * j.bu}, {-j.axis_b.s, j.axis_b.c, turns_b * j.bv}, {0, 0, turns_b}};
-    const auto scaled = [&j](const JacobianRows& rows) {
-      JacobianRows d{j.slope[0] * rows.u, j.slope[1] * rows.v, j.slope[2] * rows.w};
+    const auto scaled = [&j, &r](const JacobianRows& rows) {
+      JacobianRows d{r.slope[0] * rows.u, r.slope[1] * rows.v, r.slope[2] * rows.w};
       if (j.piece == on_surface) {
-        d.u += j.slope_nq * rows.v + j.slope_nm * rows.w;
-        d.v += j.slope_nq * rows.u + j.slope_qm * rows.w;
-        d.w += j.slope_nm * rows.u + j.slope_qm * rows.v;
+        d.u += r.slope_nq * rows.v + r.slope_nm * rows.w;
+        d.v += r.slope_nq * rows.u + r.slope_qm * rows.w;
+        d.w += r.slope_nm * rows.u + r.slope_qm * rows.v;
       }
       return d;
     };
@@ -776,7 +786,7 @@ void Solver::advance() {
     for (unsigned i = 0; i < 3; ++i) {
       if (coasting_ || j.law.G[i] == 0) j.neutral[i] += j.gap[i] - before_gap[i];
     }
-    const Rows booked = j.dissipated;
+    const Rows booked = keeps_ledger ? record(j).dissipated : Rows{};
     if (!coasting_ && j.piece != 0) flow(j);
     if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
     if (slowed_ < 1 && !coasting_) slow_down(j);
@@ -790,13 +800,14 @@ void Solver::advance() {
 // The bodies went less far than was solved for, and so did a spring that has a damper beside it. What other
 // rows are strained by, begin() reads from their gaps.
 void Solver::slow_down(SolverJoint& j) {
+  JointRecord& r = record(j);
   for (unsigned i = 0; i < 3; ++i) {
-    if (!(j.damping[i] > 0)) continue;
-    const double before = j.strain[i], after = before + slowed_ * (elastic(j, i) - before);
-    j.impulse[i] = j.law.G[i] / h_ * after - j.damping[i] * before;
+    if (!(r.damping[i] > 0)) continue;
+    const double before = r.strain[i], after = before + slowed_ * (elastic(j, r, i) - before);
+    j.impulse[i] = j.law.G[i] / h_ * after - r.damping[i] * before;
     if (!keeps_ledger) continue;
-    ledger.numerical += std::exchange(j.stored[i], j.spring[i] * after * after / 2);
-    ledger.numerical -= j.stored[i];
+    ledger.numerical += std::exchange(r.stored[i], r.spring[i] * after * after / 2);
+    ledger.numerical -= r.stored[i];
   }
 }
 
@@ -808,7 +819,8 @@ void Solver::set_bias(SolverJoint& j) const {
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
 // elastic part, in velocities as solved; the plastic offset is incremented.
-void Solver::flow(SolverJoint& j) const {
+void Solver::flow(SolverJoint& j) {
+  JointRecord& r = record(j);
   // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
   double rate = 0;
   for (unsigned i = 0; i < 3 && j.piece == on_surface; ++i) {
@@ -820,17 +832,17 @@ void Solver::flow(SolverJoint& j) const {
     // In velocities: what turning bodies part along their tangents must not count as flow, which would strain
     // what is parallel, and be work.
     const double increment =
-        swept_ ? j.gap[i] - j.neutral[i] - elastic(j, i) : slowed_ * h_ * (j.x[i] - s / j.law.G[i]);
+        swept_ ? j.gap[i] - j.neutral[i] - elastic(j, r, i) : slowed_ * h_ * (j.x[i] - s / j.law.G[i]);
     if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
-    j.plastic[i] += increment;
-    (increment > 0 ? j.flowed_forward : j.flowed_back)[i] += std::abs(increment);
-    if (rate >= 0) j.dissipated[i] += s / h_ * increment;
-    if (j.hardening[i] > 0) {
+    r.plastic[i] += increment;
+    (increment > 0 ? r.flowed_forward : r.flowed_back)[i] += std::abs(increment);
+    if (rate >= 0) r.dissipated[i] += s / h_ * increment;
+    if (r.hardening[i] > 0) {
       // Isotropic: the cap reached is the cap from now on, in both directions.
-      const double growth = std::abs(s) / h_ - (s > 0 ? j.cap : j.cap_reverse)[i];
-      j.cap[i] += growth;
-      j.cap_reverse[i] += growth;
+      const double growth = std::abs(s) / h_ - (s > 0 ? r.cap : r.cap_reverse)[i];
+      r.cap[i] += growth;
+      r.cap_reverse[i] += growth;
       set_law(j);
     }
   }
@@ -851,10 +863,11 @@ void Solver::open_ledger() {
   for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = bodies[i].turn;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
+    const JointRecord& r = record(j);
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
-      gaps_[k][i] = j.damping[i] > 0      ? j.strain[i]
-                    : j.relaxation[i] > 0 ? j.law.bias[i] / j.relaxation[i]
+      gaps_[k][i] = r.damping[i] > 0      ? r.strain[i]
+                    : r.relaxation[i] > 0 ? j.law.bias[i] / r.relaxation[i]
                                           : 0;
       ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.law.bias[i]) - v0[i]) / 2;
     }
@@ -868,22 +881,23 @@ void Solver::open_ledger() {
 // the strain went from the last e' to e: the chord that a turning piece moves along, rounding, pushes, a
 // spring that goes with the step.
 void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
+  JointRecord& r = record(j);
   for (unsigned i = 0; i < 3; ++i) {
-    const double held = j.stored[i];
-    j.stored[i] = 0;
+    const double held = r.stored[i];
+    r.stored[i] = 0;
     if (!(j.law.G[i] > 0)) {
       ledger.numerical += held;
       continue;
     }
-    const double k = j.spring[i], R = j.impulse[i] / h_;
+    const double k = r.spring[i], R = j.impulse[i] / h_;
     const double v = j.x[i] - j.law.bias[i];
-    const bool not_all = flows(j.piece, i) || j.damping[i] > 0;  // of the row's motion is elastic
-    const double after = not_all ? elastic(j, i) : strain[i] + h_ * v;
+    const bool not_all = flows(j.piece, i) || r.damping[i] > 0;  // of the row's motion is elastic
+    const double after = not_all ? elastic(j, r, i) : strain[i] + h_ * v;
     const double change = after - strain[i];
-    j.stored[i] = k * after * after / 2;
-    ledger.damping += j.damping[i] * change * change / h_;
+    r.stored[i] = k * after * after / 2;
+    ledger.damping += r.damping[i] * change * change / h_;
     ledger.numerical += k * change * change / 2 + held - k * strain[i] * strain[i] / 2;
-    if (not_all) ledger.numerical += R * (h_ * v - change) - (j.dissipated[i] - booked[i]);
+    if (not_all) ledger.numerical += R * (h_ * v - change) - (r.dissipated[i] - booked[i]);
   }
 }
 
@@ -916,11 +930,12 @@ double Solver::strain() {
   double sum = 0;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
+    const JointRecord& r = record(j);
     locate(j);
     Rows s;
     for (unsigned i = 0; i < 3; ++i) {
       const double strain = j.gap[i] - gaps_[k][i];
-      s[i] = j.slope[i] * strain;
+      s[i] = r.slope[i] * strain;
       sum += s[i] * strain / 2;
     }
     scatter(j, s);
@@ -1091,13 +1106,14 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   // neutral: a push stores no energy.
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
+    JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
       const double change = j.gap[i] - gaps_[k][i];
-      const bool closed = kept && j.m_eff[i] * change * change <= trifle + rounding * rounding * j.m_eff[i];
+      const bool closed = kept && r.m_eff[i] * change * change <= trifle + rounding * rounding * r.m_eff[i];
       if (closed && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += change;
-      if (!free) j.plastic[i] += change;
+      if (!free) r.plastic[i] += change;
     }
   }
   return kept;
@@ -1121,8 +1137,8 @@ void Solver::displace(SolverBody& b, const Vec3& by) {
 }
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc.
-double Solver::elastic(const SolverJoint& j, unsigned i) {
-  return j.law.G[i] > 0 ? j.law.h * (j.impulse[i] + j.damping[i] * j.strain[i]) / j.law.G[i] : 0;
+double Solver::elastic(const SolverJoint& j, const JointRecord& r, unsigned i) {
+  return j.law.G[i] > 0 ? j.law.h * (j.impulse[i] + r.damping[i] * r.strain[i]) / j.law.G[i] : 0;
 }
 
 Rows Solver::force(const SolverJoint& j) {
@@ -1132,8 +1148,9 @@ Rows Solver::force(const SolverJoint& j) {
 }
 
 std::size_t Solver::bytes() const {
-  return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) + ldlt_.bytes() +
-         forecast_.bytes() + (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
+  return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) +
+         records.capacity() * sizeof(JointRecord) + ldlt_.bytes() + forecast_.bytes() +
+         (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
          (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }

@@ -40,9 +40,9 @@ struct SolverBody {
   Vec3 v;                                        // the solution; also where the next solve starts
 };
 
-/// A joint as the solver sees it: two bodies and three rows. Laid out for its passes: the first half is what
-/// one evaluation reads and writes, the middle what a step needs besides, the rest what a change of the law
-/// needs.
+/// A joint as the solver sees it: two bodies and three rows. Here is what every step reads and writes; what
+/// it needs only where something flows, is factored or changes, is in the joint's record: large structures do
+/// not fit the cache, and each pass over them costs what it drags along.
 struct SolverJoint {
   // Evaluation: J, the law, and what it gave.
   int a = 0, b = 0;                       // bodies
@@ -62,7 +62,9 @@ struct SolverJoint {
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
   double reference = 0;  // angle of B against A at rest
+};
 
+struct JointRecord {
   // Where steps change their length, rows are damped or flow on a yield surface.
   Rows relaxation{};  // hk/G: bias per strain, 1/s
   Rows strain{};      // elastic, at the step's start
@@ -127,6 +129,13 @@ class Solver {
   /// others (static and kinematic bodies): their v is known.
   std::vector<SolverBody> bodies;
   std::vector<SolverJoint> joints;
+  std::vector<JointRecord> records;  // of the joints
+  const JointRecord& record(const SolverJoint& joint) const {
+    return records[static_cast<std::size_t>(&joint - joints.data())];
+  }
+  JointRecord& record(const SolverJoint& joint) {
+    return records[static_cast<std::size_t>(&joint - joints.data())];
+  }
 
   /// After bodies and joints were filled in or their masses changed. Allocates.
   void form(std::size_t free_bodies);
@@ -182,13 +191,13 @@ class Solver {
   static Rows force(const SolverJoint& joint);
   /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies
   /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
-  static double elastic(const SolverJoint& joint, unsigned row);
+  static double elastic(const SolverJoint& joint, const JointRecord& record, unsigned row);
   double step() const { return h_; }
   std::size_t bytes() const;
 
  private:
   void locate(SolverJoint& joint) const;
-  void set_law(SolverJoint& joint) const;
+  void set_law(SolverJoint& joint);
   void set_bias(SolverJoint& joint) const;
   void soften();
   void factor_tangents();
@@ -211,8 +220,8 @@ class Solver {
   void scatter(const SolverJoint& joint, const Rows& s);
   double norm_of_gradient();
   static double square(const SolverBody& b, const Vec3& g);
-  static bool is_rigid(const SolverJoint& joint, unsigned row) {
-    return joint.spring[row] != joint.stiffness[row];
+  static bool is_rigid(const JointRecord& record, unsigned row) {
+    return record.spring[row] != record.stiffness[row];
   }
   bool line_search(double slope0, double slope1);
   double objective() const;
@@ -220,7 +229,7 @@ class Solver {
   void coast();
   void drop_impulses();
   void drop_if_beyond(double times);
-  void flow(SolverJoint& joint) const;
+  void flow(SolverJoint& joint);
   void slow_down(SolverJoint& joint);
   Vec3 told_velocity(std::size_t body) const;
   void open_ledger();

@@ -46,15 +46,15 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.break_group = d.break_group;
   for (unsigned i = 0; i < 3; ++i) {
     const RowDef& row = d.rows[i];
-    m.own.stiffness[i] = row.stiffness;
-    m.own.damping_ratio[i] = row.damping_ratio;
-    m.own.cap[i] = row.cap;
-    m.own.cap_reverse[i] = row.cap_reverse;
-    m.own.hardening[i] = row.hardening;
+    m.own_record.stiffness[i] = row.stiffness;
+    m.own_record.damping_ratio[i] = row.damping_ratio;
+    m.own_record.cap[i] = row.cap;
+    m.own_record.cap_reverse[i] = row.cap_reverse;
+    m.own_record.hardening[i] = row.hardening;
   }
   if (!d.interaction.empty()) {
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
-    m.own.surface = m.surface.get();
+    m.own_record.surface = m.surface.get();
   }
   m.own.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
   m.own.follow = d.axisFollow;
@@ -78,8 +78,8 @@ void Structure::Impl::forget(Member& member) {
     dissolve(component);
     std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
   }
-  for (const double joules : member.own.dissipated) gone_.dissipated += joules;
-  for (const double joules : member.own.stored) gone_.numerical += joules;  // lost with the joint
+  for (const double joules : member.own_record.dissipated) gone_.dissipated += joules;
+  for (const double joules : member.own_record.stored) gone_.numerical += joules;  // lost with the joint
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
@@ -91,6 +91,7 @@ void Structure::Impl::dissolve(Component& component) {
   gone_.driven += component.solver.ledger.driven;
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
+    m->own_record = component.solver.records[m->index];
     m->drift_time = component.solver.drift_time;
     m->known = {component.known(m->own.a), component.known(m->own.b)};
     if (m->broken) m->own.impulse = {};
@@ -198,7 +199,8 @@ void Structure::Impl::look_for_breaks(Component& component) {
     const Rows force = Solver::force(j);
     const unsigned row =
         j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
-    const double energy = j.dissipated[0] + j.dissipated[1] + j.dissipated[2];
+    const Rows& dissipated = component.solver.records[m->index].dissipated;
+    const double energy = dissipated[0] + dissipated[1] + dissipated[2];
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
                                      : JointEvent::rotation;
@@ -226,13 +228,14 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
     m.broken = broke_ = true;
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
     SolverJoint& j = m.data();
+    JointRecord& r = m.record();
     for (unsigned i = 0; i < 3; ++i) {
-      j.dissipated[i] += j.stored[i];  // what it still held is set free
-      j.stored[i] = 0;
+      r.dissipated[i] += r.stored[i];  // what it still held is set free
+      r.stored[i] = 0;
       j.neutral[i] = j.gap[i];
     }
-    j.cap = j.cap_reverse = {};
-    j.surface = nullptr;
+    r.cap = r.cap_reverse = {};
+    r.surface = nullptr;
     if (m.component != nullptr) m.component->disturb();
   };
   let_go(member);
@@ -245,7 +248,7 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
 JointEnergy Structure::Impl::energy() const {
   JointEnergy sum = gone_;
   for (const auto& m : members) {
-    for (const double joules : m->data().stored) sum.elastic += joules;
+    for (const double joules : m->record().stored) sum.elastic += joules;
     sum.dissipated += m->joint->dissipated();
   }
   for (const auto& c : components) {

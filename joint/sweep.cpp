@@ -119,7 +119,7 @@ void Solver::sweep() {
     for (unsigned i = 0; i < 3; ++i) {
       if (!(j.law.G[i] > 0)) continue;
       held |= 1u << i;
-      if (is_rigid(j, i)) continue;
+      if (is_rigid(record(j), i)) continue;
       compliance[i] = 1 / j.law.G[i];
       r[i] += j.law.bias[i] - compliance[i] * j.impulse[i];
     }
@@ -159,7 +159,7 @@ void Solver::sweep_positions(std::span<const Pose> at) {
     Rows error{};
     unsigned held = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.law.G[i] > 0) || !is_rigid(j, i) || flows(j.piece, i)) continue;
+      if (!(j.law.G[i] > 0) || !is_rigid(record(j), i) || flows(j.piece, i)) continue;
       held |= 1u << i;
       error[i] = j.gap[i] - j.neutral[i];
     }

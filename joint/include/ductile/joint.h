@@ -35,6 +35,7 @@ class Structure;
 struct Component;
 struct Member;
 struct SolverJoint;
+struct JointRecord;
 
 /// Index of a row.
 enum Row : unsigned { axial, shear, rotation };
@@ -146,6 +147,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   ~ElasticPlasticJoint() override;
 
   const SolverJoint& state() const;
+  const JointRecord& record() const;
   void wake();
 
   friend struct Member;
