@@ -147,6 +147,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   origin_y = std::round(near.y);
   mirrors.resize(ordered.size());
   solver.bodies.resize(ordered.size());
+  solver.places.resize(ordered.size());
   goal.resize(ordered.size());
   accounts.resize(ordered.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) {
@@ -162,7 +163,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     int edges = 0;
     for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
     mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
-    Solver::place(solver.bodies[i], relative(mirror.left));
+    Solver::put(solver.places[i], relative(mirror.left));
   }
 
   bool held_anew = false;
@@ -176,7 +177,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
     const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
     if (!same(left, mirrors[i].left)) return;
-    Solver::place(solver.bodies[i], {at.x - origin_x, at.y - origin_y, at.angle});
+    Solver::put(solver.places[i], {at.x - origin_x, at.y - origin_y, at.angle});
   };
   solver.joints.reserve(members.size());
   solver.records.reserve(members.size());
@@ -239,7 +240,7 @@ void Component::read_mass(std::size_t i) {
   solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
 }
 
-bool Component::look() {
+bool Component::look(const b2SolverData& data) {
   bool masses = true;
   alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -248,6 +249,7 @@ bool Component::look() {
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone_ &= i >= solver.free_bodies() || only_ours(m);
+    if (!at_rest_) take(m, data);  // while the body is at hand
     masses &= m.type != b2_dynamicBody || (m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
                                            m.body->GetLocalCenter() == m.local_center);
   }
@@ -321,7 +323,7 @@ void Component::first_velocity(const b2SolverData& data) {
   const auto start_from = [this](std::size_t i) {
     SolverBody& b = solver.bodies[i];
     const Vec3& v = mirrors[i].exact;
-    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(b.turn, v.x, v.y, v.w);
+    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
   };
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
@@ -330,7 +332,7 @@ void Component::first_velocity(const b2SolverData& data) {
       m.exact = {};
     } else {
       moved |= !same(data.positions[m.island_index], m.left);
-      take(m, data);
+      if (at_rest_) take(m, data);
     }
     start_from(i);
   }
@@ -342,7 +344,7 @@ void Component::first_velocity(const b2SolverData& data) {
       Mirror& m = mirrors[i];
       const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
                                                     : data.positions[m.island_index];
-      goal[i] = same(at, m.left) ? solver.bodies[i].pose : relative(at);
+      goal[i] = same(at, m.left) ? solver.places[i].pose : relative(at);
       if (m.type == b2_staticBody) m.left = at;
     }
     if (kind == SolverKind::direct) {
@@ -359,7 +361,7 @@ void Component::first_velocity(const b2SolverData& data) {
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       const b2Velocity v =
           accounts[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
-      solver.before[i] = into_own_frame(solver.bodies[i].turn, v.v.x, v.v.y, v.w);
+      solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
       accounts[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     }
     open = true;
@@ -380,8 +382,8 @@ void Component::next_velocity(const b2SolverData& data) {
     if (now.v == given.v && now.w == given.w) continue;
     touched = true;
     SolverBody& b = solver.bodies[i];
-    const Vec3 change = into_own_frame(b.turn, double{now.v.x} - given.v.x, double{now.v.y} - given.v.y,
-                                       double{now.w} - given.w);
+    const Vec3 change = into_own_frame(solver.places[i].turn, double{now.v.x} - given.v.x,
+                                       double{now.v.y} - given.v.y, double{now.w} - given.w);
     solver.push(i, change);
     if (kind == SolverKind::iterative) b.v += change;
     given = now;
@@ -418,14 +420,14 @@ void Component::project(bool try_goal) {
 
 void Component::give(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    const SolverBody& b = solver.bodies[i];
     Mirror& m = mirrors[i];
-    m.exact = into_world(b.turn, b.v);
+    m.exact = into_world(solver.places[i].turn, solver.bodies[i].v);
     data.velocities[m.island_index] = m.given = in_floats(m.exact);
   }
 }
 
 void Component::position(const b2SolverData& data) {
+  if (alone_ && !resting) return write_poses(data);
   if (alone_) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i)
       data.positions[mirrors[i].island_index] = mirrors[i].left;
@@ -435,7 +437,7 @@ void Component::position(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     b2Position& at = data.positions[mirrors[i].island_index];
     const bool kept = same(at, mirrors[i].left);
-    goal[i] = kept ? solver.bodies[i].pose : relative(at);
+    goal[i] = kept ? solver.places[i].pose : relative(at);
     pushed |= !kept;
     at = mirrors[i].left;
   }
@@ -443,7 +445,7 @@ void Component::position(const b2SolverData& data) {
   if (kind == SolverKind::iterative) {
     solver.sweep_positions(goal);
   } else {
-    for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.bodies[i].pose;
+    for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.places[i].pose;
     project(false);
   }
   at_rest_ = false;
@@ -451,7 +453,7 @@ void Component::position(const b2SolverData& data) {
 }
 
 b2Position Component::box2d_pose(std::size_t i) const {
-  const Pose& p = solver.bodies[i].pose;
+  const Pose& p = solver.places[i].pose;
   return {{static_cast<float>(p.x + origin_x), static_cast<float>(p.y + origin_y)},
           static_cast<float>(p.angle)};
 }
@@ -461,8 +463,8 @@ int Component::freedom(std::size_t body, std::size_t free_bodies) const {
 }
 
 KnownPose Component::known(int body) const {
-  const SolverBody& b = solver.bodies[z(body)];
-  return {{b.pose.x + origin_x, b.pose.y + origin_y, b.pose.angle},
+  const Pose& p = solver.places[z(body)].pose;
+  return {{p.x + origin_x, p.y + origin_y, p.angle},
           mirrors[z(body)].local_center,
           freedom(z(body), solver.free_bodies())};
 }
@@ -507,7 +509,7 @@ void Component::limit_speed(const b2SolverData& data) {
       const double linear = together ? least : share(b2_maxTranslation, std::hypot(b.v.x, b.v.y));
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
-      const b2Velocity lost = in_floats(into_world(b.turn, less));
+      const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
       accounts[i].lost.v += lost.v;
       accounts[i].lost.w += lost.w;
       if (together) continue;
@@ -525,7 +527,7 @@ void Component::limit_speed(const b2SolverData& data) {
 
 // After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
 // Box2D.
-void Component::advance() {
+void Component::advance(const b2SolverData& data) {
   slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
   // Stock joints that come before ours in the list see velocities without our impulses, and take back what
   // they do about it in the iterations that follow: they need those iterations.
@@ -533,13 +535,16 @@ void Component::advance() {
   for (std::size_t i = 0; i < solver.free_bodies() && !alone_; ++i) {
     const SolverBody& b = solver.bodies[i];
     const Mirror& m = mirrors[i];
-    const Vec3 by_others = b.v_free - into_own_frame(b.turn, m.taken.v.x, m.taken.v.y, m.taken.w);
+    const Vec3 by_others =
+        b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
     alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
              slack_;
   }
   solver.advance();
   bool kinematic = false;
-  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+  // Where nothing else moves them, position() tells it, if it is called at all.
+  const bool later = alone_ && data.step.positionIterations > 0;
+  for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody) mirrors[i].left = box2d_pose(i);
     kinematic |= mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }

@@ -82,8 +82,8 @@ struct Component {
   Component(std::vector<Member*> enlisted, SolverKind kind);
 
   /// Before a step: where the island has the bodies, and whether they are still what the component was formed
-  /// for.
-  bool look();
+  /// for. Takes their velocities, but where the step may be the last one again.
+  bool look(const b2SolverData& data);
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
@@ -94,7 +94,7 @@ struct Component {
   /// After the last velocity call, before poses move.
   void limit_speed(const b2SolverData& data);
   /// After the last velocity call: poses move, what has flowed is booked.
-  void advance();
+  void advance(const b2SolverData& data);
   void position(const b2SolverData& data);
 
   KnownPose known(int body) const;

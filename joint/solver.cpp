@@ -131,7 +131,7 @@ void Solver::form(std::size_t free_bodies) {
 }
 
 void Solver::locate(SolverJoint& j) const {
-  const SolverBody &a = bodies[z(j.a)], &b = bodies[z(j.b)];
+  const Place &a = places[z(j.a)], &b = places[z(j.b)];
   const Turn relative = inverse(a.turn) * b.turn;
   const double bend = b.pose.angle - a.pose.angle - j.reference;
   j.axis_a = j.follow == 0 ? j.axis : j.axis * turn_of(j.follow * bend);
@@ -309,7 +309,7 @@ bool Solver::stands_still() {
   if (flows_ || coasting_ || !(speed_ <= 1e-10 * scale_)) return false;
   // What poses do not resolve moves nothing, whatever it asks of stiff rows.
   double farthest = 0;
-  for (const SolverBody& b : bodies) farthest = std::max({farthest, std::abs(b.pose.x), std::abs(b.pose.y)});
+  for (const Place& p : places) farthest = std::max({farthest, std::abs(p.pose.x), std::abs(p.pose.y)});
   const double last_bits = 2 * std::numeric_limits<double>::epsilon() * farthest;
   if (h_ * h_ * speed_ <= mass_ * last_bits * last_bits) return true;
   // Moving on by h v changes a row's impulse by G J v at most.
@@ -769,9 +769,9 @@ void Solver::advance() {
   const std::span<Vec3> newest = forecast_.newest();
   for (std::size_t i = 0; i < free_; ++i) {
     newest[i] = bodies[i].v;
-    displace(bodies[i], h_ * bodies[i].v);
+    displace(places[i], h_ * bodies[i].v);
   }
-  for (std::size_t i = free_; i < bodies.size(); ++i) displace(bodies[i], h_ * bodies[i].v);
+  for (std::size_t i = free_; i < bodies.size(); ++i) displace(places[i], h_ * bodies[i].v);
   if (predicted_) forecast_.fit();
   // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
   foreseen_ = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
@@ -860,7 +860,7 @@ Vec3 Solver::told_velocity(std::size_t i) const {
 // counts with those after, as solved. Strains before go to gaps_.
 void Solver::open_ledger() {
   opened_ = joints;
-  for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = bodies[i].turn;
+  for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = places[i].turn;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
     const JointRecord& r = record(j);
@@ -917,9 +917,9 @@ double Solver::pull(std::span<const Pose> goal) {
   double sum = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
-    const double dx = b.pose.x - goal[i].x, dy = b.pose.y - goal[i].y, dw = b.pose.angle - goal[i].angle;
-    g_[i] = {b.mass * (b.turn.c * dx + b.turn.s * dy), b.mass * (b.turn.c * dy - b.turn.s * dx),
-             b.inertia * dw};
+    const auto& [pose, turn] = places[i];
+    const double dx = pose.x - goal[i].x, dy = pose.y - goal[i].y, dw = pose.angle - goal[i].angle;
+    g_[i] = {b.mass * (turn.c * dx + turn.s * dy), b.mass * (turn.c * dy - turn.s * dx), b.inertia * dw};
     sum += (b.mass * (dx * dx + dy * dy) + b.inertia * dw * dw) / 2;
   }
   return sum;
@@ -966,8 +966,8 @@ double Solver::correction(std::span<Vec3> d, double enough) {
 bool Solver::push_far(std::span<const Pose> goal, double enough) {
   const auto move = [&](double t) {
     for (std::size_t i = 0; i < free_; ++i) {
-      place(bodies[i], poses_[i]);
-      displace(bodies[i], t * d_[i]);
+      put(places[i], poses_[i]);
+      displace(places[i], t * d_[i]);
     }
     pull(goal);
     strain();
@@ -977,7 +977,7 @@ bool Solver::push_far(std::span<const Pose> goal, double enough) {
   bool fresh = false;  // d_ is of a factor of its own poses
   for (int round = 0; !(size <= enough); ++round) {
     if (round == 20) return false;
-    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
+    for (std::size_t i = 0; i < free_; ++i) poses_[i] = places[i].pose;
     const double whole = 1 / largest_turn();
     for (double t = whole;;) {
       move(t);
@@ -1025,10 +1025,10 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     if (holds()) return true;
   }
   for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
-  for (std::size_t i = free_; i < bodies.size(); ++i) place(bodies[i], goal[i]);
+  for (std::size_t i = free_; i < bodies.size(); ++i) put(places[i], goal[i]);
   double reach = 1;  // farthest coordinate, longest arm
   for (std::size_t i = 0; i < free_; ++i) {
-    start_[i] = poses_[i] = bodies[i].pose;
+    start_[i] = poses_[i] = places[i].pose;
     reach = std::max({reach, std::abs(poses_[i].x), std::abs(poses_[i].y)});
   }
   for (const SolverJoint& j : joints) {
@@ -1040,7 +1040,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   };
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
   const auto place_all = [this](std::span<const Pose> at) {
-    for (std::size_t i = 0; i < free_; ++i) place(bodies[i], at[i]);
+    for (std::size_t i = 0; i < free_; ++i) put(places[i], at[i]);
   };
   bool small = true;
   if (try_goal) {
@@ -1056,7 +1056,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
       place_all(goal);
       pull_and_strain();
     }
-    for (std::size_t i = 0; i < free_; ++i) poses_[i] = bodies[i].pose;
+    for (std::size_t i = 0; i < free_; ++i) poses_[i] = places[i].pose;
     if (holds()) return true;
   }
   const double enough = 1e-8 * size + rounding * rounding * mass_;
@@ -1066,7 +1066,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     return correction(d_);
   };
   const auto displace_all = [&](double t) {
-    for (std::size_t i = 0; i < free_; ++i) displace(bodies[i], t * d_[i]);
+    for (std::size_t i = 0; i < free_; ++i) displace(places[i], t * d_[i]);
   };
   // A small push: let go of what the pull strains, which may be all of it, and of what a step along the
   // tangent misses the gaps by, its square.
@@ -1097,8 +1097,8 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     if (!small) last = let_go();  // of the pull toward the goal, which has left strains of 1/κ of it
     displace_all(1);
     for (double next; last > trifle && (next = let_go()) < 0.1 * last; last = next) displace_all(1);
-    kept = std::all_of(bodies.begin(), bodies.end(),
-                       [](const SolverBody& b) { return std::isfinite(b.pose.x + b.pose.y + b.pose.angle); });
+    kept = std::all_of(places.begin(), places.end(),
+                       [](const Place& p) { return std::isfinite(p.pose.x + p.pose.y + p.pose.angle); });
   }
   if (!kept) place_all(goal);
   locate();
@@ -1119,21 +1119,21 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   return kept;
 }
 
-void Solver::place(SolverBody& b, const Pose& at) {
-  if (at.angle != b.pose.angle) b.turn = turn_of(at.angle);
-  b.pose = at;
+void Solver::put(Place& p, const Pose& at) {
+  if (at.angle != p.pose.angle) p.turn = turn_of(at.angle);
+  p.pose = at;
 }
 
-void Solver::displace(SolverBody& b, const Vec3& by) {
-  b.pose.x += b.turn.c * by.x - b.turn.s * by.y;
-  b.pose.y += b.turn.s * by.x + b.turn.c * by.y;
-  const double before = b.pose.angle;
-  b.pose.angle += by.w;
-  if (b.pose.angle == before) return;
+void Solver::displace(Place& p, const Vec3& by) {
+  p.pose.x += p.turn.c * by.x - p.turn.s * by.y;
+  p.pose.y += p.turn.s * by.x + p.turn.c * by.y;
+  const double before = p.pose.angle;
+  p.pose.angle += by.w;
+  if (p.pose.angle == before) return;
   // By what the angle has really grown, so that turn and angle do not drift apart; brought back to length 1.
-  const Turn t = b.turn * turn_of(b.pose.angle - before);
+  const Turn t = p.turn * turn_of(p.pose.angle - before);
   const double length = (3 - t.c * t.c - t.s * t.s) / 2;
-  b.turn = {length * t.c, length * t.s};
+  p.turn = {length * t.c, length * t.s};
 }
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc.
@@ -1148,9 +1148,9 @@ Rows Solver::force(const SolverJoint& j) {
 }
 
 std::size_t Solver::bytes() const {
-  return bodies.capacity() * sizeof(SolverBody) + joints.capacity() * sizeof(SolverJoint) +
-         records.capacity() * sizeof(JointRecord) + ldlt_.bytes() + forecast_.bytes() +
-         (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
+  return bodies.capacity() * sizeof(SolverBody) + places.capacity() * sizeof(Place) +
+         joints.capacity() * sizeof(SolverJoint) + records.capacity() * sizeof(JointRecord) + ldlt_.bytes() +
+         forecast_.bytes() + (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
          (poses_.capacity() + start_.capacity()) * sizeof(Pose) + barrier_.capacity() * sizeof(barrier_[0]) +
          gaps_.capacity() * sizeof(Rows);
 }

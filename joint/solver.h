@@ -31,9 +31,12 @@ struct Pose {
   double x = 0, y = 0, angle = 0;
 };
 
-struct SolverBody {
+struct Place {
   Pose pose;
-  Turn turn;                     // of the angle
+  Turn turn;  // of the angle
+};
+
+struct SolverBody {
   double mass = 1, inertia = 1;  // kg, kg m² about the centre of mass; inertia 0: does not rotate
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;                                   // v*: m/s and rad/s in the body's own frame
@@ -128,6 +131,7 @@ class Solver {
   /// Free bodies come first, numbered in elimination order (see BlockLdlt::order_for); the rest is moved by
   /// others (static and kinematic bodies): their v is known.
   std::vector<SolverBody> bodies;
+  std::vector<Place> places;  // where they are
   std::vector<SolverJoint> joints;
   std::vector<JointRecord> records;  // of the joints
   const JointRecord& record(const SolverJoint& joint) const {
@@ -185,7 +189,7 @@ class Solver {
   /// Caps or stiffness were edited.
   void laws_changed() { laws_set_ = false; }
   /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
-  static void place(SolverBody& body, const Pose& at);
+  static void put(Place& place, const Pose& at);
   void locate();
   /// Of the last solve, N, N, N m.
   static Rows force(const SolverJoint& joint);
@@ -234,7 +238,7 @@ class Solver {
   Vec3 told_velocity(std::size_t body) const;
   void open_ledger();
   void account(SolverJoint& joint, const Rows& strain_before, const Rows& booked);
-  static void displace(SolverBody& body, const Vec3& by);
+  static void displace(Place& place, const Vec3& by);
 
   std::size_t free_ = 0;
   double mass_ = 0;  // of all free bodies

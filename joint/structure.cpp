@@ -129,10 +129,10 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   enlisting_ = false;
   if (velocity_calls_++ == 0) {
     bool fits = !incomplete_;
-    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look();
+    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data);
     if (!fits) {
       form();
-      for (Component* c : active_) c->look();
+      for (Component* c : active_) c->look(data);
     }
     for (Component* c : active_) c->first_velocity(data);
   } else {
@@ -142,7 +142,7 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   for (Component* c : active_) {
     if (c->resting) continue;
     c->limit_speed(data);
-    c->advance();
+    c->advance(data);
     look_for_breaks(*c);
   }
 }

@@ -152,7 +152,7 @@ void Solver::sweep() {
 }
 
 void Solver::sweep_positions(std::span<const Pose> at) {
-  for (std::size_t i = 0; i < free_; ++i) place(bodies[i], at[i]);
+  for (std::size_t i = 0; i < free_; ++i) put(places[i], at[i]);
   for (SolverJoint& j : joints) {
     locate(j);
     const EffectiveMass m = effective_mass(*this, j);
@@ -171,8 +171,8 @@ void Solver::sweep_positions(std::span<const Pose> at) {
     const double reach = std::max(std::hypot(a.x, a.y), std::hypot(b.x, b.y)) / 0.2;
     const double turn = std::max(std::abs(a.w), std::abs(b.w)) / (8.0 / 180 * std::numbers::pi);
     const double share = 1 / std::max({1.0, reach, turn});
-    if (z(j.a) < free_) displace(bodies[z(j.a)], -share * a);
-    if (z(j.b) < free_) displace(bodies[z(j.b)], -share * b);
+    if (z(j.a) < free_) displace(places[z(j.a)], -share * a);
+    if (z(j.b) < free_) displace(places[z(j.b)], -share * b);
   }
   locate();
 }

@@ -16,8 +16,8 @@ struct Line {
       SolverBody body;
       body.mass = 100 + 37 * (i % 5);
       body.inertia = 10;
-      Solver::place(body, {2.0 * i, 0, 0});
       solver.bodies.push_back(body);
+      Solver::put(solver.places.emplace_back(), {2.0 * i, 0, 0});
     }
     for (int i = 1; i < n; ++i) {
       SolverJoint joint;
@@ -134,8 +134,7 @@ TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
     if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     line.solver.advance();
     if (i != 2) continue;
-    for (int k = 0; k < 3; ++k)
-      Solver::place(line.solver.bodies[static_cast<std::size_t>(k)], {2.0 * k, 0, 0});
+    for (int k = 0; k < 3; ++k) Solver::put(line.solver.places[static_cast<std::size_t>(k)], {2.0 * k, 0, 0});
     line.solver.locate();
     line.solver.bodies[1].v = {};
   }
