@@ -492,7 +492,7 @@ class Game : b2DestructionListener {
         const double inertia = central_inertia(*body);
         if (!(inertia > 0)) continue;
         const float r = b2Distance(anchor, body->GetWorldCenter());
-        lever = std::max(lever, std::min(20.0, 1 + double{body->GetMass()} * r * r / inertia));
+        lever = std::max(lever, std::min(40.0, 1 + double{body->GetMass()} * r * r / inertia));
       }
     }
     turn *= std::sqrt(lever / 4);
