@@ -36,7 +36,7 @@ class Forecast {
 
  private:
   static constexpr int terms = 7;
-  static constexpr std::size_t sampled = 4;  // bodies tell of the few a_k what all of them would
+  static constexpr std::size_t sampled = 4;  // bodies, or a fifth of them, tell of the few a_k what all would
   struct Sample {
     std::size_t body;
     Vec3 mass;

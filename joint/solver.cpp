@@ -324,6 +324,21 @@ bool Solver::stands_still() {
   return norm_of_gradient() <= rest_tolerance * rest_tolerance * scale_;
 }
 
+void Solver::see_speed(const Vec3& v) {
+  fastest_ = std::max(fastest_, v.x * v.x + v.y * v.y);
+  fastest_turn_ = std::max(fastest_turn_, v.w * v.w);
+}
+
+// A body's own part of ∇f; adds up what an evaluation tells of all bodies.
+inline Vec3 Solver::own_part(const SolverBody& b) {
+  see_speed(b.v);
+  const Vec3 given = b.v - b.v_free;
+  const Vec3 momentum{b.mass * given.x, b.mass * given.y, b.inertia * given.w};
+  scale_ += dot(given, momentum);
+  speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+  return momentum;
+}
+
 // ∇f at bodies' v, once `change` has changed it, into g_; returns |∇f|² in the norm of M⁻¹.
 template <class Change>
 double Solver::evaluate(const Change& change) {
@@ -331,12 +346,7 @@ double Solver::evaluate(const Change& change) {
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
     change(i, b);
-    fastest_ = std::max(fastest_, b.v.x * b.v.x + b.v.y * b.v.y);
-    fastest_turn_ = std::max(fastest_turn_, b.v.w * b.v.w);
-    const Vec3 given = b.v - b.v_free;
-    g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
-    scale_ += dot(given, g_[i]);
-    speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    g_[i] = own_part(b);
   }
   add_impulses();
   return norm_of_gradient();
@@ -348,16 +358,12 @@ double Solver::evaluate() {
 
 // evaluate() at the velocities in z_, where all joints are foreseen.
 double Solver::evaluate_foreseen() {
-  scale_ = speed_ = 0;
+  scale_ = speed_ = fastest_ = fastest_turn_ = 0;
   double norm = 0;
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
     b.v = z_[i];
-    const Vec3 given = b.v - b.v_free;
-    const Vec3 momentum{b.mass * given.x, b.mass * given.y, b.inertia * given.w};
-    g_[i] += momentum;
-    scale_ += dot(given, momentum);
-    speed_ += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    g_[i] += own_part(b);
     norm += square(b, g_[i]);
   }
   crossed_ = false;
@@ -753,9 +759,8 @@ void Solver::coast() {
 void Solver::drop_impulses() {
   fastest_ = fastest_turn_ = 0;
   for (std::size_t i = 0; i < free_; ++i) {
-    const Vec3& v = bodies[i].v = bodies[i].v_free;
-    fastest_ = std::max(fastest_, v.x * v.x + v.y * v.y);
-    fastest_turn_ = std::max(fastest_turn_, v.w * v.w);
+    bodies[i].v = bodies[i].v_free;
+    see_speed(bodies[i].v);
   }
   for (SolverJoint& j : joints) j.x = j.impulse = {};
 }
@@ -766,12 +771,11 @@ void Solver::advance() {
   touches_ = 0;
   if (keeps_ledger) open_ledger();
   predicted_ = !swept_;
-  const std::span<Vec3> newest = forecast_.newest();
-  for (std::size_t i = 0; i < free_; ++i) {
-    newest[i] = bodies[i].v;
+  const std::span<Vec3> newest = predicted_ ? forecast_.newest() : std::span<Vec3>{};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (i < newest.size()) newest[i] = bodies[i].v;
     displace(places[i], h_ * bodies[i].v);
   }
-  for (std::size_t i = free_; i < bodies.size(); ++i) displace(places[i], h_ * bodies[i].v);
   if (predicted_) forecast_.fit();
   // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
   foreseen_ = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();

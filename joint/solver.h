@@ -67,6 +67,7 @@ struct SolverJoint {
   double reference = 0;  // angle of B against A at rest
 };
 
+/// The rest of a joint, at the same index.
 struct JointRecord {
   // Where steps change their length, rows are damped or flow on a yield surface.
   Rows relaxation{};  // hk/G: bias per strain, 1/s
@@ -213,6 +214,8 @@ class Solver {
   double evaluate(const Change& change);
   double evaluate();
   double evaluate_foreseen();
+  Vec3 own_part(const SolverBody& body);
+  void see_speed(const Vec3& v);
   bool others_stand() const;
   bool stands_still();
   void add_impulses();
