@@ -8,8 +8,23 @@
 
 namespace ductile {
 
+namespace {
+
+// ∇ᵏ in terms of v now and before: the binomials of k, with alternating signs.
+constexpr auto difference = [] {
+  std::array<std::array<double, 7>, 7> d{};
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    d[k][0] = 1;
+    for (std::size_t i = 1; i <= k; ++i) d[k][i] = d[k - 1][i] - d[k - 1][i - 1];
+  }
+  return d;
+}();
+
+}  // namespace
+
 void Forecast::form(std::span<const Vec3> masses) {
-  for (auto& v : past_) v.assign(masses.size(), {});
+  terms_ = masses.size() < small ? few : most;
+  for (int k = 0; k < most; ++k) past_[z(k)].assign(k < terms_ ? masses.size() : 0, {});
   samples_.clear();
   const std::size_t count = std::min(sampled, (masses.size() + 4) / 5);
   for (std::size_t i = 0; i < count; ++i) {
@@ -20,13 +35,27 @@ void Forecast::form(std::span<const Vec3> masses) {
 }
 
 std::span<Vec3> Forecast::newest() {
-  newest_ = (newest_ + terms - 1) % terms;
-  known_ = std::min(known_ + 1, terms + 2);
-  return past_[static_cast<std::size_t>(newest_)];
+  newest_ = (newest_ + terms_ - 1) % terms_;
+  known_ = std::min(known_ + 1, terms_ + 2);
+  return past_[z(newest_)];
 }
 
+void Forecast::fit() { terms_ == few ? fit<few>() : fit<most>(); }
+
+void Forecast::next(std::span<Vec3> to) const { terms_ == few ? next<few>(to) : next<most>(to); }
+
+template <int terms>
+void Forecast::next(std::span<Vec3> to) const {
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    Vec3 v;
+    for (std::size_t k = 0; k < terms; ++k) v += share_[k] * past_[k][i];
+    to[i] = v;
+  }
+}
+
+template <int terms>
 void Forecast::fit() {
-  const auto slot = [this](int steps_ago) { return static_cast<std::size_t>((newest_ + steps_ago) % terms); };
+  const auto slot = [this](int steps_ago) { return z((newest_ + steps_ago) % terms); };
   const int n = std::min(known_ - 1, terms);  // terms that are known of the solution before the newest,
   const double older = known_ > terms + 1 ? 0.5 : 0;  // and were of the one before that
   for (auto& row : gram_) {
@@ -40,27 +69,24 @@ void Forecast::fit() {
       for (int k = i / 2 * 2; k <= terms; k += 2)
         add(gram_[i] + k, x * load(s.x + k) + y * load(s.y + k) + w * load(s.w + k));
     }
-    const auto differences = [](double(&d)[terms + 1], double now) {
+    const auto differences = [](double(&d)[most + 1], double now) {
       for (int k = 0; k < terms; ++k) now -= std::exchange(d[k], now);
     };
     differences(s.x, v.x), differences(s.y, v.y), differences(s.w, v.w);
   }
   double a[terms] = {};
   if (!solve(n, a)) forget();
-  // v + Σ a_k ∇ᵏv in terms of v now and before: ∇ᵏ has the binomials of k, with alternating signs.
+  // v + Σ a_k ∇ᵏv in terms of v now and before.
   share_ = {};
   share_[slot(0)] = 1;
   for (int k = 0; k < n; ++k) {
-    double binomial = a[k];
-    for (int i = 0; i <= k; ++i) {
-      share_[slot(i)] += binomial;
-      binomial *= -static_cast<double>(k - i) / (i + 1);
-    }
+    for (int i = 0; i <= k; ++i) share_[slot(i)] += a[k] * difference[z(k)][z(i)];
   }
 }
 
 // L D Lᵀ; a trifle on the diagonal keeps terms out that rounding alone tells apart. False where nothing
 // moves, or nothing is finite.
+template <int terms>
 bool Forecast::solve(int n, double (&a)[terms]) const {
   double l[terms][terms], inverse[terms], x[terms] = {};
   for (int i = 0; i < n; ++i) {
@@ -85,6 +111,11 @@ bool Forecast::solve(int n, double (&a)[terms]) const {
   const bool sane = std::all_of(x, x + n, [](double value) { return std::abs(value) <= 100; });
   if (sane) std::copy_n(x, n, a);
   return true;
+}
+
+void Forecast::list(Ahead& ahead) const {
+  ahead.add(samples_);
+  for (const auto& v : past_) ahead.add(v);
 }
 
 std::size_t Forecast::bytes() const {

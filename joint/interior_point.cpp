@@ -114,7 +114,7 @@ int Solver::interior_point() {
         for (unsigned i = 0; i < 3; ++i) {
           if (!(j.law.G[i] > 0)) continue;
           Barrier& w = barrier_[k][i];
-          w.r = v[i] + j.law.bias[i] - w.s / j.law.G[i];
+          w.r = v[i] + j.bias[i] - w.s / j.law.G[i];
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
             w.second[side] = corrector ? w.dp[side] * w.dz[side] : 0;
@@ -191,7 +191,7 @@ int Solver::interior_point() {
       const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
       Rows s;
       for (unsigned i = 0; i < 3; ++i) {
-        const double trial = j.law.G[i] * (v[i] + j.law.bias[i]);
+        const double trial = j.law.G[i] * (v[i] + j.bias[i]);
         const double held = (j.piece >> i & 1) != 0         ? j.law.cap[i]
                             : (j.piece >> (i + 3) & 1) != 0 ? -j.law.cap_reverse[i]
                                                             : trial;

@@ -15,7 +15,6 @@ namespace ductile {
 
 struct RowLaw {
   Rows G{};                               // kg or kg m²: impulse per unit of relative velocity; 0: free
-  Rows bias{};                            // m/s or rad/s
   Rows cap{};                             // N s or N m s, > 0 or infinite
   Rows cap_reverse{};                     // likewise
   const YieldSurface* surface = nullptr;  // instead of the caps

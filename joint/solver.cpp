@@ -56,7 +56,7 @@ inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b
 // that is not linear.
 bool foresee(const SolverJoint& j, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
   Rows s = relative_velocity(j, v[z(j.a)], v[z(j.b)]);
-  for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (s[i] + j.law.bias[i]);
+  for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (s[i] + j.bias[i]);
   if (j.factored != 0 || !within_caps(j.law, s)) return false;
   add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
   return true;
@@ -162,7 +162,7 @@ void Solver::set_law(SolverJoint& j) {
     RowLaw& law = j.law;
     const double limit = rigid_ratio * r.m_eff[i];
     if (!(r.stiffness[i] > 0) || !(limit > 0) || (r.cap[i] <= 0 && r.cap_reverse[i] <= 0)) {
-      law.G[i] = law.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = r.spring[i] =
+      law.G[i] = j.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = r.spring[i] =
           r.damping[i] = r.relaxation[i] = 0;
       continue;
     }
@@ -262,10 +262,10 @@ void Solver::begin(double h) {
     for (unsigned i = 0; i < 3; ++i) {
       double e = j.gap[i] - j.neutral[i];
       e -= waits * (e - strain[i]);
-      j.law.bias[i] = r.relaxation[i] * e;
+      j.bias[i] = r.relaxation[i] * e;
       if (r.damping[i] > 0) {
         // A damper would let what turning bodies part grow from step to step, and the spring store it.
-        j.law.bias[i] = r.relaxation[i] * strain[i] + (e - strain[i]) / h;
+        j.bias[i] = r.relaxation[i] * strain[i] + (e - strain[i]) / h;
       }
     }
     if (damped_ || changed || r.surface != nullptr) r.strain = strain;
@@ -293,7 +293,7 @@ void Solver::soften() {
       if (!(r.spring[i] < spring[i])) continue;
       const double more = r.strain[i] * (std::sqrt(spring[i] / r.spring[i]) - 1);
       j.neutral[i] -= more;
-      j.law.bias[i] += r.relaxation[i] * more;
+      j.bias[i] += r.relaxation[i] * more;
       r.strain[i] += more;
     }
   }
@@ -381,8 +381,9 @@ void Solver::add_impulses() {
   unsigned crossed = 0, any = 0;
   held_ = false;
   for (SolverJoint& j : joints) {
+    if (ahead != nullptr) ahead->fetch();
     Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-    for (unsigned i = 0; i < 3; ++i) x[i] += j.law.bias[i];
+    for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
     j.x = x;
     const auto take = [&](const Rows& s, unsigned piece) {
       add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
@@ -606,11 +607,12 @@ bool Solver::solve(SolveReport& report) {
   const bool same_v = std::exchange(gradient_known_, true) && touches_ > 0 && !coasting_;
   coasting_ = false;
   const bool guessed = std::exchange(predicted_, false) && !flows_;
+  const bool foreseen = std::exchange(foreseen_, false) && others_stand();
+  if (guessed && !foreseen) forecast_.next({z_.data(), free_});
   const auto start = [this, guessed](std::size_t i, SolverBody& b) {
-    if (guessed) b.v = forecast_.next(i);
+    if (guessed) b.v = z_[i];
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
   };
-  const bool foreseen = std::exchange(foreseen_, false) && others_stand();
   double norm = same_v ? std::max(0.0, left_ + pushed_) : foreseen ? evaluate_foreseen() : evaluate(start);
   if (!std::isfinite(norm)) {
     // The past, too, knew what is not finite; this step need not.
@@ -775,15 +777,17 @@ void Solver::advance() {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i < newest.size()) newest[i] = bodies[i].v;
     displace(places[i], h_ * bodies[i].v);
+    if (ahead != nullptr) ahead->fetch();
   }
   if (predicted_) forecast_.fit();
   // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
   foreseen_ = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
   if (foreseen_) {
     std::fill(g_.begin(), g_.end(), Vec3{});
-    for (std::size_t i = 0; i < free_; ++i) z_[i] = forecast_.next(i);
+    forecast_.next({z_.data(), free_});
   }
   for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (ahead != nullptr) ahead->fetch();
     SolverJoint& j = joints[k];
     const Rows before_gap = j.gap;
     locate(j);
@@ -818,7 +822,7 @@ void Solver::slow_down(SolverJoint& j) {
 // Of the next step, if it is as long: hk/G is 1/h without a damper.
 void Solver::set_bias(SolverJoint& j) const {
   const double rate = 1 / h_;
-  for (unsigned i = 0; i < 3; ++i) j.law.bias[i] = rate * (j.gap[i] - j.neutral[i]);
+  for (unsigned i = 0; i < 3; ++i) j.bias[i] = rate * (j.gap[i] - j.neutral[i]);
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
@@ -870,10 +874,8 @@ void Solver::open_ledger() {
     const JointRecord& r = record(j);
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
-      gaps_[k][i] = r.damping[i] > 0      ? r.strain[i]
-                    : r.relaxation[i] > 0 ? j.law.bias[i] / r.relaxation[i]
-                                          : 0;
-      ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.law.bias[i]) - v0[i]) / 2;
+      gaps_[k][i] = r.damping[i] > 0 ? r.strain[i] : r.relaxation[i] > 0 ? j.bias[i] / r.relaxation[i] : 0;
+      ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.bias[i]) - v0[i]) / 2;
     }
     const Rows told = relative_velocity(j, told_velocity(z(j.a)), told_velocity(z(j.b)));
     for (unsigned i = 0; i < 3; ++i) ledger.driven += j.impulse[i] * told[i];
@@ -894,7 +896,7 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
       continue;
     }
     const double k = r.spring[i], R = j.impulse[i] / h_;
-    const double v = j.x[i] - j.law.bias[i];
+    const double v = j.x[i] - j.bias[i];
     const bool not_all = flows(j.piece, i) || r.damping[i] > 0;  // of the row's motion is elastic
     const double after = not_all ? elastic(j, r, i) : strain[i] + h_ * v;
     const double change = after - strain[i];
@@ -1149,6 +1151,17 @@ Rows Solver::force(const SolverJoint& j) {
   const double h = j.law.h;
   if (!(h > 0)) return {};
   return {j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h};
+}
+
+void Solver::list(Ahead& to) const {
+  to.add(bodies);
+  to.add(places);
+  to.add(z_);
+  to.add(g_);
+  to.add(d_);
+  to.add(joints);
+  ldlt_.list(to);
+  forecast_.list(to);
 }
 
 std::size_t Solver::bytes() const {

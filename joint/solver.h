@@ -47,19 +47,20 @@ struct SolverBody {
 /// it needs only where something flows, is factored or changes, is in the joint's record: large structures do
 /// not fit the cache, and each pass over them costs what it drags along.
 struct SolverJoint {
-  // Evaluation: J, the law, and what it gave.
+  // What steps write, together: what is only read need not go back to memory.
   int a = 0, b = 0;                       // bodies
   Turn axis_a, axis_b;                    // the axis in A's and B's own frames
   double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and shear rows of J
-  Rows x{};                               // J v + b
+  Rows bias{};                            // b, m/s or rad/s
   Rows impulse{};                         // s, N s
   std::uint8_t piece = 0;                 // of the law: which rows flow, and which way (row.h)
   std::uint8_t factored = 0;              // rows that were flowing in the factor at hand
   int block = -1;                         // of H, when both bodies are free
-  RowLaw law;
-
-  // Poses.
+  Rows x{};                               // J v + b
   Rows gap{};                             // u, v, θ
+
+  // What they read.
+  RowLaw law;
   Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
@@ -198,6 +199,9 @@ class Solver {
   /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
   static double elastic(const SolverJoint& joint, const JointRecord& record, unsigned row);
   double step() const { return h_; }
+  /// Brings what the next solver reads, if there is one; and the list of what this one reads.
+  Ahead* ahead = nullptr;
+  void list(Ahead& to) const;
   std::size_t bytes() const;
 
  private:
@@ -257,7 +261,7 @@ class Solver {
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool damped_ = false;      // any row is
   bool peculiar_ = true;     // any row is damped or on a yield surface
-  bool biased_ = false;      // laws' biases are those of a step like the last from where the bodies are
+  bool biased_ = false;      // joints' biases are those of a step like the last from where the bodies are
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
   double gain_ = 14;         // of a round with a factor of an earlier step: −Δ log |∇f|²

@@ -121,7 +121,7 @@ void Solver::sweep() {
       held |= 1u << i;
       if (is_rigid(record(j), i)) continue;
       compliance[i] = 1 / j.law.G[i];
-      r[i] += j.law.bias[i] - compliance[i] * j.impulse[i];
+      r[i] += j.bias[i] - compliance[i] * j.impulse[i];
     }
     Rows change = solve_block(m.k, compliance, r, held, {});
     for (int again = 0; again < 3; ++again) {
