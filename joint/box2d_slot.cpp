@@ -210,20 +210,21 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     SolverJoint& j = solver.joints[i];
+    Rows& gap = solver.records[i].gap;
     if (std::exchange(members[i]->fresh, false)) {
-      j.neutral = j.gap;
+      j.neutral = gap;
       continue;
     }
     // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
     // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
-    const Rows& seen = members[i]->own.gap;
+    const Rows& seen = members[i]->own_record.gap;
     bool moved = false;
-    for (unsigned row = 0; row < 3; ++row) moved |= std::abs(j.gap[row] - seen[row]) > 1e-9;
-    for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += j.gap[row] - seen[row];
-    if (moved) j.gap = seen;
+    for (unsigned row = 0; row < 3; ++row) moved |= std::abs(gap[row] - seen[row]) > 1e-9;
+    for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += gap[row] - seen[row];
+    if (moved) gap = seen;
     parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
-      if (j.law.G[row] > 0) j.neutral[row] = j.gap[row] - Solver::elastic(j, solver.records[i], row);
+      if (j.law.G[row] > 0) j.neutral[row] = gap[row] - Solver::elastic(j, solver.records[i], row);
     }
   }
 }

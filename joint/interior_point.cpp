@@ -29,27 +29,29 @@ int Solver::interior_point() {
   const double work = scale_ + speed_;
 
   // Start well inside, with slips of the size of the velocities at hand.
+  find_x();
   double slip = 0;
   int bounds = 0;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
+    const Rows& x = records[k].x;
     for (unsigned i = 0; i < 3; ++i) {
       Barrier& w = barrier_[k][i];
       w = {};
       if (!(j.law.G[i] > 0)) continue;
       const double cap[2] = {j.law.cap[i], j.law.cap_reverse[i]};
       if (std::isinf(cap[0]) && std::isinf(cap[1])) {
-        w.s = j.law.G[i] * j.x[i];
+        w.s = j.law.G[i] * x[i];
         continue;
       }
       const double inside =
-          0.05 * std::min(cap[0] + cap[1], std::abs(j.law.G[i] * j.x[i]) + std::min(cap[0], cap[1]));
-      w.s = std::clamp(j.law.G[i] * j.x[i], inside - cap[1], cap[0] - inside);
+          0.05 * std::min(cap[0] + cap[1], std::abs(j.law.G[i] * x[i]) + std::min(cap[0], cap[1]));
+      w.s = std::clamp(j.law.G[i] * x[i], inside - cap[1], cap[0] - inside);
       for (int side = 0; side < 2; ++side) {
         w.p[side] = side == 0 ? cap[0] - w.s : cap[1] + w.s;
         w.bounded[side] = std::isfinite(cap[side]) && w.p[side] > 0;
         if (!w.bounded[side]) continue;
-        slip += std::abs(j.x[i]);
+        slip += std::abs(x[i]);
         ++bounds;
       }
     }
@@ -59,7 +61,7 @@ int Solver::interior_point() {
   for (std::size_t k = 0; k < joints.size(); ++k) {
     for (unsigned i = 0; i < 3; ++i) {
       Barrier& w = barrier_[k][i];
-      const double x = joints[k].x[i];
+      const double x = records[k].x[i];
       w.z[0] = std::max(x, 0.0) + slip / 10;
       w.z[1] = std::max(-x, 0.0) + slip / 10;
       // s = F⁺ + ηz is the law's share a of G beyond the cap where a G = η/(1 + η/G).

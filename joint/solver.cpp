@@ -130,7 +130,8 @@ void Solver::form(std::size_t free_bodies) {
   laws_set_ = false;
 }
 
-void Solver::locate(SolverJoint& j) const {
+// J anew; the gap.
+Rows Solver::locate(SolverJoint& j) const {
   const Place &a = places[z(j.a)], &b = places[z(j.b)];
   const Turn relative = inverse(a.turn) * b.turn;
   const double bend = b.pose.angle - a.pose.angle - j.reference;
@@ -142,18 +143,23 @@ void Solver::locate(SolverJoint& j) const {
   const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * j.bx + relative.c * j.by - j.ay;
   const double u = j.axis_a.c * dx + j.axis_a.s * dy;
   const double v = -j.axis_a.s * dx + j.axis_a.c * dy;
-  j.gap = {u, v, bend};
   // J of u and v with the frame turning at (1 − follow)·ω_a + follow·ω_b: the entries ±v, ∓u take J at the
   // midpoint of the two anchors, without which a spin with a plastic set gains energy.
   j.au = -(j.ax * j.axis_a.s - j.ay * j.axis_a.c) + (1 - j.follow) * v;
   j.av = -(j.ax * j.axis_a.c + j.ay * j.axis_a.s) - (1 - j.follow) * u;
   j.bu = j.bx * j.axis_b.s - j.by * j.axis_b.c + j.follow * v;
   j.bv = j.bx * j.axis_b.c + j.by * j.axis_b.s - j.follow * u;
+  return {u, v, bend};
 }
 
 void Solver::locate() {
-  biased_ = foreseen_ = false;
-  for (SolverJoint& j : joints) locate(j);
+  biased_ = foreseen_ = gaps_found_ = false;
+  find_gaps();
+}
+
+void Solver::find_gaps() {
+  if (std::exchange(gaps_found_, true)) return;
+  for (SolverJoint& j : joints) record(j).gap = locate(j);
 }
 
 void Solver::set_law(SolverJoint& j) {
@@ -206,12 +212,13 @@ void Solver::begin(double h) {
     const JointRecord& r = record(j);
     double sum = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      const double d = j.gap[i] - j.neutral[i] - elastic(j, r, i);
+      const double d = r.gap[i] - j.neutral[i] - elastic(j, r, i);
       if (j.law.G[i] > 0) sum += r.m_eff[i] * d * d;
     }
     return sum;
   };
   double waits = 0;  // share of what is parted that is not taken back in this step
+  if (changed || share < 1 || peculiar_ || !biased_) find_gaps();
   if (share < 1) {
     double late = 0, all = 0;
     for (SolverJoint& j : joints) {
@@ -227,7 +234,7 @@ void Solver::begin(double h) {
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
       foreseen_ = false;
-      for (SolverJoint& j : joints) set_bias(j);
+      for (SolverJoint& j : joints) set_bias(j, record(j).gap);
     }
     return;
   }
@@ -248,7 +255,7 @@ void Solver::begin(double h) {
         // The same force, but none larger than the step: what was rough in a short one would be a blow.
         j.impulse[i] *= std::min(1.0, longer);
         // What holds nothing any more, as both its bodies are held, forgets its force.
-        if (!(r.spring[i] > 0)) j.neutral[i] = j.gap[i], strain[i] = 0;
+        if (!(r.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
         if (!(spring[i] > 0 && r.spring[i] > 0)) continue;
         const auto strain_by = [&](double by) {
           j.neutral[i] += strain[i] * (1 - by);
@@ -260,7 +267,7 @@ void Solver::begin(double h) {
       }
     }
     for (unsigned i = 0; i < 3; ++i) {
-      double e = j.gap[i] - j.neutral[i];
+      double e = r.gap[i] - j.neutral[i];
       e -= waits * (e - strain[i]);
       j.bias[i] = r.relaxation[i] * e;
       if (r.damping[i] > 0) {
@@ -384,7 +391,6 @@ void Solver::add_impulses() {
     if (ahead != nullptr) ahead->fetch();
     Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
-    j.x = x;
     const auto take = [&](const Rows& s, unsigned piece) {
       add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
       j.impulse = s;
@@ -399,13 +405,22 @@ void Solver::add_impulses() {
     if (within_caps(j.law, trial)) {
       take(trial, 0);
     } else {
-      const Response beyond = respond_beyond(j.law, j.x);
+      const Response beyond = respond_beyond(j.law, record(j).x = x);
       take(beyond.s, beyond.piece);
     }
   }
   crossed_ = crossed != 0;
   flows_ = any != 0;
   curved_ = (any & on_surface) != 0;
+}
+
+// At so many times the velocities that bodies have.
+void Solver::find_x(double faster) {
+  for (SolverJoint& j : joints) {
+    if (j.piece != 0) continue;  // known
+    const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    for (unsigned i = 0; i < 3; ++i) record(j).x[i] = faster * v[i] + j.bias[i];
+  }
 }
 
 Rows Solver::relative(const SolverJoint& j, const Vec3& a, const Vec3& b) {
@@ -439,11 +454,13 @@ double Solver::rounding_of_impulses() const {
 }
 
 // f at the last evaluation. By Moreau's identity φ(x) = s·x − ½ s²/G in every state of a row.
-double Solver::objective() const {
+double Solver::objective() {
+  find_x();
   double f = scale_ / 2;
   for (const SolverJoint& j : joints) {
+    const Rows& x = record(j).x;
     for (unsigned i = 0; i < 3; ++i) {
-      if (j.law.G[i] > 0) f += j.impulse[i] * (j.x[i] - j.impulse[i] / (2 * j.law.G[i]));
+      if (j.law.G[i] > 0) f += j.impulse[i] * (x[i] - j.impulse[i] / (2 * j.law.G[i]));
     }
   }
   return f;
@@ -455,12 +472,12 @@ void Solver::factor_tangents() {
     for (unsigned i = 0; i < 3; ++i) {
       r.slope[i] = tangent(j.law, j.piece, i);
       if (short_step_ && flows(j.piece, i) && j.piece != on_surface)
-        r.slope[i] = std::max(r.slope[i], j.impulse[i] / j.x[i]);
+        r.slope[i] = std::max(r.slope[i], j.impulse[i] / r.x[i]);
     }
     r.slope_nq = r.slope_nm = r.slope_qm = 0;
     if (j.piece == on_surface) {
       const Coupling c = j.law.surface->tangent(
-          j.law.G, h_, {j.law.G[0] * j.x[0], j.law.G[1] * j.x[1], j.law.G[2] * j.x[2]});
+          j.law.G, h_, {j.law.G[0] * r.x[0], j.law.G[1] * r.x[1], j.law.G[2] * r.x[2]});
       r.slope = {c.nn, c.qq, c.mm};
       r.slope_nq = c.nq, r.slope_nm = c.nm, r.slope_qm = c.qm;
     }
@@ -547,6 +564,7 @@ bool Solver::line_search(double slope0, double slope1) {
     move_to(t);
     return true;
   }
+  find_x();
   double at_rest = 0, curvature = 0;  // f' = at_rest + t·curvature + Σ y s(x0 + t y)
   for (std::size_t i = 0; i < free_; ++i) {
     const SolverBody& b = bodies[i];
@@ -560,8 +578,8 @@ bool Solver::line_search(double slope0, double slope1) {
     double slope = at_rest + t * curvature, rise = curvature;
     for (const SolverJoint& j : joints) {
       const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
-      Rows x;
-      for (unsigned r = 0; r < 3; ++r) x[r] = j.x[r] + (t - 1) * y[r];
+      Rows x = record(j).x;
+      for (unsigned r = 0; r < 3; ++r) x[r] += (t - 1) * y[r];
       const auto [s, piece] = respond(j.law, x);
       for (unsigned r = 0; r < 3; ++r) {
         slope += y[r] * s[r];
@@ -764,7 +782,7 @@ void Solver::drop_impulses() {
     bodies[i].v = bodies[i].v_free;
     see_speed(bodies[i].v);
   }
-  for (SolverJoint& j : joints) j.x = j.impulse = {};
+  for (SolverJoint& j : joints) record(j).x = j.impulse = {};
 }
 
 void Solver::advance() {
@@ -772,6 +790,9 @@ void Solver::advance() {
   pushed_ = 0;
   touches_ = 0;
   if (keeps_ledger) open_ledger();
+  if (coasting_) find_gaps();
+  // The next begin() asks for the gaps of what is peculiar.
+  gaps_found_ = peculiar_ || coasting_;
   predicted_ = !swept_;
   const std::span<Vec3> newest = predicted_ ? forecast_.newest() : std::span<Vec3>{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -789,16 +810,20 @@ void Solver::advance() {
   for (std::size_t k = 0; k < joints.size(); ++k) {
     if (ahead != nullptr) ahead->fetch();
     SolverJoint& j = joints[k];
-    const Rows before_gap = j.gap;
-    locate(j);
+    const Rows gap = locate(j);
     for (unsigned i = 0; i < 3; ++i) {
-      if (coasting_ || j.law.G[i] == 0) j.neutral[i] += j.gap[i] - before_gap[i];
+      if (j.law.G[i] == 0) {
+        j.neutral[i] = gap[i];
+      } else if (coasting_) {
+        j.neutral[i] += gap[i] - record(j).gap[i];
+      }
     }
+    if (gaps_found_) record(j).gap = gap;
     const Rows booked = keeps_ledger ? record(j).dissipated : Rows{};
-    if (!coasting_ && j.piece != 0) flow(j);
+    if (!coasting_ && j.piece != 0) flow(j, gap);
     if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
     if (slowed_ < 1 && !coasting_) slow_down(j);
-    set_bias(j);
+    set_bias(j, gap);
     foreseen_ = foreseen_ && foresee(j, z_, g_);
   }
   biased_ = true;
@@ -820,19 +845,19 @@ void Solver::slow_down(SolverJoint& j) {
 }
 
 // Of the next step, if it is as long: hk/G is 1/h without a damper.
-void Solver::set_bias(SolverJoint& j) const {
+void Solver::set_bias(SolverJoint& j, const Rows& gap) const {
   const double rate = 1 / h_;
-  for (unsigned i = 0; i < 3; ++i) j.bias[i] = rate * (j.gap[i] - j.neutral[i]);
+  for (unsigned i = 0; i < 3; ++i) j.bias[i] = rate * (gap[i] - j.neutral[i]);
 }
 
 // The phases of breaking 1–3: a row at its cap flows; its new neutral position is the current one less the
 // elastic part, in velocities as solved; the plastic offset is incremented.
-void Solver::flow(SolverJoint& j) {
+void Solver::flow(SolverJoint& j, const Rows& gap) {
   JointRecord& r = record(j);
   // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
   double rate = 0;
   for (unsigned i = 0; i < 3 && j.piece == on_surface; ++i) {
-    if (j.law.G[i] > 0) rate += j.impulse[i] * (j.x[i] - j.impulse[i] / j.law.G[i]);
+    if (j.law.G[i] > 0) rate += j.impulse[i] * (r.x[i] - j.impulse[i] / j.law.G[i]);
   }
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
@@ -840,8 +865,8 @@ void Solver::flow(SolverJoint& j) {
     // In velocities: what turning bodies part along their tangents must not count as flow, which would strain
     // what is parallel, and be work.
     const double increment =
-        swept_ ? j.gap[i] - j.neutral[i] - elastic(j, r, i) : slowed_ * h_ * (j.x[i] - s / j.law.G[i]);
-    if (!(increment * j.x[i] > 0) && j.piece != on_surface) continue;
+        swept_ ? gap[i] - j.neutral[i] - elastic(j, r, i) : slowed_ * h_ * (r.x[i] - s / j.law.G[i]);
+    if (!(increment * r.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     r.plastic[i] += increment;
     (increment > 0 ? r.flowed_forward : r.flowed_back)[i] += std::abs(increment);
@@ -868,6 +893,7 @@ Vec3 Solver::told_velocity(std::size_t i) const {
 // counts with those after, as solved. Strains before go to gaps_.
 void Solver::open_ledger() {
   opened_ = joints;
+  if (!coasting_) find_x(1 / slowed_);
   for (std::size_t i = 0; i < bodies.size(); ++i) turns_[i] = places[i].turn;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const SolverJoint& j = joints[k];
@@ -875,7 +901,7 @@ void Solver::open_ledger() {
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     for (unsigned i = 0; i < 3; ++i) {
       gaps_[k][i] = r.damping[i] > 0 ? r.strain[i] : r.relaxation[i] > 0 ? j.bias[i] / r.relaxation[i] : 0;
-      ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (j.x[i] - j.bias[i]) - v0[i]) / 2;
+      ledger.numerical -= j.impulse[i] * ((2 - slowed_) * (r.x[i] - j.bias[i]) - v0[i]) / 2;
     }
     const Rows told = relative_velocity(j, told_velocity(z(j.a)), told_velocity(z(j.b)));
     for (unsigned i = 0; i < 3; ++i) ledger.driven += j.impulse[i] * told[i];
@@ -896,7 +922,7 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
       continue;
     }
     const double k = r.spring[i], R = j.impulse[i] / h_;
-    const double v = j.x[i] - j.bias[i];
+    const double v = r.x[i] - j.bias[i];
     const bool not_all = flows(j.piece, i) || r.damping[i] > 0;  // of the row's motion is elastic
     const double after = not_all ? elastic(j, r, i) : strain[i] + h_ * v;
     const double change = after - strain[i];
@@ -937,10 +963,10 @@ double Solver::strain() {
   for (std::size_t k = 0; k < joints.size(); ++k) {
     SolverJoint& j = joints[k];
     const JointRecord& r = record(j);
-    locate(j);
+    const Rows gap = locate(j);
     Rows s;
     for (unsigned i = 0; i < 3; ++i) {
-      const double strain = j.gap[i] - gaps_[k][i];
+      const double strain = gap[i] - gaps_[k][i];
       s[i] = r.slope[i] * strain;
       sum += s[i] * strain / 2;
     }
@@ -1030,7 +1056,9 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     distance = pull(goal);
     if (holds()) return true;
   }
-  for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = joints[k].gap;
+  find_gaps();
+  gaps_found_ = false;  // bodies will move
+  for (std::size_t k = 0; k < joints.size(); ++k) gaps_[k] = records[k].gap;
   for (std::size_t i = free_; i < bodies.size(); ++i) put(places[i], goal[i]);
   double reach = 1;  // farthest coordinate, longest arm
   for (std::size_t i = 0; i < free_; ++i) {
@@ -1115,7 +1143,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.law.G[i] == 0;
-      const double change = j.gap[i] - gaps_[k][i];
+      const double change = r.gap[i] - gaps_[k][i];
       const bool closed = kept && r.m_eff[i] * change * change <= trifle + rounding * rounding * r.m_eff[i];
       if (closed && !free && !flows(j.piece, i)) continue;
       j.neutral[i] += change;

@@ -56,12 +56,10 @@ struct SolverJoint {
   std::uint8_t piece = 0;                 // of the law: which rows flow, and which way (row.h)
   std::uint8_t factored = 0;              // rows that were flowing in the factor at hand
   int block = -1;                         // of H, when both bodies are free
-  Rows x{};                               // J v + b
-  Rows gap{};                             // u, v, θ
 
   // What they read.
   RowLaw law;
-  Rows neutral{};                         // gap at which the row is stress-free: grows by plastic flow
+  Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: grows by plastic flow
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
@@ -70,6 +68,10 @@ struct SolverJoint {
 
 /// The rest of a joint, at the same index.
 struct JointRecord {
+  // What a step need not keep unless it is asked for.
+  Rows gap{};  // u, v, θ: after find_gaps()
+  Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
+
   // Where steps change their length, rows are damped or flow on a yield surface.
   Rows relaxation{};  // hk/G: bias per strain, 1/s
   Rows strain{};      // elastic, at the step's start
@@ -193,6 +195,8 @@ class Solver {
   /// Puts a body somewhere; then locate(): gaps and Jacobian anew.
   static void put(Place& place, const Pose& at);
   void locate();
+  /// Writes gaps where the bodies are into the records.
+  void find_gaps();
   /// Of the last solve, N, N, N m.
   static Rows force(const SolverJoint& joint);
   /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies
@@ -205,9 +209,9 @@ class Solver {
   std::size_t bytes() const;
 
  private:
-  void locate(SolverJoint& joint) const;
+  Rows locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint);
-  void set_bias(SolverJoint& joint) const;
+  void set_bias(SolverJoint& joint, const Rows& gap) const;
   void soften();
   void factor_tangents();
   void factor_holding();
@@ -223,6 +227,7 @@ class Solver {
   bool others_stand() const;
   bool stands_still();
   void add_impulses();
+  void find_x(double faster = 1);
   double pull(std::span<const Pose> goal);
   double strain();
   bool push_far(std::span<const Pose> goal, double enough);
@@ -235,12 +240,12 @@ class Solver {
     return record.spring[row] != record.stiffness[row];
   }
   bool line_search(double slope0, double slope1);
-  double objective() const;
+  double objective();
   double rounding_of_impulses() const;
   void coast();
   void drop_impulses();
   void drop_if_beyond(double times);
-  void flow(SolverJoint& joint);
+  void flow(SolverJoint& joint, const Rows& gap);
   void slow_down(SolverJoint& joint);
   Vec3 told_velocity(std::size_t body) const;
   void open_ledger();
@@ -261,6 +266,7 @@ class Solver {
   bool laws_set_ = false;    // joints' laws are those of this step's length, caps and stiffness
   bool damped_ = false;      // any row is
   bool peculiar_ = true;     // any row is damped or on a yield surface
+  bool gaps_found_ = false;  // no pose was moved since
   bool biased_ = false;      // joints' biases are those of a step like the last from where the bodies are
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants

@@ -89,6 +89,7 @@ void Structure::Impl::dissolve(Component& component) {
   gone_.damping += component.solver.ledger.damping;
   gone_.numerical += component.solver.ledger.numerical;
   gone_.driven += component.solver.ledger.driven;
+  component.solver.find_gaps();
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
     m->own_record = component.solver.records[m->index];
@@ -238,10 +239,11 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
     SolverJoint& j = m.data();
     JointRecord& r = m.record();
+    if (m.component != nullptr) m.component->solver.find_gaps();
     for (unsigned i = 0; i < 3; ++i) {
       r.dissipated[i] += r.stored[i];  // what it still held is set free
       r.stored[i] = 0;
-      j.neutral[i] = j.gap[i];
+      j.neutral[i] = r.gap[i];
     }
     r.cap = r.cap_reverse = {};
     r.surface = nullptr;

@@ -142,9 +142,8 @@ void Solver::sweep() {
     for (unsigned i = 0; i < 3; ++i) j.impulse[i] += change[i];
     j.piece = static_cast<std::uint8_t>(piece);
     flows_ |= piece != 0;
-    j.x[0] = j.x[1] = j.x[2] = 0;
-    for (unsigned i = 0; i < 3; ++i)
-      j.x[i] = (piece >> i & 1u) != 0 ? 1 : (piece >> (3 + i) & 1u) != 0 ? -1 : 0;
+    for (unsigned i = 0; i < 3 && piece != 0; ++i)
+      record(j).x[i] = (piece >> i & 1u) != 0 ? 1 : (piece >> (3 + i) & 1u) != 0 ? -1 : 0;
     bodies[z(j.a)].v -= m.a.response(change);
     bodies[z(j.b)].v -= m.b.response(change);
   }
@@ -154,14 +153,14 @@ void Solver::sweep() {
 void Solver::sweep_positions(std::span<const Pose> at) {
   for (std::size_t i = 0; i < free_; ++i) put(places[i], at[i]);
   for (SolverJoint& j : joints) {
-    locate(j);
+    const Rows gap = locate(j);
     const EffectiveMass m = effective_mass(*this, j);
     Rows error{};
     unsigned held = 0;
     for (unsigned i = 0; i < 3; ++i) {
       if (!(j.law.G[i] > 0) || !is_rigid(record(j), i) || flows(j.piece, i)) continue;
       held |= 1u << i;
-      error[i] = j.gap[i] - j.neutral[i];
+      error[i] = gap[i] - j.neutral[i];
     }
     if (held == 0) continue;
     const Rows correction = solve_block(m.k, {}, error, held, {});
