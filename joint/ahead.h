@@ -20,8 +20,7 @@ class Ahead {
   }
   /// Nothing is read from there, only asked for: it may be gone by then.
   void add(const void* from, std::size_t bytes) {
-    const char* at = static_cast<const char*>(from);
-    parts_.push_back({at, at + bytes});
+    if (bytes > 0) parts_.push_back({static_cast<const char*>(from), bytes});
   }
   template <class T>
   void add(const std::vector<T>& all) {
@@ -39,20 +38,19 @@ class Ahead {
     const auto part = [this](std::size_t k) { return k < first_.size() ? first_[k] : parts_.size(); };
     part_ = part(place + 1);
     last_ = part(place + 2);
-    at_ = end_ = nullptr;
+    at_ = 0;
   }
   /// Asks for a few lines more. Four passes of a step call it once per body or joint: then all of it has been
   /// asked for when they are through, at the pace of the computation.
   void fetch() {
-    constexpr std::ptrdiff_t line = 64;
-    for (int lines = 0; lines < 6; ++lines, at_ += line) {
-      if (at_ >= end_) {
-        if (part_ == last_) return;
-        at_ = parts_[part_].from;
-        end_ = parts_[part_++].to;
-      }
-      constexpr int read = 0, second_level = 2;
-      __builtin_prefetch(at_, read, second_level);
+    constexpr int read = 0, second_level = 2;
+    for (int lines = 0; lines < 6 && part_ != last_; ++lines) {
+      const Part& part = parts_[part_];
+      __builtin_prefetch(part.from + at_, read, second_level);
+      at_ += line;
+      if (at_ < part.bytes) continue;
+      at_ = 0;
+      ++part_;
     }
   }
 
@@ -61,13 +59,15 @@ class Ahead {
   }
 
  private:
+  static constexpr std::size_t line = 64;
   struct Part {
-    const char *from, *to;
+    const char* from;
+    std::size_t bytes;
   };
   std::vector<Part> parts_;
-  std::vector<std::size_t> first_;             // part of each component
-  std::size_t part_ = 0, last_ = 0;            // that come next
-  const char *at_ = nullptr, *end_ = nullptr;  // of the part at hand
+  std::vector<std::size_t> first_;   // part of each component
+  std::size_t part_ = 0, last_ = 0;  // the part at hand, and where to stop
+  std::size_t at_ = 0;               // byte of it
 };
 
 }  // namespace ductile
