@@ -1020,5 +1020,32 @@ TEST(Memory, TheSteadyStateAllocatesNothing) {
   }
 }
 
+// Neither components that are formed anew nor what is listed of them pile up.
+TEST(Memory, WhatComesAndGoesLeavesNothing) {
+  b2World world({0, -10});
+  Structure structure(world);
+  b2Body* wall = add_box(world, {.type = b2_staticBody});
+  const auto hold = [&](b2Body* piece) {
+    ElasticPlasticJointDef def;
+    def.Initialize(wall, piece, piece->GetPosition(), {1, 0});
+    return structure.create_joint(def);
+  };
+  std::vector<b2Body*> pieces;
+  std::vector<ElasticPlasticJoint*> joints;
+  for (int i = 0; i < 5; ++i) pieces.push_back(add_box(world, {.x = 3.0f * static_cast<float>(i + 1)}));
+  for (b2Body* piece : pieces) joints.push_back(hold(piece));
+  std::size_t before = 0;
+  for (int cycle = 0; cycle < 500; ++cycle) {
+    const std::size_t k = static_cast<std::size_t>(cycle) % pieces.size();
+    world.DestroyJoint(joints[k]);
+    joints[k] = hold(pieces[k]);
+    world.Step(dt, 8, 3);
+    structure.update();
+    if (cycle == 100) before = structure.bytes();
+  }
+  EXPECT_EQ(structure.bytes(), before);
+  for (const b2Body* piece : pieces) EXPECT_LT(std::abs(piece->GetPosition().y), 1e-5);
+}
+
 }  // namespace
 }  // namespace ductile
