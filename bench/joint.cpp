@@ -117,6 +117,10 @@ std::vector<Case> cases() {
     // Gravity has set in at once: they swing about their rest.
     all.push_back(
         {.name = name + "/swinging", .layout = [=] { return chains(100, pieces, false); }, .settle = 0.25});
+    // The same where all of it fits a second-level cache of 2 MB.
+    all.push_back({.name = name + "/swinging/ten",
+                   .layout = [=] { return chains(10, pieces, false); },
+                   .settle = 0.25});
     // Hinged at the wall they fall, at 25 m/s in the end: Box2D's broad phase alone costs more than stock's
     // whole step.
     all.push_back(
