@@ -10,15 +10,16 @@ namespace ductile {
 
 namespace {
 
-// ∇ᵏ in terms of v now and before: the binomials of k, with alternating signs.
-constexpr auto difference = [] {
-  std::array<std::array<double, 7>, 7> d{};
-  for (std::size_t k = 0; k < d.size(); ++k) {
+// ∇ᵏ, k < n, in terms of v now and before: the binomials of k, with alternating signs.
+template <std::size_t n>
+constexpr auto differences_up_to() {
+  std::array<std::array<double, n>, n> d{};
+  for (std::size_t k = 0; k < n; ++k) {
     d[k][0] = 1;
     for (std::size_t i = 1; i <= k; ++i) d[k][i] = d[k - 1][i] - d[k - 1][i - 1];
   }
   return d;
-}();
+}
 
 }  // namespace
 
@@ -77,6 +78,7 @@ void Forecast::fit() {
   double a[terms] = {};
   if (!solve(n, a)) forget();
   // v + Σ a_k ∇ᵏv in terms of v now and before.
+  static constexpr auto difference = differences_up_to<z(terms)>();
   share_ = {};
   share_[slot(0)] = 1;
   for (int k = 0; k < n; ++k) {

@@ -42,6 +42,13 @@ inline Rows relative_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b
   return {uv[0], uv[1], b.w - a.w};
 }
 
+// J v + b
+inline Rows biased_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) {
+  Rows x = relative_velocity(j, a, b);
+  for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
+  return x;
+}
+
 // g += Jᵀ s
 inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b) {
   const Pair axis_a = load(&j.axis_a.c), axis_b = load(&j.axis_b.c), uv{s[0], s[1]};
@@ -55,8 +62,8 @@ inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b
 // Adds to g what the joint will answer to the velocities v, if the next step is like the last; false where
 // that is not linear.
 bool foresee(const SolverJoint& j, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
-  Rows s = relative_velocity(j, v[z(j.a)], v[z(j.b)]);
-  for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * (s[i] + j.bias[i]);
+  Rows s = biased_velocity(j, v[z(j.a)], v[z(j.b)]);
+  for (unsigned i = 0; i < 3; ++i) s[i] *= j.law.G[i];
   if (j.factored != 0 || !within_caps(j.law, s)) return false;
   add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
   return true;
@@ -389,8 +396,7 @@ void Solver::add_impulses() {
   held_ = false;
   for (SolverJoint& j : joints) {
     if (ahead != nullptr) ahead->fetch();
-    Rows x = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-    for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
+    const Rows x = biased_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const auto take = [&](const Rows& s, unsigned piece) {
       add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
       j.impulse = s;
