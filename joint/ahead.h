@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace ductile {
@@ -15,12 +16,14 @@ class Ahead {
 
   /// Begins the list of what a component reads; returns its place among those of all components.
   std::size_t begin() {
-    first_.push_back(parts_.size());
+    first_.push_back(pairs_.size());
     return first_.size() - 1;
   }
   /// Nothing is read from there, only asked for: it may be gone by then.
   void add(const void* from, std::size_t bytes) {
-    if (bytes > 0) parts_.push_back({static_cast<const char*>(from), bytes});
+    const auto begin = reinterpret_cast<std::uintptr_t>(from) / line * line;
+    const auto end = reinterpret_cast<std::uintptr_t>(from) + bytes;
+    for (auto at = begin; at < end; at += 2 * line) pairs_.push_back(at);
   }
   template <class T>
   void add(const std::vector<T>& all) {
@@ -28,46 +31,37 @@ class Ahead {
   }
   std::size_t components() const { return first_.size(); }
   void clear() {
-    parts_.clear();
+    pairs_.clear();
     first_.clear();
     follow(0);
   }
 
   /// From now on: what the component after `place` reads.
   void follow(std::size_t place) {
-    const auto part = [this](std::size_t k) { return k < first_.size() ? first_[k] : parts_.size(); };
-    part_ = part(place + 1);
-    last_ = part(place + 2);
-    at_ = 0;
+    const auto pair = [this](std::size_t k) { return k < first_.size() ? first_[k] : pairs_.size(); };
+    at_ = pair(place + 1);
+    last_ = pair(place + 2);
   }
   /// Asks for a few lines more. Four passes of a step call it once per body or joint: then all of it has been
   /// asked for when they are through, at the pace of the computation.
   void fetch() {
     constexpr int read = 0, second_level = 2;
-    for (int lines = 0; lines < 6 && part_ != last_; ++lines) {
-      const Part& part = parts_[part_];
-      __builtin_prefetch(part.from + at_, read, second_level);
-      at_ += line;
-      if (at_ < part.bytes) continue;
-      at_ = 0;
-      ++part_;
+    for (int pair = 0; pair < 3 && at_ != last_; ++pair) {
+      const auto* from = reinterpret_cast<const char*>(pairs_[at_++]);
+      __builtin_prefetch(from, read, second_level);
+      __builtin_prefetch(from + line, read, second_level);
     }
   }
 
   std::size_t bytes() const {
-    return parts_.capacity() * sizeof(Part) + first_.capacity() * sizeof(std::size_t);
+    return pairs_.capacity() * sizeof(pairs_[0]) + first_.capacity() * sizeof(std::size_t);
   }
 
  private:
   static constexpr std::size_t line = 64;
-  struct Part {
-    const char* from;
-    std::size_t bytes;
-  };
-  std::vector<Part> parts_;
-  std::vector<std::size_t> first_;   // part of each component
-  std::size_t part_ = 0, last_ = 0;  // the part at hand, and where to stop
-  std::size_t at_ = 0;               // byte of it
+  std::vector<std::uintptr_t> pairs_;  // of lines
+  std::vector<std::size_t> first_;     // pair of each component
+  std::size_t at_ = 0, last_ = 0;      // the pair at hand, and where to stop
 };
 
 }  // namespace ductile
