@@ -46,11 +46,13 @@ class Ahead {
   /// asked for when they are through, at the pace of the computation.
   void fetch() {
     constexpr int read = 0, second_level = 2;
-    for (int pair = 0; pair < 3 && at_ != last_; ++pair) {
-      const auto* from = reinterpret_cast<const char*>(pairs_[at_++]);
+    if (last_ - at_ < at_once) return;  // a last line or two is not worth a loop
+    for (std::size_t pair = 0; pair < at_once; ++pair) {
+      const auto* from = reinterpret_cast<const char*>(pairs_[at_ + pair]);
       __builtin_prefetch(from, read, second_level);
       __builtin_prefetch(from + line, read, second_level);
     }
+    at_ += at_once;
   }
 
   std::size_t bytes() const {
@@ -58,7 +60,7 @@ class Ahead {
   }
 
  private:
-  static constexpr std::size_t line = 64;
+  static constexpr std::size_t line = 64, at_once = 3;
   std::vector<std::uintptr_t> pairs_;  // of lines
   std::vector<std::size_t> first_;     // pair of each component
   std::size_t at_ = 0, last_ = 0;      // the pair at hand, and where to stop

@@ -224,7 +224,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     if (moved) gap = seen;
     parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
-      if (j.law.G[row] > 0) j.neutral[row] = gap[row] - Solver::elastic(j, solver.records[i], row);
+      if (j.G[row] > 0) j.neutral[row] = gap[row] - Solver::elastic(j, solver.records[i], row);
     }
   }
 }
@@ -284,10 +284,14 @@ void Component::disturb() {
   solver.laws_changed();
 }
 
+// What velocities of a structure at rest may differ by, m/s.
+float Component::slack() const { return static_cast<float>(Solver::rest_tolerance * solver.impulse_speed()); }
+
 // A structure at rest is brought the same poses and velocities step after step, and answers them with the
 // same.
 bool Component::as_before(const b2SolverData& data) const {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
+  const float slack = this->slack();
   for (const Mirror& m : mirrors) {
     if (m.type == b2_staticBody) {
       if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
@@ -296,7 +300,7 @@ bool Component::as_before(const b2SolverData& data) const {
     const b2Velocity& v = data.velocities[m.island_index];
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
                                    m.gyration * std::abs(v.w - m.taken.w)});
-    if (!(change <= slack_) || !same(data.positions[m.island_index], m.left)) return false;
+    if (!(change <= slack) || !same(data.positions[m.island_index], m.left)) return false;
   }
   return true;
 }
@@ -546,17 +550,19 @@ void Component::limit_speed(const b2SolverData& data) {
 // After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
 // Box2D.
 void Component::advance(const b2SolverData& data) {
-  slack_ = static_cast<float>(Solver::rest_tolerance * solver.impulse_speed());
   // Stock joints that come before ours in the list see velocities without our impulses, and take back what
   // they do about it in the iterations that follow: they need those iterations.
   bool alone = true;
-  for (std::size_t i = 0; i < solver.free_bodies() && !alone_; ++i) {
-    const SolverBody& b = solver.bodies[i];
-    const Mirror& m = mirrors[i];
-    const Vec3 by_others =
-        b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
-    alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
-             slack_;
+  if (!alone_) {
+    const float slack = this->slack();
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const SolverBody& b = solver.bodies[i];
+      const Mirror& m = mirrors[i];
+      const Vec3 by_others =
+          b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
+      alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
+               slack;
+    }
   }
   solver.advance();
   bool kinematic = false;

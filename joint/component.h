@@ -87,6 +87,8 @@ struct Component {
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
+  /// Whether nothing else can touch its bodies in this step.
+  bool alone() const { return alone_; }
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
@@ -120,6 +122,7 @@ struct Component {
 
  private:
   bool as_before(const b2SolverData& data) const;
+  float slack() const;
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
   int freedom(std::size_t body, std::size_t free_bodies) const;
@@ -131,9 +134,8 @@ struct Component {
 
   std::vector<Pose> goal;
   bool parted_ = false;   // bodies were moved apart while their joint was in no island
-  bool alone_ = false;    // nothing else can touch the bodies in this step: no contact, no other joint
+  bool alone_ = false;    // no body has a contact or another joint
   bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
-  float slack_ = 0;       // m/s that velocities may differ by in it
 };
 
 inline SolverJoint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }

@@ -85,7 +85,7 @@ b2Vec2 ElasticPlasticJoint::axis() const {
   return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-double ElasticPlasticJoint::force(Row row) const { return Solver::force(state())[row]; }
+double ElasticPlasticJoint::force(Row row) const { return Solver::force(state(), record())[row]; }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
   return (reverse ? record().cap_reverse : record().cap)[row];

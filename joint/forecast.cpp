@@ -27,7 +27,7 @@ void Forecast::form(std::span<const Vec3> masses) {
   terms_ = masses.size() < small ? few : most;
   for (int k = 0; k < most; ++k) past_[z(k)].assign(k < terms_ ? masses.size() : 0, {});
   samples_.clear();
-  const std::size_t count = std::min(sampled, (masses.size() + 4) / 5);
+  const std::size_t count = std::min(sampled, (masses.size() + 9) / 10);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t body = i * masses.size() / count;
     samples_.push_back({body, masses[body], {}, {}, {}});
@@ -47,10 +47,14 @@ void Forecast::next(std::span<Vec3> to) const { terms_ == few ? next<few>(to) : 
 
 template <int terms>
 void Forecast::next(std::span<Vec3> to) const {
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    Vec3 v;
-    for (std::size_t k = 0; k < terms; ++k) v += share_[k] * past_[k][i];
-    to[i] = v;
+  // Of whatever number it is one of three.
+  const double* past[terms];
+  for (std::size_t k = 0; k < terms; ++k) past[k] = &past_[k].data()->x;
+  double* const all = &to.data()->x;
+  for (std::size_t i = 0; i < 3 * to.size(); ++i) {
+    double v = 0;
+    for (std::size_t k = 0; k < terms; ++k) v += share_[k] * past[k][i];
+    all[i] = v;
   }
 }
 
@@ -59,8 +63,8 @@ void Forecast::fit() {
   const auto slot = [this](int steps_ago) { return z((newest_ + steps_ago) % terms); };
   const int n = std::min(known_ - 1, terms);  // terms that are known of the solution before the newest,
   const double older = known_ > terms + 1 ? 0.5 : 0;  // and were of the one before that
-  for (auto& row : gram_) {
-    for (double& sum : row) sum = older > 0 ? older * sum : 0;
+  for (int i = 0; i < terms; ++i) {
+    for (double& sum : gram_[i]) sum = older > 0 ? older * sum : 0;
   }
   for (Sample& s : samples_) {
     const Vec3& v = past_[slot(0)][s.body];

@@ -39,7 +39,7 @@ class Forecast {
   static constexpr int few = 5, most = 7;  // terms; odd, as the fit adds up in pairs
   /// Bodies: fewer are sooner solved for once more than fitted two terms more.
   static constexpr std::size_t small = 100;
-  static constexpr std::size_t sampled = 4;  // bodies, or a fifth of them, tell of the few a_k what all would
+  static constexpr std::size_t sampled = 4;  // bodies, or a tenth of them, tell of the few a_k what all would
   struct Sample {
     std::size_t body;
     Vec3 mass;

@@ -38,15 +38,15 @@ int Solver::interior_point() {
     for (unsigned i = 0; i < 3; ++i) {
       Barrier& w = barrier_[k][i];
       w = {};
-      if (!(j.law.G[i] > 0)) continue;
-      const double cap[2] = {j.law.cap[i], j.law.cap_reverse[i]};
+      if (!(j.G[i] > 0)) continue;
+      const double cap[2] = {records[k].law.cap[i], records[k].law.cap_reverse[i]};
       if (std::isinf(cap[0]) && std::isinf(cap[1])) {
-        w.s = j.law.G[i] * x[i];
+        w.s = j.G[i] * x[i];
         continue;
       }
       const double inside =
-          0.05 * std::min(cap[0] + cap[1], std::abs(j.law.G[i] * x[i]) + std::min(cap[0], cap[1]));
-      w.s = std::clamp(j.law.G[i] * x[i], inside - cap[1], cap[0] - inside);
+          0.05 * std::min(cap[0] + cap[1], std::abs(j.G[i] * x[i]) + std::min(cap[0], cap[1]));
+      w.s = std::clamp(j.G[i] * x[i], inside - cap[1], cap[0] - inside);
       for (int side = 0; side < 2; ++side) {
         w.p[side] = side == 0 ? cap[0] - w.s : cap[1] + w.s;
         w.bounded[side] = std::isfinite(cap[side]) && w.p[side] > 0;
@@ -65,8 +65,8 @@ int Solver::interior_point() {
       w.z[0] = std::max(x, 0.0) + slip / 10;
       w.z[1] = std::max(-x, 0.0) + slip / 10;
       // s = F⁺ + ηz is the law's share a of G beyond the cap where a G = η/(1 + η/G).
-      const double a = joints[k].law.after_yield[i];
-      w.hardening = a * joints[k].law.G[i] / (1 - a);
+      const double a = records[k].law.after_yield[i];
+      w.hardening = a * joints[k].G[i] / (1 - a);
       for (int side = 0; side < 2; ++side) w.p[side] += w.hardening * w.z[side];
     }
   }
@@ -90,11 +90,11 @@ int Solver::interior_point() {
       SolverJoint& j = joints[k];
       for (unsigned i = 0; i < 3; ++i) {
         const Barrier& w = barrier_[k][i];
-        double compliance = 1 / j.law.G[i];
+        double compliance = 1 / j.G[i];
         for (int side = 0; side < 2; ++side) {
           if (w.bounded[side]) compliance += w.z[side] / (w.p[side] + w.hardening * w.z[side]);
         }
-        records[k].slope[i] = j.law.G[i] > 0 ? 1 / compliance : 0;
+        records[k].slope[i] = j.G[i] > 0 ? 1 / compliance : 0;
       }
     }
     factor();
@@ -114,9 +114,9 @@ int Solver::interior_point() {
         const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
         Rows s{};
         for (unsigned i = 0; i < 3; ++i) {
-          if (!(j.law.G[i] > 0)) continue;
+          if (!(j.G[i] > 0)) continue;
           Barrier& w = barrier_[k][i];
-          w.r = v[i] + j.bias[i] - w.s / j.law.G[i];
+          w.r = v[i] + j.bias[i] - w.s / j.G[i];
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
             w.second[side] = corrector ? w.dp[side] * w.dz[side] : 0;
@@ -175,7 +175,7 @@ int Solver::interior_point() {
     for (unsigned i = 0; i < 3; ++i) {
       for (unsigned side = 0; side < 2; ++side) {
         const Barrier& w = barrier_[k][i];
-        if (w.bounded[side] && w.z[side] * joints[k].law.G[i] > w.p[side]) piece |= 1u << (i + 3 * side);
+        if (w.bounded[side] && w.z[side] * joints[k].G[i] > w.p[side]) piece |= 1u << (i + 3 * side);
       }
     }
     joints[k].piece = static_cast<std::uint8_t>(piece);
@@ -190,14 +190,15 @@ int Solver::interior_point() {
       g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
     }
     for (const SolverJoint& j : joints) {
+      const RowLaw& law = record(j).law;
       const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
       Rows s;
       for (unsigned i = 0; i < 3; ++i) {
-        const double trial = j.law.G[i] * (v[i] + j.bias[i]);
-        const double held = (j.piece >> i & 1) != 0         ? j.law.cap[i]
-                            : (j.piece >> (i + 3) & 1) != 0 ? -j.law.cap_reverse[i]
+        const double trial = j.G[i] * (v[i] + j.bias[i]);
+        const double held = (j.piece >> i & 1) != 0         ? law.cap[i]
+                            : (j.piece >> (i + 3) & 1) != 0 ? -law.cap_reverse[i]
                                                             : trial;
-        s[i] = held + j.law.after_yield[i] * (trial - held);
+        s[i] = held + law.after_yield[i] * (trial - held);
       }
       scatter(j, s);
     }

@@ -4,7 +4,14 @@
 
 namespace ductile {
 
-Response respond_beyond(const RowLaw& law, const Rows& x) {
+Rows RowLaw::elastic_range() const {
+  if (surface != nullptr) return {-1, -1, -1};
+  Rows range;
+  for (unsigned i = 0; i < 3; ++i) range[i] = std::min(cap[i], cap_reverse[i]);
+  return range;
+}
+
+Response respond(const RowLaw& law, const Rows& x) {
   const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
   Response r{trial, 0};
   if (law.surface != nullptr) {

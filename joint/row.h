@@ -20,6 +20,9 @@ struct RowLaw {
   const YieldSurface* surface = nullptr;  // instead of the caps
   double h = 0;                           // s
   Rows after_yield{};  // slope beyond the cap as a share of G (hardening); 0: perfectly plastic
+
+  /// No row flows while all |G x| are within these.
+  Rows elastic_range() const;
 };
 
 /// Says that a joint flows on its yield surface.
@@ -31,20 +34,7 @@ struct Response {
                    // cap (each combination is linear), or on_surface
 };
 
-/// s(x) where it is not simply G x.
-Response respond_beyond(const RowLaw& law, const Rows& x);
-
-/// Whether G x is within all caps: then it is s(x), and no row flows.
-inline bool within_caps(const RowLaw& law, const Rows& trial) {
-  const auto within = [&](unsigned i) { return trial[i] <= law.cap[i] && -trial[i] <= law.cap_reverse[i]; };
-  return law.surface == nullptr && within(0) && within(1) && within(2);
-}
-
-inline Response respond(const RowLaw& law, const Rows& x) {
-  const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
-  if (within_caps(law, trial)) return {trial, 0};
-  return respond_beyond(law, x);
-}
+Response respond(const RowLaw& law, const Rows& x);
 
 /// The rows that flow in that piece, one bit each.
 inline unsigned flowing(unsigned piece) { return piece == on_surface ? 7u : (piece | piece >> 3) & 7u; }

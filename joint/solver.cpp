@@ -59,12 +59,17 @@ inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b
   b.w += on_b[0] + on_b[1] + s[2];
 }
 
+inline bool is_elastic(const SolverJoint& j, const Rows& s) {
+  const auto within = [&](unsigned i) { return std::abs(s[i]) <= j.elastic_range[i]; };
+  return within(0) && within(1) && within(2);
+}
+
 // Adds to g what the joint will answer to the velocities v, if the next step is like the last; false where
 // that is not linear.
-bool foresee(const SolverJoint& j, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
-  Rows s = biased_velocity(j, v[z(j.a)], v[z(j.b)]);
-  for (unsigned i = 0; i < 3; ++i) s[i] *= j.law.G[i];
-  if (j.factored != 0 || !within_caps(j.law, s)) return false;
+bool foresee(const SolverJoint& j, const RowLaw& law, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
+  const Rows x = biased_velocity(j, v[z(j.a)], v[z(j.b)]);
+  const Rows s{j.G[0] * x[0], j.G[1] * x[1], j.G[2] * x[2]};
+  if (j.factored != 0 || !(is_elastic(j, s) || respond(law, x).piece == 0)) return false;
   add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
   return true;
 }
@@ -171,8 +176,8 @@ void Solver::find_gaps() {
 
 void Solver::set_law(SolverJoint& j) {
   JointRecord& r = record(j);
+  RowLaw& law = r.law;
   for (unsigned i = 0; i < 3; ++i) {
-    RowLaw& law = j.law;
     const double limit = rigid_ratio * r.m_eff[i];
     if (!(r.stiffness[i] > 0) || !(limit > 0) || (r.cap[i] <= 0 && r.cap_reverse[i] <= 0)) {
       law.G[i] = j.bias[i] = law.after_yield[i] = law.cap[i] = law.cap_reverse[i] = r.spring[i] =
@@ -196,8 +201,11 @@ void Solver::set_law(SolverJoint& j) {
     const double after = std::min(r.hardening[i], 0.99 * k), H = after * k / (k - after);
     law.after_yield[i] = h_ * h_ * H / (h_ * h_ * H + G);
   }
-  j.law.surface = r.surface;
-  j.law.h = h_;
+  law.surface = r.surface;
+  law.h = h_;
+  j.G = law.G;
+  j.elastic_range = law.elastic_range();
+  j.free = law.G[0] == 0 || law.G[1] == 0 || law.G[2] == 0;
 }
 
 void Solver::begin(double h) {
@@ -220,7 +228,7 @@ void Solver::begin(double h) {
     double sum = 0;
     for (unsigned i = 0; i < 3; ++i) {
       const double d = r.gap[i] - j.neutral[i] - elastic(j, r, i);
-      if (j.law.G[i] > 0) sum += r.m_eff[i] * d * d;
+      if (j.G[i] > 0) sum += r.m_eff[i] * d * d;
     }
     return sum;
   };
@@ -231,7 +239,7 @@ void Solver::begin(double h) {
     for (SolverJoint& j : joints) {
       JointRecord& r = record(j);
       const double now = parted(j);
-      late += h < j.law.h ? now : r.late;
+      late += h < r.law.h ? now : r.late;
       all += now;
       r.late = now;
     }
@@ -241,7 +249,7 @@ void Solver::begin(double h) {
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
       foreseen_ = false;
-      for (SolverJoint& j : joints) set_bias(j, record(j).gap);
+      for (SolverJoint& j : joints) set_bias(j, record(j).gap, 1 / h_);
     }
     return;
   }
@@ -255,7 +263,7 @@ void Solver::begin(double h) {
       // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid
       // one's masses, it keeps its force if it became stiffer, its strain if softer: no energy comes of it.
       Rows spring = r.spring;
-      const double longer = j.law.h > 0 ? h / j.law.h : 1;
+      const double longer = r.law.h > 0 ? h / r.law.h : 1;
       const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
       set_law(j);
       for (unsigned i = 0; i < 3; ++i) {
@@ -332,7 +340,7 @@ bool Solver::stands_still() {
   for (const SolverJoint& j : joints) {
     Rows s;
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-    for (unsigned i = 0; i < 3; ++i) s[i] = j.law.G[i] * v[i];
+    for (unsigned i = 0; i < 3; ++i) s[i] = j.G[i] * v[i];
     add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
   }
   return norm_of_gradient() <= rest_tolerance * rest_tolerance * scale_;
@@ -407,11 +415,12 @@ void Solver::add_impulses() {
       changed_ += std::popcount(flowing(piece) ^ j.factored);
     };
     // Two calls: the one that most joints take keeps all in registers, as no address of `trial` is taken.
-    const Rows trial{j.law.G[0] * x[0], j.law.G[1] * x[1], j.law.G[2] * x[2]};
-    if (within_caps(j.law, trial)) {
+    const Rows trial{j.G[0] * x[0], j.G[1] * x[1], j.G[2] * x[2]};
+    if (is_elastic(j, trial)) {
       take(trial, 0);
     } else {
-      const Response beyond = respond_beyond(j.law, record(j).x = x);
+      JointRecord& r = record(j);
+      const Response beyond = respond(r.law, r.x = x);
       take(beyond.s, beyond.piece);
     }
   }
@@ -466,7 +475,7 @@ double Solver::objective() {
   for (const SolverJoint& j : joints) {
     const Rows& x = record(j).x;
     for (unsigned i = 0; i < 3; ++i) {
-      if (j.law.G[i] > 0) f += j.impulse[i] * (x[i] - j.impulse[i] / (2 * j.law.G[i]));
+      if (j.G[i] > 0) f += j.impulse[i] * (x[i] - j.impulse[i] / (2 * j.G[i]));
     }
   }
   return f;
@@ -476,14 +485,14 @@ void Solver::factor_tangents() {
   for (SolverJoint& j : joints) {
     JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
-      r.slope[i] = tangent(j.law, j.piece, i);
+      r.slope[i] = tangent(r.law, j.piece, i);
       if (short_step_ && flows(j.piece, i) && j.piece != on_surface)
         r.slope[i] = std::max(r.slope[i], j.impulse[i] / r.x[i]);
     }
     r.slope_nq = r.slope_nm = r.slope_qm = 0;
     if (j.piece == on_surface) {
-      const Coupling c = j.law.surface->tangent(
-          j.law.G, h_, {j.law.G[0] * r.x[0], j.law.G[1] * r.x[1], j.law.G[2] * r.x[2]});
+      const Coupling c = r.law.surface->tangent(
+          j.G, h_, {j.G[0] * r.x[0], j.G[1] * r.x[1], j.G[2] * r.x[2]});
       r.slope = {c.nn, c.qq, c.mm};
       r.slope_nq = c.nq, r.slope_nm = c.nm, r.slope_qm = c.qm;
     }
@@ -505,9 +514,9 @@ void Solver::factor_holding() {
   for (SolverJoint& j : joints) {
     JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
-      const bool holds = j.law.G[i] > 0 && !flows(j.piece, i);
+      const bool holds = j.G[i] > 0 && !flows(j.piece, i);
       const bool stiffest = is_rigid(r, i) && !softened_;
-      const double stiff = !holds ? 0 : stiffest ? j.law.G[i] : rigid_ratio * r.m_eff[i];
+      const double stiff = !holds ? 0 : stiffest ? j.G[i] : rigid_ratio * r.m_eff[i];
       at_hand &= r.slope[i] == stiff;
       r.slope[i] = stiff;
     }
@@ -584,12 +593,13 @@ bool Solver::line_search(double slope0, double slope1) {
     double slope = at_rest + t * curvature, rise = curvature;
     for (const SolverJoint& j : joints) {
       const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
+      const RowLaw& law = record(j).law;
       Rows x = record(j).x;
       for (unsigned r = 0; r < 3; ++r) x[r] += (t - 1) * y[r];
-      const auto [s, piece] = respond(j.law, x);
+      const auto [s, piece] = respond(law, x);
       for (unsigned r = 0; r < 3; ++r) {
         slope += y[r] * s[r];
-        rise += y[r] * y[r] * tangent(j.law, piece, r);
+        rise += y[r] * y[r] * tangent(law, piece, r);
       }
     }
     if (std::abs(slope) <= 1e-9 * std::abs(slope0)) break;
@@ -670,7 +680,8 @@ bool Solver::solve(SolveReport& report) {
   for (; (norm > target() || (guessed && round == 0)) && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
     // contraction.
-    const double by_rate = std::ceil(std::log(norm / target()) / gain_);
+    const double by_rate =
+        norm <= shrinks_ * target() ? 1 : std::ceil(std::log(norm / target()) / std::log(shrinks_));
     const double expected = changed_ > 0 ? changed_ + 1.0 : by_rate;
     const bool stale = !newton_ || changed_ > 0 || short_step_;
     // What a row that changed its state asks for is but a guess: rounding may deny conjugate directions.
@@ -694,7 +705,7 @@ bool Solver::solve(SolveReport& report) {
       used = 0;
       first = norm;
       conjugate = false;
-      gain_ *= 1.1;  // in the hope that the next step's motion calls for less
+      shrinks_ = std::pow(shrinks_, 1.1);  // in the hope that the next step's motion calls for less
     }
     ++used;
     double turned = 0;  // gᵀ H⁻¹ of the last g
@@ -747,7 +758,7 @@ bool Solver::solve(SolveReport& report) {
     idle = !gains && norm <= 1e-10 * scale_ + 1e-8 * speed_ ? idle + 1 : 0;
     if (idle == 5) break;
     if (!newton_ && !searched && first > target())
-      gain_ = std::clamp(std::log(first / norm) / used, 0.2, 40.0);
+      shrinks_ = std::clamp(used == 1 ? first / norm : std::pow(first / norm, 1.0 / used), 1.2, 1e17);
   }
   report.rounds += round;
   // Across gaps of 100 km all that H holds is what it gains from rigid rows, and what rounding makes of a
@@ -808,32 +819,44 @@ void Solver::advance() {
   }
   if (predicted_) forecast_.fit();
   // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
-  foreseen_ = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
-  if (foreseen_) {
+  bool foreseen = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
+  if (foreseen) {
     std::fill(g_.begin(), g_.end(), Vec3{});
     forecast_.next({z_.data(), free_});
   }
+  const bool books = keeps_ledger || coasting_ || gaps_found_ || slowed_ < 1;
+  const double rate = 1 / h_;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     if (ahead != nullptr) ahead->fetch();
     SolverJoint& j = joints[k];
     const Rows gap = locate(j);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (j.law.G[i] == 0) {
-        j.neutral[i] = gap[i];
-      } else if (coasting_) {
-        j.neutral[i] += gap[i] - record(j).gap[i];
-      }
-    }
-    if (gaps_found_) record(j).gap = gap;
-    const Rows booked = keeps_ledger ? record(j).dissipated : Rows{};
-    if (!coasting_ && j.piece != 0) flow(j, gap);
-    if (keeps_ledger && !coasting_) account(j, gaps_[k], booked);
-    if (slowed_ < 1 && !coasting_) slow_down(j);
-    set_bias(j, gap);
-    foreseen_ = foreseen_ && foresee(j, z_, g_);
+    if (books || j.piece != 0 || j.free) book(j, gap);
+    set_bias(j, gap, rate);
+    // Of the joint before this one: what it waits for is known by now.
+    if (k > 0) foreseen = foreseen && foresee(joints[k - 1], records[k - 1].law, z_, g_);
   }
+  if (!joints.empty()) foreseen = foreseen && foresee(joints.back(), records.back().law, z_, g_);
+  foreseen_ = foreseen;
   biased_ = true;
   coasting_ = false;
+}
+
+// What a joint's rows do in a step beyond being strained.
+void Solver::book(SolverJoint& j, const Rows& gap) {
+  JointRecord& r = record(j);
+  for (unsigned i = 0; i < 3; ++i) {
+    if (j.G[i] == 0) {
+      j.neutral[i] = gap[i];
+    } else if (coasting_) {
+      j.neutral[i] += gap[i] - r.gap[i];
+    }
+  }
+  if (gaps_found_) r.gap = gap;
+  if (coasting_) return;
+  const Rows booked = r.dissipated;
+  if (j.piece != 0) flow(j, gap);
+  if (keeps_ledger) account(j, gaps_[static_cast<std::size_t>(&j - joints.data())], booked);
+  if (slowed_ < 1) slow_down(j);
 }
 
 // The bodies went less far than was solved for, and so did a spring that has a damper beside it. What other
@@ -843,7 +866,7 @@ void Solver::slow_down(SolverJoint& j) {
   for (unsigned i = 0; i < 3; ++i) {
     if (!(r.damping[i] > 0)) continue;
     const double before = r.strain[i], after = before + slowed_ * (elastic(j, r, i) - before);
-    j.impulse[i] = j.law.G[i] / h_ * after - r.damping[i] * before;
+    j.impulse[i] = j.G[i] / h_ * after - r.damping[i] * before;
     if (!keeps_ledger) continue;
     ledger.numerical += std::exchange(r.stored[i], r.spring[i] * after * after / 2);
     ledger.numerical -= r.stored[i];
@@ -851,8 +874,7 @@ void Solver::slow_down(SolverJoint& j) {
 }
 
 // Of the next step, if it is as long: hk/G is 1/h without a damper.
-void Solver::set_bias(SolverJoint& j, const Rows& gap) const {
-  const double rate = 1 / h_;
+void Solver::set_bias(SolverJoint& j, const Rows& gap, double rate) {
   for (unsigned i = 0; i < 3; ++i) j.bias[i] = rate * (gap[i] - j.neutral[i]);
 }
 
@@ -863,15 +885,15 @@ void Solver::flow(SolverJoint& j, const Rows& gap) {
   // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
   double rate = 0;
   for (unsigned i = 0; i < 3 && j.piece == on_surface; ++i) {
-    if (j.law.G[i] > 0) rate += j.impulse[i] * (r.x[i] - j.impulse[i] / j.law.G[i]);
+    if (j.G[i] > 0) rate += j.impulse[i] * (r.x[i] - j.impulse[i] / j.G[i]);
   }
   for (unsigned i = 0; i < 3; ++i) {
-    if (!flows(j.piece, i) || !(j.law.G[i] > 0)) continue;
+    if (!flows(j.piece, i) || !(j.G[i] > 0)) continue;
     const double s = j.impulse[i];
     // In velocities: what turning bodies part along their tangents must not count as flow, which would strain
     // what is parallel, and be work.
     const double increment =
-        swept_ ? gap[i] - j.neutral[i] - elastic(j, r, i) : slowed_ * h_ * (r.x[i] - s / j.law.G[i]);
+        swept_ ? gap[i] - j.neutral[i] - elastic(j, r, i) : slowed_ * h_ * (r.x[i] - s / j.G[i]);
     if (!(increment * r.x[i] > 0) && j.piece != on_surface) continue;
     j.neutral[i] += increment;
     r.plastic[i] += increment;
@@ -923,7 +945,7 @@ void Solver::account(SolverJoint& j, const Rows& strain, const Rows& booked) {
   for (unsigned i = 0; i < 3; ++i) {
     const double held = r.stored[i];
     r.stored[i] = 0;
-    if (!(j.law.G[i] > 0)) {
+    if (!(j.G[i] > 0)) {
       ledger.numerical += held;
       continue;
     }
@@ -1148,7 +1170,7 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
     SolverJoint& j = joints[k];
     JointRecord& r = record(j);
     for (unsigned i = 0; i < 3; ++i) {
-      const bool free = j.law.G[i] == 0;
+      const bool free = j.G[i] == 0;
       const double change = r.gap[i] - gaps_[k][i];
       const bool closed = kept && r.m_eff[i] * change * change <= trifle + rounding * rounding * r.m_eff[i];
       if (closed && !free && !flows(j.piece, i)) continue;
@@ -1178,11 +1200,11 @@ void Solver::displace(Place& p, const Vec3& by) {
 
 // Spring and damper side by side, in series with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc.
 double Solver::elastic(const SolverJoint& j, const JointRecord& r, unsigned i) {
-  return j.law.G[i] > 0 ? j.law.h * (j.impulse[i] + r.damping[i] * r.strain[i]) / j.law.G[i] : 0;
+  return j.G[i] > 0 ? r.law.h * (j.impulse[i] + r.damping[i] * r.strain[i]) / j.G[i] : 0;
 }
 
-Rows Solver::force(const SolverJoint& j) {
-  const double h = j.law.h;
+Rows Solver::force(const SolverJoint& j, const JointRecord& r) {
+  const double h = r.law.h;
   if (!(h > 0)) return {};
   return {j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h};
 }

@@ -55,10 +55,11 @@ struct SolverJoint {
   Rows impulse{};                         // s, N s
   std::uint8_t piece = 0;                 // of the law: which rows flow, and which way (row.h)
   std::uint8_t factored = 0;              // rows that were flowing in the factor at hand
+  bool free = false;                      // some row holds nothing
   int block = -1;                         // of H, when both bodies are free
 
   // What they read.
-  RowLaw law;
+  Rows G{}, elastic_range{};  // of the law (row.h)
   Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: grows by plastic flow
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
@@ -76,6 +77,8 @@ struct JointRecord {
   Rows relaxation{};  // hk/G: bias per strain, 1/s
   Rows strain{};      // elastic, at the step's start
   double late = 0;    // Σ m_eff d² of what a longer step parted and is not taken back yet
+
+  RowLaw law;
 
   // Factorisation.
   Rows slope{};                                     // ds/dx that is in H
@@ -198,7 +201,7 @@ class Solver {
   /// Writes gaps where the bodies are into the records.
   void find_gaps();
   /// Of the last solve, N, N, N m.
-  static Rows force(const SolverJoint& joint);
+  static Rows force(const SolverJoint& joint, const JointRecord& record);
   /// The elastic strain that the last solve ended with, m or rad. The gap itself may be more: turning bodies
   /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
   static double elastic(const SolverJoint& joint, const JointRecord& record, unsigned row);
@@ -211,7 +214,7 @@ class Solver {
  private:
   Rows locate(SolverJoint& joint) const;
   void set_law(SolverJoint& joint);
-  void set_bias(SolverJoint& joint, const Rows& gap) const;
+  static void set_bias(SolverJoint& joint, const Rows& gap, double rate);
   void soften();
   void factor_tangents();
   void factor_holding();
@@ -245,6 +248,7 @@ class Solver {
   void coast();
   void drop_impulses();
   void drop_if_beyond(double times);
+  void book(SolverJoint& joint, const Rows& gap);
   void flow(SolverJoint& joint, const Rows& gap);
   void slow_down(SolverJoint& joint);
   Vec3 told_velocity(std::size_t body) const;
@@ -270,7 +274,7 @@ class Solver {
   bool biased_ = false;      // joints' biases are those of a step like the last from where the bodies are
   bool softened_ = false;    // rigid rows with a yield surface are at soft_ratio
   bool newton_ = false;      // and it is of this step's geometry, of tangents, not secants
-  double gain_ = 14;         // of a round with a factor of an earlier step: −Δ log |∇f|²
+  double shrinks_ = 1e6;     // a round with a factor of an earlier step: |∇f|² by so many times
   bool short_step_ = false;  // the last line search ended early: secants for flowing rows help the next round
   bool coasting_ = false;
   bool swept_ = false;  // the last velocities are sweep()'s: x of rows that flow is but their direction

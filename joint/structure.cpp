@@ -128,6 +128,8 @@ bool Structure::Impl::enlist(Member* member, Component* component) {
 
 void Structure::Impl::velocity(const b2SolverData& data) {
   enlisting_ = false;
+  const int last = data.step.velocityIterations;
+  if (velocity_calls_ == last) return;
   if (velocity_calls_++ == 0) {
     bool fits = !incomplete_;
     if (fits && !active_.empty()) ahead_.follow(active_.back()->place);
@@ -137,10 +139,14 @@ void Structure::Impl::velocity(const b2SolverData& data) {
       for (Component* c : active_) c->look(data);
     }
     for (Component* c : active_) c->first_velocity(data);
+    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->alone(); })) {
+      report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
+      velocity_calls_ = last;
+    }
   } else {
     for (Component* c : active_) c->next_velocity(data);
   }
-  if (velocity_calls_ < data.step.velocityIterations) return;
+  if (velocity_calls_ < last) return;
   for (Component* c : active_) {
     if (c->resting) continue;
     c->limit_speed(data);
@@ -206,11 +212,11 @@ void Structure::Impl::look_for_breaks(Component& component) {
   for (Member* m : component.members) {
     SolverJoint& j = component.solver.joints[m->index];
     if (j.piece == 0 || m->broken) continue;
-    const Rows force = Solver::force(j);
+    const JointRecord& r = component.solver.records[m->index];
+    const Rows force = Solver::force(j, r);
     const unsigned row =
         j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
-    const Rows& dissipated = component.solver.records[m->index].dissipated;
-    const double energy = dissipated[0] + dissipated[1] + dissipated[2];
+    const double energy = r.dissipated[0] + r.dissipated[1] + r.dissipated[2];
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
                                      : JointEvent::rotation;

@@ -89,8 +89,8 @@ Rows solve_block(const double (&k)[3][3], const Rows& compliance, const Rows& r,
 void Solver::warm_start() {
   for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
   for (SolverJoint& j : joints) {
-    for (unsigned i = 0; i < 3; ++i)
-      j.impulse[i] = std::clamp(j.impulse[i], -j.law.cap_reverse[i], j.law.cap[i]);
+    const RowLaw& law = record(j).law;
+    for (unsigned i = 0; i < 3; ++i) j.impulse[i] = std::clamp(j.impulse[i], -law.cap_reverse[i], law.cap[i]);
     const EffectiveMass m = effective_mass(*this, j);
     bodies[z(j.a)].v -= m.a.response(j.impulse);
     bodies[z(j.b)].v -= m.b.response(j.impulse);
@@ -114,13 +114,14 @@ void Solver::sweep() {
   swept_ = true;
   for (SolverJoint& j : joints) {
     const EffectiveMass m = effective_mass(*this, j);
+    const RowLaw& law = record(j).law;
     Rows r = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v), compliance{};
     unsigned held = 0, piece = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.law.G[i] > 0)) continue;
+      if (!(j.G[i] > 0)) continue;
       held |= 1u << i;
       if (is_rigid(record(j), i)) continue;
-      compliance[i] = 1 / j.law.G[i];
+      compliance[i] = 1 / j.G[i];
       r[i] += j.bias[i] - compliance[i] * j.impulse[i];
     }
     Rows change = solve_block(m.k, compliance, r, held, {});
@@ -129,7 +130,7 @@ void Solver::sweep() {
       for (unsigned i = 0; i < 3; ++i) {
         if ((held >> i & 1u) == 0) continue;
         const double s = j.impulse[i] + change[i];
-        const double within = std::clamp(s, -j.law.cap_reverse[i], j.law.cap[i]);
+        const double within = std::clamp(s, -law.cap_reverse[i], law.cap[i]);
         if (within == s) continue;
         exceeded |= 1u << i;
         piece |= (s > within ? 1u : 8u) << i;
@@ -158,7 +159,7 @@ void Solver::sweep_positions(std::span<const Pose> at) {
     Rows error{};
     unsigned held = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.law.G[i] > 0) || !is_rigid(record(j), i) || flows(j.piece, i)) continue;
+      if (!(j.G[i] > 0) || !is_rigid(record(j), i) || flows(j.piece, i)) continue;
       held |= 1u << i;
       error[i] = gap[i] - j.neutral[i];
     }
