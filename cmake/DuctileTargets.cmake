@@ -23,7 +23,7 @@ function(ductile_room name)
   target_include_directories(ductile_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(ductile_${name} PUBLIC cxx_std_20)
-  # Position-independent code is inlined as any other, not kept replaceable by the loader: 5 % of a step. Clang's default.
+  # Position-independent code is inlined as any other instead of being kept replaceable by the loader, as Clang does it.
   target_compile_options(ductile_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   target_link_libraries(ductile_${name} PUBLIC ${ROOM_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:ductile_options> ${ROOM_PRIVATE})

@@ -42,11 +42,11 @@ class Ahead {
     at_ = pair(place + 1);
     last_ = pair(place + 2);
   }
-  /// Asks for a few lines more. Four passes of a step call it once per body or joint: then all of it has been
-  /// asked for when they are through, at the pace of the computation.
+  /// Asks for a few lines more, as long as there are so many. Four passes of a step call it once per body or
+  /// joint: then all of it has been asked for when they are through, at the pace of the computation.
   void fetch() {
     constexpr int read = 0, second_level = 2;
-    if (last_ - at_ < at_once) return;  // a last line or two is not worth a loop
+    if (last_ - at_ < at_once) return;
     for (std::size_t pair = 0; pair < at_once; ++pair) {
       const auto* from = reinterpret_cast<const char*>(pairs_[at_ + pair]);
       __builtin_prefetch(from, read, second_level);

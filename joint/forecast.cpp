@@ -47,10 +47,11 @@ void Forecast::next(std::span<Vec3> to) const { terms_ == few ? next<few>(to) : 
 
 template <int terms>
 void Forecast::next(std::span<Vec3> to) const {
-  // Of whatever number it is one of three.
+  // Number by number, whichever of the three it is: two at once.
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const double* past[terms];
-  for (std::size_t k = 0; k < terms; ++k) past[k] = &past_[k].data()->x;
-  double* const all = &to.data()->x;
+  for (std::size_t k = 0; k < terms; ++k) past[k] = reinterpret_cast<const double*>(past_[k].data());
+  auto* const all = reinterpret_cast<double*>(to.data());
   for (std::size_t i = 0; i < 3 * to.size(); ++i) {
     double v = 0;
     for (std::size_t k = 0; k < terms; ++k) v += share_[k] * past[k][i];

@@ -21,7 +21,7 @@ struct RowLaw {
   double h = 0;                           // s
   Rows after_yield{};  // slope beyond the cap as a share of G (hardening); 0: perfectly plastic
 
-  /// No row flows while all |G x| are within these.
+  /// No row flows while all |G x| are within these; below 0 where a yield surface has to tell.
   Rows elastic_range() const;
 };
 

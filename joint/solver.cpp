@@ -491,8 +491,7 @@ void Solver::factor_tangents() {
     }
     r.slope_nq = r.slope_nm = r.slope_qm = 0;
     if (j.piece == on_surface) {
-      const Coupling c = r.law.surface->tangent(
-          j.G, h_, {j.G[0] * r.x[0], j.G[1] * r.x[1], j.G[2] * r.x[2]});
+      const Coupling c = r.law.surface->tangent(j.G, h_, {j.G[0] * r.x[0], j.G[1] * r.x[1], j.G[2] * r.x[2]});
       r.slope = {c.nn, c.qq, c.mm};
       r.slope_nq = c.nq, r.slope_nm = c.nm, r.slope_qm = c.qm;
     }

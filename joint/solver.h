@@ -60,7 +60,7 @@ struct SolverJoint {
 
   // What they read.
   Rows G{}, elastic_range{};  // of the law (row.h)
-  Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: grows by plastic flow
+  Rows neutral{};             // gap (u, v, θ) at which the row is stress-free: grows by plastic flow
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
