@@ -104,6 +104,7 @@ void write_piece(Json& item, const Plan& plan, int piece, const b2Body& built, c
 bool is_scene(const Json& json);
 
 /// A scene and what ductile knows of it.
+// NOLINTNEXTLINE(bugprone-exception-escape): may run out of memory, which ends the program
 struct Scene {
   Json json;                ///< calibrated: split bodies are pieces, and joints have their values
   Plan plan;                ///< the bodies and joints that ductile understands

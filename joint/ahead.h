@@ -48,6 +48,7 @@ class Ahead {
     constexpr int read = 0, second_level = 2;
     if (last_ - at_ < at_once) return;
     for (std::size_t pair = 0; pair < at_once; ++pair) {
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): never read through; some lie beside the array
       const auto* from = reinterpret_cast<const char*>(pairs_[at_ + pair]);
       __builtin_prefetch(from, read, second_level);
       __builtin_prefetch(from + line, read, second_level);

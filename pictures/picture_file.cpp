@@ -31,6 +31,7 @@ struct Scratch {
 /// Runs a program without a shell in between; its exit code, 127 where there is no such program.
 int run(std::vector<std::string> words) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t child = 0;

@@ -372,6 +372,7 @@ void moment_bar(Node to, Node defs, const MomentScale& moments, Point at, double
 
 void stage_bar(Node to, Node defs, Point at, double width) {
   std::vector<Stop> stops;
+  stops.reserve(stage_colours.size());
   for (const auto& [stage, colour] : stage_colours) stops.push_back({stage / 2, colour});
   colour_bar(to, defs, "stages", stops, at, width, "", {{0, "unloaded"}, {0.5, "yields"}, {1, "breaks"}});
   write(to, "elastic: share of cap", at.x, at.y - 7);
@@ -411,8 +412,9 @@ std::string picture_svg(const Plan& plan, const PictureDef& picture) {
   bool by_moment = false, by_stage = false;
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const Panel& panel = picture.panels[i];
-    const Point corner{margin + static_cast<double>(i % columns) * (wide + gap),
-                       header + static_cast<double>(i / columns) * row_height};
+    const std::size_t column = i % columns, row = i / columns;
+    const Point corner{margin + static_cast<double>(column) * (wide + gap),
+                       header + static_cast<double>(row) * row_height};
     const std::string clip = fmt::format("panel{}", i);
     add(add(defs, "clipPath", "id", clip), "rect", "x", corner.x, "y", corner.y, "width", wide, "height",
         high, "rx", "4");
