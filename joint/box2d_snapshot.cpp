@@ -37,7 +37,7 @@ DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 namespace {
 
 // b2_block_allocator.cpp
-constexpr std::size_t chunk_size = 16384;
+constexpr std::size_t chunk_size = std::size_t{16} * 1024;
 constexpr int32 block_sizes[b2_blockSizeCount] = {16,  32,  64,  96,  128, 160, 192,
                                                   224, 256, 320, 384, 448, 512, 640};
 struct Chunk {

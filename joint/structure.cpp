@@ -212,11 +212,10 @@ void Structure::Impl::look_for_breaks(Component& component) {
   for (Member* m : component.members) {
     SolverJoint& j = component.solver.joints[m->index];
     if (j.piece == 0 || m->broken) continue;
-    const JointRecord& r = component.solver.records[m->index];
-    const Rows force = Solver::force(j, r);
+    const Rows force = Solver::force(j, m->record());
     const unsigned row =
         j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
-    const double energy = r.dissipated[0] + r.dissipated[1] + r.dissipated[2];
+    const double energy = m->joint->dissipated();
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
                                      : JointEvent::rotation;

@@ -109,6 +109,7 @@ struct MomentScale {
   std::vector<double> ticks() const {
     if (!(high > low)) return {high};
     std::vector<double> ticks{low, high};
+    // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): powers of ten
     for (double power = std::pow(10, std::ceil(std::log10(low))); power < high; power *= 10)
       if (share(power) > 0.22 && share(power) < 0.78) ticks.push_back(power);
     return ticks;
