@@ -1,13 +1,19 @@
 #include "ductile/calibrate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <unordered_map>
 
 #include "automatic.h"
 #include "caps.h"
+#include "ductile/fields.h"
 #include "moments.h"
 #include "plane.h"
 #include "split.h"
@@ -70,8 +76,7 @@ class Check {
   std::vector<Problem> problems;
 
   void scene(const SceneDef& s) {
-    finite(s.gravity, "scene", "gravity");
-    at_least_zero(s.gravity_ramp, "scene", "gravity_ramp");
+    check(fields::scene, s, "scene");
     overrides(s.joint, "scene");
     if (!(s.target_error > 0 && s.target_error < 1))
       add("scene", "the target error is " + to_string(s.target_error), "give a share between 0 and 1");
@@ -94,22 +99,19 @@ class Check {
       if (j.a == j.b) add(place, "joins '" + j.a + "' to itself", "name two bodies");
       if (!pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
         add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
-      at_least_zero(j.gap, place, "gap");
+      check(fields::joint, j, place);
       overrides(j.overrides, place);
     }
     for (std::size_t i = 0; i < s.supports.size(); ++i) {
       const std::string place = "support " + std::to_string(i);
       known(s.supports[i].body, place);
-      finite(s.supports[i].at, place, "at");
+      check(fields::support, s.supports[i], place);
     }
     for (std::size_t i = 0; i < s.loads.size(); ++i) {
       const LoadDef& l = s.loads[i];
       const std::string place = "load " + std::to_string(i);
       known(l.body, place);
-      finite(l.at, place, "at");
-      finite(l.force, place, "force");
-      finite({l.moment, l.from}, place, "moment or start");
-      at_least_zero(l.ramp, place, "ramp");
+      check(fields::load, l, place);
       if (!(l.to >= l.from)) add(place, "ends before it starts", "let `to` be after `from`");
     }
     for (std::size_t i = 0; i < s.wheels.size(); ++i) {
@@ -118,13 +120,8 @@ class Check {
       known(w.chassis, place);
       known(w.wheel, place);
       if (w.chassis == w.wheel) add(place, "carries itself", "name two bodies");
-      finite(w.at, place, "at");
-      finite(w.axis, place, "axis");
+      check(fields::wheel, w, place);
       if (w.axis == Point{}) add(place, "the axis has no direction", "give it a length above 0");
-      at_least_zero(w.frequency, place, "frequency");
-      at_least_zero(w.damping_ratio, place, "damping_ratio");
-      at_least_zero(w.motor_torque, place, "motor_torque");
-      finite({w.motor_speed, 0}, place, "motor_speed");
     }
   }
 
@@ -139,70 +136,55 @@ class Check {
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most))
       add(place, std::string(name) + " is not finite", "give a finite number");
   }
-  // Also refuses NaN. Unlimited is for caps and maxima only.
-  void at_least_zero(double value, const std::string& place, const char* name,
-                     bool may_be_unlimited = false) {
-    if (!(value >= 0 && value <= most) && !(may_be_unlimited && value == unlimited))
-      add(place, std::string(name) + " is " + to_string(value), "it must be finite and not below 0");
+  void number(double value, const fields::Range& range, const std::string& place, const char* name) {
+    if (value != range.null && !(range.contains(value) && std::abs(value) <= most))
+      add(place, std::string(name) + " is " + to_string(value),
+          std::string("give ") + range.words + (range.null == unlimited ? ", or unlimited" : ""));
   }
-  void above_zero(double value, const std::string& place, const char* name) {
-    if (!(value > 0 && value <= most))
-      add(place, std::string(name) + " is " + to_string(value), "it must be finite and above 0");
+
+  // The fields of a table. A default is right where files may leave the field out: 0 for what is derived
+  // then.
+  template <class Owner, class... Fields>
+  void check(const std::tuple<Fields...>& table, const Owner& owner, const std::string& place) {
+    const Owner standard;
+    fields::for_each(table, [&](const auto& field) {
+      const auto& value = owner.*field.member;
+      using T = std::remove_cvref_t<decltype(value)>;
+      if constexpr (std::is_same_v<T, Point>) finite(value, place, field.key);
+      if constexpr (std::is_same_v<T, double>)
+        if (field.required || value != standard.*field.member) number(value, field.range, place, field.key);
+      if constexpr (std::is_same_v<T, std::optional<double>>)
+        if (value) number(*value, field.range, place, field.key);
+    });
   }
 
   void overrides(const JointOverrides& o, const std::string& place) {
-    const auto cap = [&](const std::optional<double>& value, const char* name) {
-      if (value) at_least_zero(*value, place, name, true);
-    };
-    cap(o.moment, "moment");
-    cap(o.moment_reverse, "moment_reverse");
-    cap(o.axial, "axial");
-    cap(o.axial_compression, "axial_compression");
-    cap(o.shear, "shear");
-    cap(o.max_rotation, "max_rotation");
-    cap(o.max_elongation, "max_elongation");
-    cap(o.max_compression, "max_compression");
-    cap(o.max_slip, "max_slip");
-    if (o.damping_ratio) at_least_zero(*o.damping_ratio, place, "damping_ratio");
-    if (o.hinge_length) above_zero(*o.hinge_length, place, "hinge_length");
-    if (o.shear_span) above_zero(*o.shear_span, place, "shear_span");
-    if (o.elastic == Elasticity::frequency) above_zero(o.frequency, place, "frequency");
-    if (o.elastic == Elasticity::elastic_rotation) {
-      above_zero(o.elastic_rotation, place, "elastic_rotation");
-      at_least_zero(o.frequency, place, "frequency");
-    }
-  }
-
-  void material(const Material& m, const std::string& place, bool dynamic) {
-    above_zero(m.yield_stress, place, "fy");
-    at_least_zero(m.yield_stress_compression, place, "fyc");
-    at_least_zero(m.shear_yield_stress, place, "tau");
-    at_least_zero(m.youngs_modulus, place, "E");
-    at_least_zero(m.ultimate_stress, place, "fu");
-    at_least_zero(m.fracture_strain, place, "fracture_strain", true);
-    at_least_zero(m.damping_ratio, place, "damping_ratio");
-    at_least_zero(m.friction, place, "friction");
-    at_least_zero(m.restitution, place, "restitution");
-    if (dynamic) above_zero(m.density, place, "density");
+    check(fields::overrides, o, place);
+    if (o.hinge_length) number(*o.hinge_length, fields::positive, place, "hinge_length");
+    if (o.shear_span) number(*o.shear_span, fields::positive, place, "shear_span");
+    check(fields::elastic, o, place);
+    if (o.elastic == Elasticity::frequency) number(o.frequency, fields::positive, place, "frequency");
+    if (o.elastic == Elasticity::elastic_rotation)
+      number(o.elastic_rotation, fields::positive, place, "elastic_rotation");
   }
 
   void body(const BodyDef& b) {
     const std::string place = body_place(b);
     if (b.name.empty() || b.name == "ground" || b.name.find_first_of("/#-") != std::string::npos)
       add(place, "is not a name that a body can have", "use one without / # -, that is not 'ground'");
-    finite(b.at, place, "at");
-    finite({b.angle, b.angular_velocity}, place, "angle or angular_velocity");
-    finite(b.velocity, place, "velocity");
+    check(fields::body, b, place);
     overrides(b.joint, place);
 
     const bool dynamic = b.type == BodyType::dynamic_body;
-    if (b.material)
-      material(*b.material, place, dynamic && b.profile.empty());
-    else if (dynamic)
+    if (b.material) {
+      check(fields::strength, *b.material, place);
+      check(fields::substance, *b.material, place);
+      if (dynamic && b.profile.empty() && b.material->density == 0)
+        number(b.material->density, fields::positive, place, "density");
+    } else if (dynamic) {
       add(place, "has no material", "give it one, or make it static");
-    if (b.profile.empty()) {
-      above_zero(b.depth, place, "depth");
-    } else {
+    }
+    if (!b.profile.empty()) {
       for (Problem& p : validate(b.profile)) add(place + ", profile " + p.place, p.what, p.remedy);
       for (const Region& region : b.profile)
         if (dynamic && !(region.material.density > 0) && !(b.material && b.material->density > 0))
@@ -211,7 +193,7 @@ class Check {
 
     const bool is_split = b.pieces != 1 || !b.cuts.empty() || b.automatic;
     if (b.circle != 0) {
-      above_zero(b.circle, place, "circle");
+      number(b.circle, fields::positive, place, "circle");
       if (!b.outline.outer.empty()) add(place, "has both an outline and a circle", "leave one of them out");
       if (is_split) add(place, "is a circle and cannot be split", "give it an outline of vertices");
     } else {

@@ -1,8 +1,7 @@
 #include "json.h"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
+#include <limits>
 
 namespace ductile {
 namespace {
@@ -179,12 +178,18 @@ std::string Value::shown() const {
 }
 
 std::optional<double> Value::number(const Range& range) const {
-  if (!json_->is_number()) return wrong("is " + shown() + ", not a number", range.text), std::nullopt;
+  if (json_->is_null() && range.null) return range.null;
+  std::string remedy = std::string("write ") + range.words;
+  if (range.null) remedy += range.null == unlimited ? ", or null for unlimited" : ", or null for the default";
+  if (!json_->is_number()) return wrong("is " + shown() + ", not a number", remedy), std::nullopt;
   const double value = json_->get<double>();
-  if (!std::isfinite(value) || value < range.low || (range.open && value == range.low)) {
-    return wrong("is " + shown(), range.text), std::nullopt;
-  }
+  if (!range.contains(value)) return wrong("is " + shown(), remedy), std::nullopt;
   return value;
+}
+
+void Value::read(const Range&, std::int16_t& target) const {
+  using Limits = std::numeric_limits<std::int16_t>;
+  target = static_cast<std::int16_t>(integer(Limits::min(), Limits::max()).value_or(target));
 }
 
 std::optional<int> Value::integer(int low, int high) const {
@@ -279,22 +284,6 @@ std::optional<Value> Object::require(const char* key) {
   auto value = find(key);
   if (!value && is_object()) value_.wrong(std::string("has no \"") + key + "\"", "it is required");
   return value;
-}
-
-void Object::number(const char* key, double& target, const Range& range) {
-  if (const auto value = find(key)) target = value->number(range).value_or(target);
-}
-
-void Object::boolean(const char* key, bool& target) {
-  if (const auto value = find(key)) target = value->boolean().value_or(target);
-}
-
-void Object::text(const char* key, std::string& target) {
-  if (const auto value = find(key)) target = value->text().value_or(target);
-}
-
-void Object::point(const char* key, Point& target) {
-  if (const auto value = find(key)) target = value->point().value_or(target);
 }
 
 void wrong_choice(const Value& value, const std::vector<std::string_view>& choices) {

@@ -2,16 +2,17 @@
 // and everything wrong is said with its place.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include <cstdint>
 #include <initializer_list>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "ductile/fields.h"
 #include "ductile/problem.h"
 #include "ductile/section.h"
 
@@ -38,15 +39,11 @@ nlohmann::json parse_json(std::string_view text, const std::string& file);
 /// Indented, with points, rings and short lists on one line each, as one would write them.
 std::string printed(const nlohmann::ordered_json& json);
 
-/// The numbers that are allowed somewhere.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  bool open = false;  ///< `low` itself is not in it
-  const char* text = "write a finite number";
-};
-inline constexpr Range any_number{};
-inline constexpr Range positive{0, true, "write a number > 0"};
-inline constexpr Range not_negative{0, false, "write a number >= 0"};
+using fields::any_number;
+using fields::limit;
+using fields::not_negative;
+using fields::positive;
+using fields::Range;
 
 /// A JSON value, where it stands, and where to complain. Every reader returns nothing after complaining.
 class Value {
@@ -73,6 +70,15 @@ class Value {
   /// The elements of an array; none after complaining that it is not one.
   std::vector<Value> elements() const;
 
+  /// Each of these leaves its target as it is after complaining.
+  void read(const Range& range, double& target) const { target = number(range).value_or(target); }
+  void read(const Range& range, std::int16_t& target) const;
+  void read(const Range&, bool& target) const { target = boolean().value_or(target); }
+  void read(const Range&, std::string& target) const { target = text().value_or(target); }
+  void read(const Range&, Point& target) const { target = point().value_or(target); }
+  void read(const Range& range, std::optional<double>& target) const { target = number(range); }
+  void read(const Range&, std::optional<bool>& target) const { target = boolean(); }
+
  private:
   const nlohmann::json* json_;
   std::string place_;
@@ -93,11 +99,14 @@ class Object {
   /// Complains when it is missing.
   std::optional<Value> require(const char* key);
 
-  /// Each of these leaves its target as it is where the key is absent.
-  void number(const char* key, double& target, const Range& range = any_number);
-  void boolean(const char* key, bool& target);
-  void text(const char* key, std::string& target);
-  void point(const char* key, Point& target);
+  /// The fields of a table; a target stays as it is where its key is absent.
+  template <class Owner, class... Fields>
+  void read(const std::tuple<Fields...>& table, Owner& target) {
+    fields::for_each(table, [&](const auto& field) {
+      const auto value = field.required ? require(field.key) : find(field.key);
+      if (value) value->read(field.range, target.*field.member);
+    });
+  }
   template <class T>
   void choice(const char* key, T& target, std::initializer_list<std::pair<const char*, T>> choices);
 

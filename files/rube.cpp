@@ -182,21 +182,34 @@ std::optional<Value> Item::custom(const std::string& name, std::initializer_list
   return std::nullopt;
 }
 std::optional<double> Item::custom_number(const std::string& name, const Range& range) const {
-  const auto value = custom(name, {"float", "int"});
-  if (!value) return std::nullopt;
-  if (value->json().is_string()) {
-    const auto number = read_float(*value);
-    if (!number) return std::nullopt;
-    const Json json = *number;
-    return Value(json, value->place(), value->problems()).number(range);
+  Range finite = range;
+  finite.null.reset();
+  std::optional<Value> value;
+  std::string words;
+  if (range.null == unlimited) {
+    value = custom(name, {"float", "int", "string"});
+    if (value && value->json() == "unlimited") return unlimited;
+    words = std::string(range.words) + ", or \"unlimited\" as a string";
+    finite.words = words.c_str();
+  } else {
+    value = custom(name, {"float", "int"});
   }
-  return value->number(range);
+  if (!value || !value->json().is_string()) return value ? value->number(finite) : std::nullopt;
+  const auto number = read_float(*value);
+  return number ? Value(Json(*number), value->place(), value->problems()).number(finite) : std::nullopt;
 }
-std::optional<double> Item::custom_limit(const std::string& name) const {
-  const auto value = custom(name, {"float", "int", "string"});
-  if (!value) return std::nullopt;
-  if (value->json() == "unlimited") return unlimited;
-  return custom_number(name, {0, false, "write a number >= 0, or \"unlimited\" as a string"});
+bool Item::read_custom(const std::string& name, const Range& range, double& target) const {
+  const auto value = custom_number(name, range);
+  target = value.value_or(target);
+  return value.has_value();
+}
+bool Item::read_custom(const std::string& name, const Range& range, std::optional<double>& target) const {
+  target = custom_number(name, range);
+  return target.has_value();
+}
+bool Item::read_custom(const std::string& name, const Range&, std::optional<bool>& target) const {
+  target = custom_boolean(name);
+  return target.has_value();
 }
 std::optional<std::string> Item::custom_text(const std::string& name) const {
   const auto value = custom(name, {"string"});
@@ -222,6 +235,11 @@ void set_custom(Json& item, const std::string& name, const char* type, Json valu
     }
   }
   list.push_back({{"name", name}, {type, std::move(value)}});
+}
+
+void set_custom(Json& item, const std::string& name, double value) {
+  if (std::isinf(value)) return set_custom(item, name, "string", "unlimited");
+  set_custom(item, name, "float", value);
 }
 
 void remove_custom(Json& item, const std::string& name) {

@@ -8,7 +8,10 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "ductile/calibrate.h"
@@ -46,13 +49,25 @@ class Item {
 
   /// A custom property of one of these types, which its name does not tell.
   std::optional<Value> custom(const std::string& name, std::initializer_list<const char*> types) const;
+  /// Infinity, where it is in the range, is the text "unlimited".
   std::optional<double> custom_number(const std::string& name, const Range& range) const;
-  /// The same where the text "unlimited" is right, too.
-  std::optional<double> custom_limit(const std::string& name) const;
   std::optional<std::string> custom_text(const std::string& name) const;
   std::optional<bool> custom_boolean(const std::string& name) const;
+  /// The fields of a table that are there, as custom properties "ductile." + key. Says which.
+  template <class Owner, class... Fields>
+  std::set<std::string_view> custom(const std::tuple<Fields...>& table, Owner& target,
+                                    const std::string& prefix = "ductile.") const {
+    std::set<std::string_view> given;
+    fields::for_each(table, [&](const auto& field) {
+      if (read_custom(prefix + field.key, field.range, target.*field.member)) given.insert(field.key);
+    });
+    return given;
+  }
 
  private:
+  bool read_custom(const std::string& name, const Range& range, double& target) const;
+  bool read_custom(const std::string& name, const Range& range, std::optional<double>& target) const;
+  bool read_custom(const std::string& name, const Range& range, std::optional<bool>& target) const;
   Value value_;
 };
 
@@ -88,6 +103,8 @@ std::vector<Body> read_bodies(const Item& scene);
 /// Replaces the custom property of that name, or adds it.
 void set_custom(Json& item, const std::string& name, const char* type, Json value);
 void remove_custom(Json& item, const std::string& name);
+/// Writes a number as such, infinity as "unlimited".
+void set_custom(Json& item, const std::string& name, double value);
 Json vector(Point p);
 
 /// The fields of the joint's stock stand-in, and its values as custom properties; what else stands in `item`

@@ -98,19 +98,9 @@ class Reader {
 
 std::optional<Material> Reader::material(const Item& item) {
   if (const auto name = item.custom("ductile.material", {"string"})) return built_in_material(*name);
-  const auto fy = item.custom_number("ductile.fy", positive);
-  if (!fy) return std::nullopt;
-  Material m{.yield_stress = *fy};
-  const auto number = [&](const char* name, double& target, const Range& range) {
-    target = item.custom_number(std::string("ductile.") + name, range).value_or(target);
-  };
-  number("fyc", m.yield_stress_compression, positive);
-  number("tau", m.shear_yield_stress, positive);
-  number("E", m.youngs_modulus, positive);
-  number("density", m.density, not_negative);
-  number("fu", m.ultimate_stress, positive);
-  number("fracture_strain", m.fracture_strain, not_negative);
-  number("damping_ratio", m.damping_ratio, not_negative);
+  Material m;
+  if (!item.custom(fields::strength, m).contains("fy")) return std::nullopt;
+  item.custom(fields::substance, m);
   if (const auto value = item.custom("ductile.criterion", {"string"})) {
     if (value->json() == "von_mises")
       m.criterion = Criterion::von_mises;
@@ -231,29 +221,11 @@ void Reader::values(int index, const Item& item, int a, int b) {
   j.name = item.text("name");
   j.a = a;
   j.b = b;
-  const auto limit = [&](const char* name, double& target) {
-    target = item.custom_limit(std::string("ductile.") + name).value_or(target);
-  };
-  limit("N", j.N);
-  j.Nc = j.N;
-  j.Q = unlimited;
-  limit("Nc", j.Nc);
-  limit("Q", j.Q);
-  limit("M", j.M);
-  j.M_reverse = j.M;
-  limit("M_reverse", j.M_reverse);
-  j.stiffness = {unlimited, unlimited, unlimited};
-  limit("stiffness_N", j.stiffness.N);
-  limit("stiffness_Q", j.stiffness.Q);
-  limit("stiffness_M", j.stiffness.M);
-  limit("max_rotation", j.max_rotation);
-  limit("max_elongation", j.max_elongation);
-  limit("max_compression", j.max_compression);
-  limit("max_slip", j.max_slip);
-  for (const auto& [name, target] :
-       {std::pair("ductile.damping_ratio", &j.damping_ratio),
-        std::pair("ductile.hinge_length", &j.hinge_length), std::pair("ductile.height", &j.height)})
-    *target = item.custom_number(name, not_negative).value_or(0);
+  j.Q = j.stiffness.N = j.stiffness.Q = j.stiffness.M = unlimited;
+  const auto given = item.custom(fields::calibrated, j);
+  if (!given.contains("Nc")) j.Nc = j.N;
+  if (!given.contains("M_reverse")) j.M_reverse = j.M;
+  item.custom(fields::stiffness, j.stiffness, "ductile.stiffness_");
   const Body& first = bodies_[static_cast<std::size_t>(a)];
   j.anchor = first.frame.world(item.vector("anchorA"));
   if (const auto axis = item.custom("ductile.axis", {"vec2"})) {
@@ -302,15 +274,9 @@ void Reader::joint(int index, const Value& value) {
   }
   JointBetweenDef joint;
   needed_[static_cast<std::size_t>(a)] = needed_[static_cast<std::size_t>(b)] = true;
-  joint.gap = item.custom_number("ductile.gap", positive).value_or(0);
-  JointOverrides& o = joint.overrides;
-  for (const auto& [name, target] :
-       {std::pair("moment", &o.moment), std::pair("moment_reverse", &o.moment_reverse),
-        std::pair("axial", &o.axial), std::pair("axial_compression", &o.axial_compression),
-        std::pair("shear", &o.shear), std::pair("max_rotation", &o.max_rotation),
-        std::pair("max_elongation", &o.max_elongation), std::pair("max_compression", &o.max_compression),
-        std::pair("max_slip", &o.max_slip), std::pair("hinge_length", &o.hinge_length)})
-    *target = item.custom_limit(std::string("ductile.") + name);
+  item.custom(fields::joint, joint);
+  item.custom(fields::overrides, joint.overrides);
+  joint.overrides.hinge_length = item.custom_number("ductile.hinge_length", positive);
   def_.joints.push_back(std::move(joint));
   between_.push_back({index, a, b});
 }

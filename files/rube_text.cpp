@@ -14,11 +14,6 @@ Json vector(const b2Vec2& v) {
   if (v.x == 0 && v.y == 0) return 0;
   return {{"x", decimal(v.x)}, {"y", decimal(v.y)}};
 }
-Json limit(double value) { return std::isinf(value) ? Json("unlimited") : Json(value); }
-
-void set_limit(Json& item, const char* name, double value) {
-  set_custom(item, std::string("ductile.") + name, std::isinf(value) ? "string" : "float", limit(value));
-}
 
 Json json(const b2Fixture& fixture, const Frame& piece, const Frame& body) {
   const auto local = [&](const b2Vec2& p) {
@@ -54,7 +49,11 @@ void write_material(Json& item, const Material& material) {
   const nlohmann::ordered_json fields = material_json(material);
   for (const auto& [key, value] : fields.items()) {
     if (key == "friction" || key == "restitution") continue;
-    set_custom(item, "ductile." + key, value.is_string() ? "string" : "float", value);
+    if (value.is_string()) {
+      set_custom(item, "ductile." + key, "string", value);
+    } else {
+      set_custom(item, "ductile." + key, value.is_null() ? unlimited : value.get<double>());
+    }
   }
 }
 
@@ -163,21 +162,12 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, int body_a
     item["correctionFactor"] = number(motor.correctionFactor);
   }
 
-  set_limit(item, "N", j.N);
-  set_limit(item, "Nc", j.Nc);
-  set_limit(item, "Q", j.Q);
-  set_limit(item, "M", j.M);
-  set_limit(item, "M_reverse", j.M_reverse);
-  set_limit(item, "stiffness_N", j.stiffness.N);
-  set_limit(item, "stiffness_Q", j.stiffness.Q);
-  set_limit(item, "stiffness_M", j.stiffness.M);
-  set_limit(item, "damping_ratio", j.damping_ratio);
-  set_limit(item, "max_rotation", j.max_rotation);
-  set_limit(item, "max_elongation", j.max_elongation);
-  set_limit(item, "max_compression", j.max_compression);
-  set_limit(item, "max_slip", j.max_slip);
-  set_limit(item, "hinge_length", j.hinge_length);
-  set_limit(item, "height", j.height);
+  fields::for_each(fields::calibrated, [&](const auto& field) {
+    set_custom(item, std::string("ductile.") + field.key, j.*field.member);
+  });
+  fields::for_each(fields::stiffness, [&](const auto& field) {
+    set_custom(item, std::string("ductile.stiffness_") + field.key, j.stiffness.*field.member);
+  });
   set_custom(item, "ductile.axis", "vec2", {{"x", j.axis.x}, {"y", j.axis.y}});
   if (j.governed_by >= 0)
     set_custom(item, "ductile.governed_by", "string", plan.reasons[static_cast<std::size_t>(j.governed_by)]);

@@ -42,24 +42,10 @@ std::optional<std::array<Point, 2>> read_segment(const Value& value) {
   return std::array{*p, *q};
 }
 
-/// A cap or a maximum: a number >= 0, or null for unlimited.
-void read_limit(Object& object, const char* key, std::optional<double>& target) {
-  const auto value = object.find(key);
-  if (!value) return;
-  if (value->json().is_null()) {
-    target = unlimited;
-  } else if (const auto number = value->number({0, false, "write a number >= 0, or null for unlimited"})) {
-    target = number;
-  }
-}
-
 void read_elastic(const Value& value, JointOverrides& overrides) {
   if (value.json().is_object()) {
     Object object(value);
-    object.number("frequency", overrides.frequency, positive);
-    if (const auto ratio = object.find("damping_ratio"))
-      overrides.damping_ratio = ratio->number(not_negative);
-    object.number("elastic_rotation", overrides.elastic_rotation, positive);
+    object.read(fields::elastic, overrides);
     const bool rotation = value.json().contains("elastic_rotation");
     overrides.elastic = rotation ? Elasticity::elastic_rotation : Elasticity::frequency;
     if (!rotation && !value.json().contains("frequency")) {
@@ -77,16 +63,8 @@ void read_elastic(const Value& value, JointOverrides& overrides) {
 
 JointOverrides read_overrides(Object& object) {
   JointOverrides overrides;
-  read_limit(object, "moment", overrides.moment);
-  read_limit(object, "moment_reverse", overrides.moment_reverse);
-  read_limit(object, "axial", overrides.axial);
-  read_limit(object, "axial_compression", overrides.axial_compression);
-  read_limit(object, "shear", overrides.shear);
+  object.read(fields::overrides, overrides);
   if (const auto elastic = object.find("elastic")) read_elastic(*elastic, overrides);
-  read_limit(object, "max_rotation", overrides.max_rotation);
-  read_limit(object, "max_elongation", overrides.max_elongation);
-  read_limit(object, "max_compression", overrides.max_compression);
-  read_limit(object, "max_slip", overrides.max_slip);
   if (const auto length = object.find("hinge_length")) {
     if (length->json().is_object()) {
       Object from(*length);
@@ -95,8 +73,6 @@ JointOverrides read_overrides(Object& object) {
       overrides.hinge_length = length->number(positive);
     }
   }
-  if (const auto combine = object.find("combine")) overrides.combine = combine->boolean();
-  if (const auto hold = object.find("hold")) overrides.hold = hold->boolean();
   return overrides;
 }
 
@@ -135,7 +111,7 @@ JointBetweenDef read_joint(const Value& value) {
       def.b = names[1].text().value_or("");
     }
   }
-  object.number("gap", def.gap, positive);
+  object.read(fields::joint, def);
   def.overrides = read_overrides(object);
   return def;
 }
@@ -143,8 +119,7 @@ JointBetweenDef read_joint(const Value& value) {
 SupportDef read_support(const Value& value) {
   SupportDef def;
   Object object(value);
-  if (const auto body = object.require("body")) def.body = body->text().value_or("");
-  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
+  object.read(fields::support, def);
   if (const auto fix = object.require("fix")) {
     for (const Value& row : fix->elements()) {
       if (row.json() == "x") {
@@ -167,15 +142,7 @@ SupportDef read_support(const Value& value) {
 LoadDef read_load(const Value& value) {
   LoadDef def;
   Object object(value);
-  if (const auto body = object.require("body")) def.body = body->text().value_or("");
-  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
-  object.point("force", def.force);
-  object.number("moment", def.moment);
-  object.number("from", def.from, not_negative);
-  object.number("ramp", def.ramp, not_negative);
-  std::optional<double> to;
-  read_limit(object, "to", to);
-  def.to = to.value_or(def.to);
+  object.read(fields::load, def);
   return def;
 }
 
@@ -191,15 +158,10 @@ WheelDef read_wheel(const Value& value) {
       between->wrong("names " + std::to_string(names.size()) + " bodies", "name the chassis and the wheel");
     }
   }
-  if (const auto at = object.require("at")) def.at = at->point().value_or(Point{});
-  if (const auto axis = object.find("axis")) {
-    def.axis = axis->point().value_or(def.axis);
-    if (def.axis == Point{}) axis->wrong("has no length", "give the direction in which the wheel springs");
+  object.read(fields::wheel, def);
+  if (def.axis == Point{}) {
+    object.find("axis")->wrong("has no length", "give the direction in which the wheel springs");
   }
-  object.number("frequency", def.frequency, not_negative);
-  object.number("damping_ratio", def.damping_ratio, not_negative);
-  object.number("motor_speed", def.motor_speed);
-  object.number("motor_torque", def.motor_torque, not_negative);
   return def;
 }
 
@@ -213,15 +175,9 @@ void SceneReader::materials(const Value& value) {
       continue;
     }
     Object object(entry);
-    if (const auto density = object.require("density"))
-      material.density = density->number(positive).value_or(1);
-    if (object.is_object() && !entry.json().contains("E")) entry.wrong("has no \"E\"", "it is required");
+    for (const char* key : {"density", "E"}) object.require(key);
     read_strength(object, material);
-    object.number("fu", material.ultimate_stress, positive);
-    object.number("fracture_strain", material.fracture_strain, positive);
-    object.number("damping_ratio", material.damping_ratio, not_negative);
-    object.number("friction", material.friction, not_negative);
-    object.number("restitution", material.restitution, not_negative);
+    object.read(fields::substance, material);
   }
 }
 
@@ -306,18 +262,13 @@ std::vector<Region> SceneReader::profile(const Value& value) {
 BodyDef SceneReader::body(const Value& value) {
   BodyDef def;
   Object object(value);
-  if (const auto name = object.require("name")) def.name = name->text().value_or(def.name);
+  object.read(fields::body, def);
   object.choice("type", def.type,
                 {{"static", BodyType::static_body},
                  {"dynamic", BodyType::dynamic_body},
                  {"kinematic", BodyType::kinematic_body}});
   if (const auto shape = object.require("outline")) outline(object, *shape, def);
-  object.point("at", def.at);
-  object.number("angle", def.angle);
-  object.point("velocity", def.velocity);
-  object.number("angular_velocity", def.angular_velocity);
   if (const auto name = object.find("material")) def.material = material(*name);
-  object.number("depth", def.depth, positive);
   if (const auto section = object.find("profile")) {
     def.profile = profile(*section);
     if (value.json().contains("depth")) {
@@ -328,9 +279,6 @@ BodyDef SceneReader::body(const Value& value) {
   if (const auto joint = object.find("joint")) {
     Object overrides(*joint);
     def.joint = read_overrides(overrides);
-  }
-  if (const auto group = object.find("group")) {
-    def.group = static_cast<std::int16_t>(group->integer(-32768, 32767).value_or(0));
   }
   return def;
 }
@@ -348,10 +296,7 @@ SceneDef SceneReader::scene(const Value& value) {
     value.wrong("has \"regions\": this is a section",
                 "a scene has \"bodies\"; a section goes to ductile section");
   }
-  object.point("gravity", scene.gravity);
-  object.number("gravity_ramp", scene.gravity_ramp, not_negative);
-  object.boolean("sleep", scene.sleep);
-  object.boolean("interaction", scene.interaction);
+  object.read(fields::scene, scene);
   if (const auto joint = object.find("joint")) {
     Object overrides(*joint);
     scene.joint = read_overrides(overrides);

@@ -1,5 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+#include <type_traits>
 
 #include "ductile/files.h"
 #include "json.h"
@@ -22,27 +25,26 @@ Json json(const std::vector<Ring>& rings) {
   return list;
 }
 Json json(const std::array<Point, 2>& segment) { return Json::array({json(segment[0]), json(segment[1])}); }
-/// A cap or a maximum: null is unlimited.
-Json limit(double value) { return std::isinf(value) ? Json(nullptr) : Json(value); }
-
-/// Writes a key only where its value is not the default: what the author did not say stays unsaid.
+Json json(double value) { return std::isinf(value) ? Json(nullptr) : Json(value); }
 template <class T>
-void put(Json& object, const char* key, const T& value, const T& standard) {
-  if (!(value == standard)) object[key] = value;
+requires(std::is_integral_v<T> || std::is_same_v<T, std::string>) Json json(const T& value) { return value; }
+template <class T>
+Json json(const std::optional<T>& value) {
+  return json(*value);
 }
-void put(Json& object, const char* key, const Point& value, const Point& standard) {
-  if (!(value == standard)) object[key] = json(value);
-}
-void put_limit(Json& object, const char* key, const std::optional<double>& value) {
-  if (value) object[key] = limit(*value);
+
+/// Writes the fields whose value is not the default: what the author did not say stays unsaid.
+template <class Owner, class... Fields>
+void put(Json& object, const std::tuple<Fields...>& table, const Owner& owner) {
+  const Owner standard;
+  fields::for_each(table, [&](const auto& field) {
+    const auto& value = owner.*field.member;
+    if (field.required || !(value == standard.*field.member)) object[field.key] = json(value);
+  });
 }
 
 void put_strength(Json& object, const Material& material) {
-  const Material standard;
-  object["fy"] = material.yield_stress;
-  put(object, "fyc", material.yield_stress_compression, standard.yield_stress_compression);
-  put(object, "tau", material.shear_yield_stress, standard.shear_yield_stress);
-  put(object, "E", material.youngs_modulus, standard.youngs_modulus);
+  put(object, fields::strength, material);
   if (material.criterion == Criterion::von_mises) object["criterion"] = "von_mises";
 }
 
@@ -71,28 +73,15 @@ class MaterialNames {
 };
 
 void put_overrides(Json& object, const JointOverrides& overrides) {
-  put_limit(object, "moment", overrides.moment);
-  put_limit(object, "moment_reverse", overrides.moment_reverse);
-  put_limit(object, "axial", overrides.axial);
-  put_limit(object, "axial_compression", overrides.axial_compression);
-  put_limit(object, "shear", overrides.shear);
+  put(object, fields::overrides, overrides);
   if (overrides.elastic == Elasticity::true_stiffness) object["elastic"] = "true";
   if (overrides.elastic == Elasticity::rigid) object["elastic"] = "rigid";
   if (overrides.elastic == Elasticity::frequency || overrides.elastic == Elasticity::elastic_rotation) {
-    Json& elastic = object["elastic"];
-    put(elastic, "frequency", overrides.frequency, 0.0);
-    put_limit(elastic, "damping_ratio", overrides.damping_ratio);
-    put(elastic, "elastic_rotation", overrides.elastic_rotation, 0.0);
+    put(object["elastic"], fields::elastic, overrides);
   }
-  put_limit(object, "max_rotation", overrides.max_rotation);
-  put_limit(object, "max_elongation", overrides.max_elongation);
-  put_limit(object, "max_compression", overrides.max_compression);
-  put_limit(object, "max_slip", overrides.max_slip);
-  put_limit(object, "hinge_length", overrides.hinge_length);
+  if (overrides.hinge_length) object["hinge_length"] = *overrides.hinge_length;
   if (overrides.shear_span && !overrides.hinge_length)
     object["hinge_length"] = {{"shear_span", *overrides.shear_span}};
-  if (overrides.combine) object["combine"] = *overrides.combine;
-  if (overrides.hold) object["hold"] = *overrides.hold;
 }
 
 Json json(const BodyDef& body, MaterialNames& names) {
@@ -103,14 +92,10 @@ Json json(const BodyDef& body, MaterialNames& names) {
   if (body.type == BodyType::kinematic_body) object["type"] = "kinematic";
   object["outline"] = body.circle > 0 ? Json{{"circle", body.circle}} : json(body.outline.outer);
   if (!body.outline.holes.empty()) object["holes"] = json(body.outline.holes);
-  put(object, "at", body.at, standard.at);
-  put(object, "angle", body.angle, standard.angle);
-  put(object, "velocity", body.velocity, standard.velocity);
-  put(object, "angular_velocity", body.angular_velocity, standard.angular_velocity);
+  put(object, fields::body, body);
   if (body.material) object["material"] = names.name(*body.material);
-  if (body.profile.empty()) {
-    put(object, "depth", body.depth, standard.depth);
-  } else {
+  if (!body.profile.empty()) {
+    object.erase("depth");
     object["profile"] = section_json(body.profile);
   }
   if (body.automatic) {
@@ -124,22 +109,20 @@ Json json(const BodyDef& body, MaterialNames& names) {
   Json overrides;
   put_overrides(overrides, body.joint);
   if (!overrides.empty()) object["joint"] = std::move(overrides);
-  put(object, "group", body.group, standard.group);
   return object;
 }
 
 Json json(const JointBetweenDef& joint) {
   Json object;
   object["between"] = {joint.a, joint.b};
-  put(object, "gap", joint.gap, 0.0);
+  put(object, fields::joint, joint);
   put_overrides(object, joint.overrides);
   return object;
 }
 
 Json json(const SupportDef& support) {
   Json object;
-  object["body"] = support.body;
-  object["at"] = json(support.at);
+  put(object, fields::support, support);
   object["fix"] = Json::array();
   if (support.fix_x) object["fix"].push_back("x");
   if (support.fix_y) object["fix"].push_back("y");
@@ -148,28 +131,15 @@ Json json(const SupportDef& support) {
 }
 
 Json json(const LoadDef& load) {
-  const LoadDef standard;
   Json object;
-  object["body"] = load.body;
-  object["at"] = json(load.at);
-  put(object, "force", load.force, standard.force);
-  put(object, "moment", load.moment, standard.moment);
-  put(object, "from", load.from, standard.from);
-  put(object, "ramp", load.ramp, standard.ramp);
-  put(object, "to", load.to, standard.to);
+  put(object, fields::load, load);
   return object;
 }
 
 Json json(const WheelDef& wheel) {
-  const WheelDef standard;
   Json object;
   object["between"] = {wheel.chassis, wheel.wheel};
-  object["at"] = json(wheel.at);
-  put(object, "axis", wheel.axis, standard.axis);
-  put(object, "frequency", wheel.frequency, standard.frequency);
-  put(object, "damping_ratio", wheel.damping_ratio, standard.damping_ratio);
-  put(object, "motor_speed", wheel.motor_speed, standard.motor_speed);
-  put(object, "motor_torque", wheel.motor_torque, standard.motor_torque);
+  put(object, fields::wheel, wheel);
   return object;
 }
 
@@ -181,15 +151,9 @@ void put_list(Json& scene, const char* key, const std::vector<T>& list) {
 }  // namespace
 
 Json material_json(const Material& material) {
-  const Material standard;
   Json object;
-  object["density"] = material.density;
   put_strength(object, material);
-  put(object, "fu", material.ultimate_stress, standard.ultimate_stress);
-  put(object, "fracture_strain", material.fracture_strain, standard.fracture_strain);
-  put(object, "damping_ratio", material.damping_ratio, standard.damping_ratio);
-  put(object, "friction", material.friction, standard.friction);
-  put(object, "restitution", material.restitution, standard.restitution);
+  put(object, fields::substance, material);
   return object;
 }
 
@@ -206,16 +170,12 @@ Json section_json(const std::vector<Region>& regions) {
 }
 
 std::string scene_text(const SceneDef& scene) {
-  const SceneDef standard;
   MaterialNames names;
   Json bodies = Json::array();
   for (const BodyDef& body : scene.bodies) bodies.push_back(json(body, names));
 
   Json object;
-  put(object, "gravity", scene.gravity, standard.gravity);
-  put(object, "gravity_ramp", scene.gravity_ramp, standard.gravity_ramp);
-  put(object, "sleep", scene.sleep, standard.sleep);
-  put(object, "interaction", scene.interaction, standard.interaction);
+  put(object, fields::scene, scene);
   Json overrides;
   put_overrides(overrides, scene.joint);
   if (!overrides.empty()) object["joint"] = std::move(overrides);

@@ -4,12 +4,7 @@
 namespace ductile {
 
 void read_strength(Object& object, Material& material) {
-  if (const auto fy = object.require("fy")) material.yield_stress = fy->number(positive).value_or(1);
-  object.number("fyc", material.yield_stress_compression, positive);
-  if (const auto tau = object.find("tau"); tau && !tau->json().is_null()) {
-    material.shear_yield_stress = tau->number(positive).value_or(0);
-  }
-  object.number("E", material.youngs_modulus, positive);
+  object.read(fields::strength, material);
   object.choice("criterion", material.criterion,
                 {{"tresca", Criterion::tresca}, {"von_mises", Criterion::von_mises}});
 }

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "ductile/definitions.h"
 #include "ductile/design.h"
+#include "ductile/fields.h"
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/picture.h"
@@ -59,26 +60,17 @@ Json json(const Piece& piece, const Plan& plan) {
 }
 
 Json json(const PlannedJoint& joint, const Plan& plan) {
-  return {{"name", joint.name},
-          {"between", {piece_name(plan, joint.a), piece_name(plan, joint.b)}},
-          {"anchor", json(joint.anchor)},
-          {"axis", json(joint.axis)},
-          {"N", number(joint.N)},
-          {"Nc", number(joint.Nc)},
-          {"Q", number(joint.Q)},
-          {"M", number(joint.M)},
-          {"M_reverse", number(joint.M_reverse)},
-          {"stiffness",
-           {{"N", number(joint.stiffness.N)},
-            {"Q", number(joint.stiffness.Q)},
-            {"M", number(joint.stiffness.M)}}},
-          {"damping_ratio", joint.damping_ratio},
-          {"max_rotation", number(joint.max_rotation)},
-          {"max_elongation", number(joint.max_elongation)},
-          {"max_compression", number(joint.max_compression)},
-          {"max_slip", number(joint.max_slip)},
-          {"hinge_length", joint.hinge_length},
-          {"governed_by", plan.reasons[static_cast<std::size_t>(joint.governed_by)]}};
+  Json object{{"name", joint.name},
+              {"between", {piece_name(plan, joint.a), piece_name(plan, joint.b)}},
+              {"anchor", json(joint.anchor)},
+              {"axis", json(joint.axis)}};
+  fields::for_each(fields::calibrated,
+                   [&](const auto& field) { object[field.key] = number(joint.*field.member); });
+  fields::for_each(fields::stiffness, [&](const auto& field) {
+    object["stiffness"][field.key] = number(joint.stiffness.*field.member);
+  });
+  object["governed_by"] = plan.reasons[static_cast<std::size_t>(joint.governed_by)];
+  return object;
 }
 
 Json json(const Plan& plan) {

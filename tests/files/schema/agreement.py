@@ -6,6 +6,7 @@ What a schema cannot say (names that nobody has, outlines that cross themselves)
 import copy
 import glob
 import json
+import re
 import subprocess
 import sys
 import warnings
@@ -99,6 +100,36 @@ for kind in ("section", "scene"):
         if valid.is_valid(changed) != (verdict == "accepted"):
             disagreements += 1
             print(f"{kind} {place} = {other!r}: schema says {valid.is_valid(changed)}, reader: {verdict}")
+
+# The tables of fields, from which readers and writers work: each field stands in the schema with its default, and its
+# unit at the head of what is said of it. (That the ranges agree, the cases above show.)
+scene = schemas["scene"]
+definitions = scene["$defs"]
+material = definitions["material"]["oneOf"][1]
+elastic = next(way for way in definitions["elastic"]["oneOf"] if way.get("type") == "object")
+objects = {"strength": material, "substance": material, "elastic": elastic, "scene": scene,
+           "overrides": definitions["override_keys"],
+           **{name: definitions[name] for name in ("body", "joint", "support", "load", "wheel")}}
+tables = json.loads(subprocess.run([verdicts, "fields"], capture_output=True, text=True, check=True).stdout)
+assert tables.keys() == objects.keys(), tables.keys()
+for name, table in tables.items():
+    for field in table:
+        checked += 1
+        said = objects[name]["properties"].get(field["key"])
+        if said is None:
+            disagreements += 1
+            print(f"{name}.{field['key']} is not in the schema")
+            continue
+        wrong = []
+        if field["unit"] and field["unit"] not in re.split("[,;:] ?|[.]", said.get("description", ""))[:2]:
+            wrong.append(f"its description does not begin with its unit, {field['unit']}")
+        if "default" in said and field["default"] not in (said["default"], "no default"):
+            wrong.append(f"default {said['default']} is {field['default']}")
+        if field["required"] and field["key"] not in objects[name].get("required", []):
+            wrong.append("it is required")
+        disagreements += len(wrong)
+        for what in wrong:
+            print(f"{name}.{field['key']}: {what}")
 
 print(f"{checked} cases, {disagreements} disagreements")
 sys.exit(1 if disagreements or checked < 1000 else 0)
