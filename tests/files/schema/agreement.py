@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
 warnings.simplefilter("ignore", DeprecationWarning)
 from jsonschema import Draft202012Validator, RefResolver  # noqa: E402
@@ -102,7 +103,8 @@ for kind in ("section", "scene"):
             print(f"{kind} {place} = {other!r}: schema says {valid.is_valid(changed)}, reader: {verdict}")
 
 # The tables of fields, from which readers and writers work: each field stands in the schema with its default, and its
-# unit at the head of what is said of it. (That the ranges agree, the cases above show.)
+# unit at the head of what is said of it; and in a table of the page. (That the ranges agree, the cases above show.)
+page = Path(f"{source}/docs/files/scene.md").read_text()
 scene = schemas["scene"]
 definitions = scene["$defs"]
 material = definitions["material"]["oneOf"][1]
@@ -127,6 +129,9 @@ for name, table in tables.items():
             wrong.append(f"default {said['default']} is {field['default']}")
         if field["required"] and field["key"] not in objects[name].get("required", []):
             wrong.append("it is required")
+        key = re.compile(rf"[`\"]{field['key']}[`\"]")
+        if not any(line.startswith("|") and key.search(line) and field["unit"] in line for line in page.splitlines()):
+            wrong.append(f"docs/files/scene.md has no row with the key and its unit, {field['unit']}")
         disagreements += len(wrong)
         for what in wrong:
             print(f"{name}.{field['key']}: {what}")
