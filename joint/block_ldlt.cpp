@@ -163,13 +163,6 @@ void BlockLdlt::backward(std::span<Vec3> x) const {
   }
 }
 
-void BlockLdlt::list(Ahead& ahead) const {
-  ahead.add(column_);
-  ahead.add(row_);
-  ahead.add(diagonal_);
-  ahead.add(lower_);
-}
-
 std::size_t BlockLdlt::bytes() const {
   return (column_.size() + row_.size() + targets_.size()) * sizeof(int) +
          (lower_.size() + diagonal_.size()) * sizeof(Block) + unscaled_.size() * sizeof(unscaled_[0]);

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "ahead.h"
 #include "vec3.h"
 
 namespace ductile {
@@ -76,8 +75,6 @@ class BlockLdlt {
   /// Block products of one factorisation and of one solve: what each costs.
   std::size_t factor_work() const { return targets_.size() + 2 * lower_.size() + diagonal_.size(); }
   std::size_t solve_work() const { return (2 * lower_.size() + diagonal_.size()) / 3; }
-  /// Of what it reads.
-  void list(Ahead& ahead) const;
   std::size_t bytes() const;
 
  private:

@@ -229,22 +229,6 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   }
 }
 
-void Component::list(Ahead& ahead) {
-  place = ahead.begin();
-  solver.ahead = &ahead;
-  if (members.size() > Ahead::small) return;
-  // Box2D gathers the island first. Of a joint it reads its own part, we what follows a weld's.
-  for (const Mirror& m : mirrors) ahead.add(m.body, sizeof(b2Body));
-  for (const Member* m : members) {
-    ahead.add(m->joint, sizeof(b2Joint));
-    ahead.add(static_cast<const b2WeldJoint*>(m->joint) + 1,
-              sizeof(ElasticPlasticJoint) - sizeof(b2WeldJoint));
-  }
-  ahead.add(this, sizeof *this);
-  ahead.add(mirrors);
-  solver.list(ahead);
-}
-
 void Component::read_mass(std::size_t i) {
   Mirror& m = mirrors[i];
   m.mass = m.body->GetMass();
@@ -266,7 +250,6 @@ bool Component::look(const b2SolverData& data) {
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone_ &= i >= solver.free_bodies() || only_ours(m);
-    if (solver.ahead != nullptr) solver.ahead->fetch();
     if (!at_rest_) take(m, data);  // while the body is at hand
     masses &= m.type != b2_dynamicBody || (m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
                                            m.body->GetLocalCenter() == m.local_center);

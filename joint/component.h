@@ -99,9 +99,6 @@ struct Component {
   void advance(const b2SolverData& data);
   void position(const b2SolverData& data);
 
-  /// Of what its steps read, Box2D's part of it too.
-  void list(Ahead& ahead);
-
   KnownPose known(int body) const;
   Pose relative(const b2Position& at) const;  // to the origin
   b2Position box2d_pose(std::size_t body) const;
@@ -114,7 +111,6 @@ struct Component {
   SolverKind kind;
   Structure::Impl* structure = nullptr;
   StepReport* report = nullptr;
-  std::size_t place = 0;     // in solver.ahead
   std::uint64_t batch = 0;   // island at hand
   std::size_t enlisted = 0;  // joints of it that this island has
   bool resting = false;      // this step is the last one again

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "pair.h"
-
 namespace ductile {
 
 namespace {
@@ -24,8 +22,7 @@ constexpr auto differences_up_to() {
 }  // namespace
 
 void Forecast::form(std::span<const Vec3> masses) {
-  terms_ = masses.size() < small ? few : most;
-  for (int k = 0; k < most; ++k) past_[z(k)].assign(k < terms_ ? masses.size() : 0, {});
+  for (auto& v : past_) v.assign(masses.size(), {});
   samples_.clear();
   const std::size_t count = std::min(sampled, (masses.size() + 9) / 10);
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,16 +33,11 @@ void Forecast::form(std::span<const Vec3> masses) {
 }
 
 std::span<Vec3> Forecast::newest() {
-  newest_ = (newest_ + terms_ - 1) % terms_;
-  known_ = std::min(known_ + 1, terms_ + 2);
+  newest_ = (newest_ + terms - 1) % terms;
+  known_ = std::min(known_ + 1, terms + 2);
   return past_[z(newest_)];
 }
 
-void Forecast::fit() { terms_ == few ? fit<few>() : fit<most>(); }
-
-void Forecast::next(std::span<Vec3> to) const { terms_ == few ? next<few>(to) : next<most>(to); }
-
-template <int terms>
 void Forecast::next(std::span<Vec3> to) const {
   // Number by number, whichever of the three it is: two at once.
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -59,7 +51,6 @@ void Forecast::next(std::span<Vec3> to) const {
   }
 }
 
-template <int terms>
 void Forecast::fit() {
   const auto slot = [this](int steps_ago) { return z((newest_ + steps_ago) % terms); };
   const int n = std::min(known_ - 1, terms);  // terms that are known of the solution before the newest,
@@ -72,10 +63,9 @@ void Forecast::fit() {
     s.x[terms] = v.x - s.x[0], s.y[terms] = v.y - s.y[0], s.w[terms] = v.w - s.w[0];
     for (int i = 0; i < terms; ++i) {
       const double x = s.mass.x * s.x[i], y = s.mass.y * s.y[i], w = s.mass.w * s.w[i];
-      for (int k = i / 2 * 2; k <= terms; k += 2)
-        add(gram_[i] + k, x * load(s.x + k) + y * load(s.y + k) + w * load(s.w + k));
+      for (int k = i; k <= terms; ++k) gram_[i][k] += x * s.x[k] + y * s.y[k] + w * s.w[k];
     }
-    const auto differences = [](double(&d)[most + 1], double now) {
+    const auto differences = [](double(&d)[terms + 1], double now) {
       for (int k = 0; k < terms; ++k) now -= std::exchange(d[k], now);
     };
     differences(s.x, v.x), differences(s.y, v.y), differences(s.w, v.w);
@@ -93,7 +83,6 @@ void Forecast::fit() {
 
 // L D Lᵀ; a trifle on the diagonal keeps terms out that rounding alone tells apart. False where nothing
 // moves, or nothing is finite.
-template <int terms>
 bool Forecast::solve(int n, double (&a)[terms]) const {
   double l[terms][terms], inverse[terms], x[terms] = {};
   for (int i = 0; i < n; ++i) {
@@ -118,11 +107,6 @@ bool Forecast::solve(int n, double (&a)[terms]) const {
   const bool sane = std::all_of(x, x + n, [](double value) { return std::abs(value) <= 100; });
   if (sane) std::copy_n(x, n, a);
   return true;
-}
-
-void Forecast::list(Ahead& ahead) const {
-  ahead.add(samples_);
-  for (const auto& v : past_) ahead.add(v);
 }
 
 std::size_t Forecast::bytes() const {

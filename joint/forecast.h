@@ -2,8 +2,7 @@
 //
 // What swings freely or is driven steadily is a sum of few modes, each a geometric sequence from step to
 // step:
-//   v_next = v + Σ a_k ∇ᵏv   with k = 0 … 6, in small structures 0 … 4, and ∇ the difference from the step
-//   before.
+//   v_next = v + Σ a_k ∇ᵏv   with k = 0 … 6 and ∇ the difference from the step before.
 // The a_k are those that would have told best what the last steps became: least squares in the norm of
 // kinetic energy, each step counting half as much as the one after it. Of v itself instead of its differences
 // the normal equations would be singular to rounding. Polynomials (all a_k = 1) miss what swings by its (ωh)
@@ -15,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "ahead.h"
 #include "vec3.h"
 
 namespace ductile {
@@ -31,36 +29,27 @@ class Forecast {
   void fit();
   /// Of all bodies.
   void next(std::span<Vec3> to) const;
-  /// Of what it reads.
-  void list(Ahead& ahead) const;
   std::size_t bytes() const;
 
  private:
-  static constexpr int few = 5, most = 7;  // terms; odd, as the fit adds up in pairs
-  /// Bodies: fewer are sooner solved for once more than fitted two terms more.
-  static constexpr std::size_t small = 100;
+  /// With 5, a step of a swaying frame of 2000 joints costs a fifth more.
+  static constexpr int terms = 7;
   static constexpr std::size_t sampled = 4;  // bodies, or a tenth of them, tell of the few a_k what all would
   struct Sample {
     std::size_t body;
     Vec3 mass;
-    double x[most + 1], y[most + 1], w[most + 1];  // ∇ᵏ of its newest velocity
+    double x[terms + 1], y[terms + 1], w[terms + 1];  // ∇ᵏ of its newest velocity
   };
 
-  template <int terms>
-  void fit();
-  template <int terms>
   bool solve(int n, double (&a)[terms]) const;
-  template <int terms>
-  void next(std::span<Vec3> to) const;
   static constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
-  int terms_ = most;                          // few or most
-  std::array<std::vector<Vec3>, most> past_;  // a ring of terms_
-  std::array<double, most> share_{};          // of each in what comes next
+  std::array<std::vector<Vec3>, terms> past_;  // a ring
+  std::array<double, terms> share_{};          // of each in what comes next
   int newest_ = 0;
   int known_ = 0;  // solutions since the last forget(), as far as it matters
   std::vector<Sample> samples_;
-  double gram_[most][most + 1] = {};  // the normal equations; the column after them is their right side
+  double gram_[terms][terms + 1] = {};  // the normal equations; the column after them is their right side
 };
 
 }  // namespace ductile

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "pair.h"
-
 namespace ductile {
 
 namespace {
@@ -31,15 +29,12 @@ inline Turn turn_of(double angle) {
           angle * (1 - t * over(6) * (1 - t * over(20)))};
 }
 
-constexpr Pair second_negated{1, -1}, first_negated{-1, 1};
-
 // J v
 inline Rows relative_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) {
-  const Pair axis_a = load(&j.axis_a.c), axis_b = load(&j.axis_b.c);
-  const Pair uv = b.x * (second_negated * axis_b) + b.y * swapped(axis_b) -
-                  (a.x * (second_negated * axis_a) + a.y * swapped(axis_a)) + a.w * load(&j.au) +
-                  b.w * load(&j.bu);
-  return {uv[0], uv[1], b.w - a.w};
+  return {
+      b.x * j.axis_b.c + b.y * j.axis_b.s - (a.x * j.axis_a.c + a.y * j.axis_a.s) + a.w * j.au + b.w * j.bu,
+      b.y * j.axis_b.c - b.x * j.axis_b.s - (a.y * j.axis_a.c - a.x * j.axis_a.s) + a.w * j.av + b.w * j.bv,
+      b.w - a.w};
 }
 
 // J v + b
@@ -51,27 +46,15 @@ inline Rows biased_velocity(const SolverJoint& j, const Vec3& a, const Vec3& b) 
 
 // g += Jᵀ s
 inline void add_transposed(const SolverJoint& j, const Rows& s, Vec3& a, Vec3& b) {
-  const Pair axis_a = load(&j.axis_a.c), axis_b = load(&j.axis_b.c), uv{s[0], s[1]};
-  subtract(&a.x, s[0] * axis_a + s[1] * (first_negated * swapped(axis_a)));
-  add(&b.x, s[0] * axis_b + s[1] * (first_negated * swapped(axis_b)));
-  const Pair on_a = uv * load(&j.au), on_b = uv * load(&j.bu);
-  a.w += on_a[0] + on_a[1] - s[2];
-  b.w += on_b[0] + on_b[1] + s[2];
+  a -= {s[0] * j.axis_a.c - s[1] * j.axis_a.s, s[0] * j.axis_a.s + s[1] * j.axis_a.c,
+        s[2] - (s[0] * j.au + s[1] * j.av)};
+  b += {s[0] * j.axis_b.c - s[1] * j.axis_b.s, s[0] * j.axis_b.s + s[1] * j.axis_b.c,
+        s[0] * j.bu + s[1] * j.bv + s[2]};
 }
 
 inline bool is_elastic(const SolverJoint& j, const Rows& s) {
   const auto within = [&](unsigned i) { return std::abs(s[i]) <= j.elastic_range[i]; };
   return within(0) && within(1) && within(2);
-}
-
-// Adds to g what the joint will answer to the velocities v, if the next step is like the last; false where
-// that is not linear.
-bool foresee(const SolverJoint& j, const RowLaw& law, const std::vector<Vec3>& v, std::vector<Vec3>& g) {
-  const Rows x = biased_velocity(j, v[z(j.a)], v[z(j.b)]);
-  const Rows s{j.G[0] * x[0], j.G[1] * x[1], j.G[2] * x[2]};
-  if (j.factored != 0 || !(is_elastic(j, s) || respond(law, x).piece == 0)) return false;
-  add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
-  return true;
 }
 
 // The three rows of one body's share of J, and of what they are multiplied by.
@@ -110,11 +93,9 @@ void Solver::form(std::size_t free_bodies) {
   touched_.assign(free_, 0);
   factored_ = held_ = false;
   mass_ = 0;
-  all_turn_ = true;
   for (std::size_t i = 0; i < free_; ++i) {
     SolverBody& b = bodies[i];
     mass_ += b.mass;
-    all_turn_ &= b.inertia > 0;
     b.inverse_mass = 1 / b.mass;
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
     d_[i] = {b.mass, b.mass, b.inertia};
@@ -165,7 +146,7 @@ Rows Solver::locate(SolverJoint& j) const {
 }
 
 void Solver::locate() {
-  biased_ = foreseen_ = gaps_found_ = false;
+  biased_ = gaps_found_ = false;
   find_gaps();
 }
 
@@ -248,12 +229,10 @@ void Solver::begin(double h) {
   }
   if (!changed && share == 1 && !peculiar_) {
     if (!std::exchange(biased_, false)) {
-      foreseen_ = false;
       for (SolverJoint& j : joints) set_bias(j, record(j).gap, 1 / h_);
     }
     return;
   }
-  foreseen_ = false;
   for (SolverJoint& j : joints) {
     JointRecord& r = record(j);
     Rows strain{};
@@ -323,7 +302,7 @@ void Solver::soften() {
 
 bool Solver::at_rest() {
   const bool rests = stands_still();
-  if (rests) predicted_ = foreseen_ = false;  // it will go on from this solution
+  if (rests) predicted_ = false;  // it will go on from this solution
   return rests;
 }
 
@@ -335,7 +314,6 @@ bool Solver::stands_still() {
   const double last_bits = 2 * std::numeric_limits<double>::epsilon() * farthest;
   if (h_ * h_ * speed_ <= mass_ * last_bits * last_bits) return true;
   // Moving on by h v changes a row's impulse by G J v at most.
-  foreseen_ = false;
   std::fill(g_.begin(), g_.end(), Vec3{});
   for (const SolverJoint& j : joints) {
     Rows s;
@@ -378,32 +356,12 @@ double Solver::evaluate() {
   return evaluate([](std::size_t, SolverBody&) {});
 }
 
-// evaluate() at the velocities in z_, where all joints are foreseen.
-double Solver::evaluate_foreseen() {
-  scale_ = speed_ = fastest_ = fastest_turn_ = 0;
-  double norm = 0;
-  for (std::size_t i = 0; i < free_; ++i) {
-    SolverBody& b = bodies[i];
-    b.v = z_[i];
-    g_[i] += own_part(b);
-    norm += square(b, g_[i]);
-  }
-  crossed_ = false;
-  return norm;
-}
-
-bool Solver::others_stand() const {
-  return std::all_of(bodies.begin() + static_cast<std::ptrdiff_t>(free_), bodies.end(),
-                     [](const SolverBody& b) { return b.v.x == 0 && b.v.y == 0 && b.v.w == 0; });
-}
-
 // The joints' part of ∇f.
 void Solver::add_impulses() {
   changed_ = 0;
   unsigned crossed = 0, any = 0;
   held_ = false;
   for (SolverJoint& j : joints) {
-    if (ahead != nullptr) ahead->fetch();
     const Rows x = biased_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const auto take = [&](const Rows& s, unsigned piece) {
       add_transposed(j, s, g_[z(j.a)], g_[z(j.b)]);
@@ -640,13 +598,12 @@ bool Solver::solve(SolveReport& report) {
   const bool same_v = std::exchange(gradient_known_, true) && touches_ > 0 && !coasting_;
   coasting_ = false;
   const bool guessed = std::exchange(predicted_, false) && !flows_;
-  const bool foreseen = std::exchange(foreseen_, false) && others_stand();
-  if (guessed && !foreseen) forecast_.next({z_.data(), free_});
+  if (guessed) forecast_.next({z_.data(), free_});
   const auto start = [this, guessed](std::size_t i, SolverBody& b) {
     if (guessed) b.v = z_[i];
     if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
   };
-  double norm = same_v ? std::max(0.0, left_ + pushed_) : foreseen ? evaluate_foreseen() : evaluate(start);
+  double norm = same_v ? std::max(0.0, left_ + pushed_) : evaluate(start);
   if (!std::isfinite(norm)) {
     // The past, too, knew what is not finite; this step need not.
     for (std::size_t i = 0; i < free_; ++i) bodies[i].v = bodies[i].v_free;
@@ -675,7 +632,7 @@ bool Solver::solve(SolveReport& report) {
   double first = norm;                // |∇f|² where the factor at hand began
   int round = 0, idle = 0, used = 0;  // rounds, those that gained nothing, those with the factor at hand
   short_step_ = false;
-  // What is only a guess takes a round in any case; what is foreseen, its impulses thereby.
+  // A predicted start always takes one round, even within tolerance: that removes the prediction's bias.
   for (; (norm > target() || (guessed && round == 0)) && round < round_bound; ++round) {
     // Rounds that the factor at hand would still need: one per row that changed its state, or by its
     // contraction.
@@ -814,28 +771,16 @@ void Solver::advance() {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i < newest.size()) newest[i] = bodies[i].v;
     displace(places[i], h_ * bodies[i].v);
-    if (ahead != nullptr) ahead->fetch();
   }
   if (predicted_) forecast_.fit();
-  // While a joint's pose is at hand, it is cheap to tell what it answers where the next solve starts.
-  bool foreseen = predicted_ && all_turn_ && !peculiar_ && !flows_ && !coasting_ && others_stand();
-  if (foreseen) {
-    std::fill(g_.begin(), g_.end(), Vec3{});
-    forecast_.next({z_.data(), free_});
-  }
   const bool books = keeps_ledger || coasting_ || gaps_found_ || slowed_ < 1;
   const double rate = 1 / h_;
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    if (ahead != nullptr) ahead->fetch();
     SolverJoint& j = joints[k];
     const Rows gap = locate(j);
     if (books || j.piece != 0 || j.free) book(j, gap);
     set_bias(j, gap, rate);
-    // Of the joint before this one: what it waits for is known by now.
-    if (k > 0) foreseen = foreseen && foresee(joints[k - 1], records[k - 1].law, z_, g_);
   }
-  if (!joints.empty()) foreseen = foreseen && foresee(joints.back(), records.back().law, z_, g_);
-  foreseen_ = foreseen;
   biased_ = true;
   coasting_ = false;
 }
@@ -1074,7 +1019,6 @@ double Solver::largest_turn() const {
 }
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
-  foreseen_ = false;
   factor_holding();
   double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
   // It gives way by less than a thousandth: the structure holds it.
@@ -1206,17 +1150,6 @@ Rows Solver::force(const SolverJoint& j, const JointRecord& r) {
   const double h = r.law.h;
   if (!(h > 0)) return {};
   return {j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h};
-}
-
-void Solver::list(Ahead& to) const {
-  to.add(bodies);
-  to.add(places);
-  to.add(z_);
-  to.add(g_);
-  to.add(d_);
-  to.add(joints);
-  ldlt_.list(to);
-  forecast_.list(to);
 }
 
 std::size_t Solver::bytes() const {

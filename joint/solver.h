@@ -206,9 +206,6 @@ class Solver {
   /// part along their tangents for a step, by r(ωh)²/2, before the next one brings them back.
   static double elastic(const SolverJoint& joint, const JointRecord& record, unsigned row);
   double step() const { return h_; }
-  /// Brings what the next solver reads, if there is one; and the list of what this one reads.
-  Ahead* ahead = nullptr;
-  void list(Ahead& to) const;
   std::size_t bytes() const;
 
  private:
@@ -221,14 +218,12 @@ class Solver {
   void factor();
   int interior_point();
   static Rows relative(const SolverJoint& joint, const Vec3& a, const Vec3& b);
+  bool stands_still();
   template <class Change>
   double evaluate(const Change& change);
   double evaluate();
-  double evaluate_foreseen();
   Vec3 own_part(const SolverBody& body);
   void see_speed(const Vec3& v);
-  bool others_stand() const;
-  bool stands_still();
   void add_impulses();
   void find_x(double faster = 1);
   double pull(std::span<const Pose> goal);
@@ -261,9 +256,7 @@ class Solver {
   double h_ = 0;
   BlockLdlt ldlt_;
   Forecast forecast_;
-  bool predicted_ = false;  // the next solve starts where forecast_ says,
-  bool foreseen_ = false;   // that is in z_, and what all joints answer to it, in g_
-  bool all_turn_ = false;   // no body's rotation is fixed
+  bool predicted_ = false;  // the next solve starts where forecast_ says
   bool factored_ = false;
   bool holding_ = false;     // the factor at hand is project()'s
   bool held_ = false;        // and of what holds now

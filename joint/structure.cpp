@@ -132,7 +132,6 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   if (velocity_calls_ == last) return;
   if (velocity_calls_++ == 0) {
     bool fits = !incomplete_;
-    if (fits && !active_.empty()) ahead_.follow(active_.back()->place);
     for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data);
     if (!fits) {
       form();
@@ -166,8 +165,6 @@ void Structure::Impl::form() {
     return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
   });
   active_.clear();
-  // What is gone stays listed until it is half of all.
-  if (ahead_.components() > 2 * components.size() + 16) list_all();
 
   // Contacts change the order of joints between steps; elimination must not depend on it.
   std::vector<Member*> all = enlisted_;
@@ -197,14 +194,8 @@ void Structure::Impl::form() {
     c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
     c->batch = batch_;
     c->enlisted = c->members.size();
-    c->list(ahead_);
     active_.push_back(c);
   }
-}
-
-void Structure::Impl::list_all() {
-  ahead_.clear();
-  for (const auto& c : components) c->list(ahead_);
 }
 
 void Structure::Impl::look_for_breaks(Component& component) {
@@ -319,8 +310,7 @@ void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
 
 std::size_t Structure::Impl::bytes() const {
   std::size_t sum = sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
-                    joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending) +
-                    ahead_.bytes();
+                    joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending);
   for (const auto& c : components) {
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
            c->mirrors.capacity() * sizeof(Component::Mirror) +
@@ -372,7 +362,6 @@ void Structure::Impl::restore(const State& s) {
       c.members[i]->belong_to(&c);
     }
   }
-  list_all();
 }
 
 Structure::Structure(b2World& world, const StructureDef& def) : impl_(std::make_unique<Impl>(world, def)) {}

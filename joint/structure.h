@@ -47,7 +47,6 @@ struct Structure::Impl {
  private:
   void form();
   void dissolve(Component& component);
-  void list_all();
   void look_for_breaks(Component& component);
   void break_joint(Member& member, JointEvent::Mode mode, Row row);
   void say(const Member& member, const JointEvent& event);
@@ -62,8 +61,6 @@ struct Structure::Impl {
   bool incomplete_ = false;  // some enlisted joint is in no component
   bool stepped_ = true;      // since the last update()
   bool broke_ = false;       // some joint, since then
-
-  Ahead ahead_;  // of all components, in the order in which islands first came
 
   JointEnergy gone_;  // of components and joints that are no more
 

@@ -122,26 +122,6 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   }
 }
 
-// What joints answer to a forecast is told at the end of the step before: a solve that has to find it out
-// anew takes the same way.
-TEST(Solver, StartsFromWhatItForesawAsFromWhatItFinds) {
-  Line foreseen(12), found(12);
-  for (Line* l : {&foreseen, &found}) {
-    for (std::size_t i = 0; i < 12; ++i) l->solver.bodies[i].v = {i % 2 == 0 ? 3e-3 : -1e-3, 2e-3, 1e-3};
-  }
-  int rounds = 0;  // that one took more: one in 200 steps, where rounding decides
-  for (int step = 0; step < 200; ++step) {
-    found.solver.locate();
-    rounds += foreseen.step(1.0 / 240).rounds - found.step(1.0 / 240).rounds;
-    for (std::size_t i = 0; i < 12; ++i) {
-      const Vec3 d = foreseen.solver.bodies[i].v - found.solver.bodies[i].v;
-      EXPECT_LE(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.w)}), 1e-12) << step;
-    }
-  }
-  EXPECT_LE(std::abs(rounds), 2);
-  for (const JointRecord& r : foreseen.solver.records) EXPECT_EQ(r.plastic[0], 0);
-}
-
 // A solution that was not finite is forecast for as long as it is known; the solves end all the same.
 TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
   Line line(3);
