@@ -7,7 +7,7 @@
 
 #include "pair.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
 namespace {
 
@@ -19,8 +19,6 @@ inline Pair product(const Pair (&left)[3], const double (&right)[3][4], int from
 inline double last_product(const double (&left)[3], const double (&right)[3][4]) {
   return left[0] * right[0][2] + left[1] * right[1][2] + left[2] * right[2][2];
 }
-
-constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -168,4 +166,4 @@ std::size_t BlockLdlt::bytes() const {
          (lower_.size() + diagonal_.size()) * sizeof(Block) + unscaled_.size() * sizeof(unscaled_[0]);
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

@@ -12,7 +12,7 @@
 
 #include "vec3.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
 /// A 3×3 block, row by row.
 struct Block {
@@ -92,4 +92,4 @@ class BlockLdlt {
   std::vector<RightFactor> unscaled_;  // the column at hand before it is divided by D
 };
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

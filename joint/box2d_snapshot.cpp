@@ -11,7 +11,7 @@
 #include "reveal.h"
 #include "structure.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
 using FreeLists = b2Block* [b2_blockSizeCount];
 DUCTILE_REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
@@ -33,6 +33,12 @@ DUCTILE_REVEAL(b2DynamicTree, m_nodeCapacity, int32);
 DUCTILE_REVEAL(b2DynamicTree, m_freeList, int32);
 DUCTILE_REVEAL(b2DynamicTree, m_insertionCount, int32);
 DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
+
+}  // namespace ductile::dynamics
+
+namespace ductile {
+
+using namespace dynamics;
 
 namespace {
 

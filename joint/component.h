@@ -14,12 +14,17 @@
 
 namespace ductile {
 
-struct Component;
-
+/// Throws std::invalid_argument that names every wrong field.
 void check(const ElasticPlasticJointDef& def);
 b2Body* watch_world(b2World& world, Structure::Impl& structure);
 /// The structures of a world, in an order that only their coming and going changes.
 std::vector<Structure::Impl*> structures_in(b2World& world);
+
+}  // namespace ductile
+
+namespace ductile::dynamics {
+
+struct Component;
 
 /// A body as a component that is no more left it: poses in double survive the re-forming of components.
 struct KnownPose {
@@ -35,7 +40,7 @@ struct Member {
   std::uint32_t id = 0;
   Component* component = nullptr;  // where it is solved, or nullptr while it is in no island
   std::size_t index = 0;           // in component->solver.joints
-  SolverJoint own;                 // configuration and state while it is in no component
+  Joint own;                       // configuration and state while it is in no component
   JointRecord own_record;          // likewise
   double drift_time = 0;           // likewise, of its solver
   std::array<KnownPose, 2> known;  // likewise, of the joint's bodies
@@ -49,9 +54,9 @@ struct Member {
   std::shared_ptr<const YieldSurface> surface;
 
   void belong_to(Component* to) { joint->component_ = component = to; }
-  SolverJoint& data();
+  Joint& data();
   JointRecord& record();
-  const SolverJoint& data() const { return const_cast<Member*>(this)->data(); }
+  const Joint& data() const { return const_cast<Member*>(this)->data(); }
   const JointRecord& record() const { return const_cast<Member*>(this)->record(); }
 };
 
@@ -134,9 +139,9 @@ struct Component {
   bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
 };
 
-inline SolverJoint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }
+inline Joint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }
 inline JointRecord& Member::record() {
   return component != nullptr ? component->solver.records[index] : own_record;
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

@@ -7,6 +7,8 @@
 
 namespace ductile {
 
+using namespace dynamics;
+
 namespace {
 
 // Every kind of colour vision tells these apart (Okabe and Ito, jfly.uni-koeln.de/color).
@@ -31,14 +33,14 @@ double ElasticPlasticJoint::stage() const {
 
 void Structure::draw(b2Draw& canvas, const JointDrawing& how) const {
   for (const ElasticPlasticJoint* joint : impl_->joints) {
-    const SolverJoint& j = joint->state();
-    const Rows& plastic = joint->record().plastic;
+    const Joint& j = joint->state();
+    const Rows& plastic = joint->record().plastic.net;
     const b2Vec2 at = 0.5f * (joint->GetAnchorA() + joint->GetAnchorB()), t = joint->axis(), n{-t.y, t.x};
     if (how.neutral > 0) {
       // Where anchor B, and a piece of it along the axis, would be without stress: from A, and turned.
       const double relative =
-          double{joint->m_bodyB->GetAngle()} - double{joint->m_bodyA->GetAngle()} - j.reference;
-      const double axis_of_a = std::atan2(t.y, t.x) - j.follow * relative;
+          double{joint->m_bodyB->GetAngle()} - double{joint->m_bodyA->GetAngle()} - j.frame.reference;
+      const double axis_of_a = std::atan2(t.y, t.x) - j.frame.follow * relative;
       const b2Vec2 rest = joint->GetAnchorA() + static_cast<float>(plastic[axial]) * t +
                           static_cast<float>(plastic[shear]) * n;
       canvas.DrawSegment(rest, rest + how.neutral * turned(axis_of_a + plastic[rotation]), neutral_colour);

@@ -7,6 +7,8 @@
 
 namespace ductile {
 
+using namespace dynamics;
+
 void ElasticPlasticJointDef::Initialize(b2Body* a, b2Body* b, const b2Vec2& anchor) {
   const b2Vec2 to_anchor = anchor - a->GetWorldCenter();
   Initialize(a, b, anchor, to_anchor.LengthSquared() > 0 ? to_anchor : a->GetWorldVector({1, 0}));
@@ -67,11 +69,11 @@ ElasticPlasticJoint* ElasticPlasticJoint::cast(b2Joint* joint) {
 }
 
 namespace {
-const SolverJoint none{};
+const Joint none{};
 const JointRecord no_record{};
 }  // namespace
 
-const SolverJoint& ElasticPlasticJoint::state() const { return member_ != nullptr ? member_->data() : none; }
+const Joint& ElasticPlasticJoint::state() const { return member_ != nullptr ? member_->data() : none; }
 const JointRecord& ElasticPlasticJoint::record() const {
   return member_ != nullptr ? member_->record() : no_record;
 }
@@ -79,16 +81,17 @@ const JointRecord& ElasticPlasticJoint::record() const {
 std::uint32_t ElasticPlasticJoint::id() const { return member_ != nullptr ? member_->id : UINT32_MAX; }
 
 b2Vec2 ElasticPlasticJoint::axis() const {
-  const SolverJoint& j = state();
-  const double relative = double{m_bodyB->GetAngle()} - double{m_bodyA->GetAngle()} - j.reference;
-  const double angle = m_bodyA->GetAngle() + std::atan2(j.axis.s, j.axis.c) + j.follow * relative;
+  const Joint& j = state();
+  const double relative = double{m_bodyB->GetAngle()} - double{m_bodyA->GetAngle()} - j.frame.reference;
+  const double angle =
+      m_bodyA->GetAngle() + std::atan2(j.frame.axis.s, j.frame.axis.c) + j.frame.follow * relative;
   return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-double ElasticPlasticJoint::force(Row row) const { return Solver::force(state(), record())[row]; }
+double ElasticPlasticJoint::force(Row row) const { return dynamics::force(state(), record())[row]; }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
-  return (reverse ? record().cap_reverse : record().cap)[row];
+  return (reverse ? record().material.cap_reverse : record().material.cap)[row];
 }
 
 double ElasticPlasticJoint::usage(Row row) const {
@@ -97,16 +100,16 @@ double ElasticPlasticJoint::usage(Row row) const {
   return limit > 0 ? std::abs(f) / limit : 0;
 }
 
-double ElasticPlasticJoint::elastic(Row row) const { return Solver::elastic(state(), record(), row); }
-double ElasticPlasticJoint::plastic(Row row) const { return record().plastic[row]; }
+double ElasticPlasticJoint::elastic(Row row) const { return elastic_strain(state(), record(), row); }
+double ElasticPlasticJoint::plastic(Row row) const { return record().plastic.net[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {
-  return record().flowed_forward[rotation] + record().flowed_back[rotation];
+  return record().plastic.forward[rotation] + record().plastic.back[rotation];
 }
-double ElasticPlasticJoint::elongation() const { return record().flowed_forward[axial]; }
-double ElasticPlasticJoint::compression() const { return record().flowed_back[axial]; }
+double ElasticPlasticJoint::elongation() const { return record().plastic.forward[axial]; }
+double ElasticPlasticJoint::compression() const { return record().plastic.back[axial]; }
 double ElasticPlasticJoint::slip() const {
-  return record().flowed_forward[shear] + record().flowed_back[shear];
+  return record().plastic.forward[shear] + record().plastic.back[shear];
 }
 
 double ElasticPlasticJoint::capacity_used() const {
@@ -127,20 +130,21 @@ double ElasticPlasticJoint::dissipated() const {
 double ElasticPlasticJoint::elastic_energy() const {
   double sum = 0;
   for (const Row row : {axial, shear, rotation})
-    sum += record().spring[row] * elastic(row) * elastic(row) / 2;
+    sum += record().law.spring[row] * elastic(row) * elastic(row) / 2;
   return sum;
 }
 
 bool ElasticPlasticJoint::stiffness_limited(Row row) const {
   const JointRecord& r = record();
-  return std::isfinite(r.stiffness[row]) && r.spring[row] > 0 && r.spring[row] < r.stiffness[row];
+  const double k = r.material.stiffness[row], integrated = r.law.spring[row];
+  return std::isfinite(k) && integrated > 0 && integrated < k;
 }
 
 void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
   if (!(cap >= 0 && cap_reverse >= 0)) throw std::invalid_argument("elastic-plastic joint: caps must be ≥ 0");
   if (member_ == nullptr || member_->broken) return;
-  member_->record().cap[row] = cap;
-  member_->record().cap_reverse[row] = cap_reverse;
+  member_->record().material.cap[row] = cap;
+  member_->record().material.cap_reverse[row] = cap_reverse;
   wake();
 }
 
@@ -149,8 +153,8 @@ void ElasticPlasticJoint::set_stiffness(Row row, double stiffness, double dampin
     throw std::invalid_argument("elastic-plastic joint: stiffness must be > 0 and damping_ratio ≥ 0");
   }
   if (member_ == nullptr) return;
-  member_->record().stiffness[row] = stiffness;
-  member_->record().damping_ratio[row] = damping_ratio;
+  member_->record().material.stiffness[row] = stiffness;
+  member_->record().material.damping_ratio[row] = damping_ratio;
   wake();
 }
 

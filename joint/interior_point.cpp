@@ -1,42 +1,43 @@
-// The same convex problem by a primal–dual interior point method: slower than Newton's where few rows flow,
-// but a dozen rounds suffice whatever the number of rows that change their state at once (a struck chain, a
-// collapse).
-//
-//   M (v − v*) + Jᵀ s = 0        J v + b = s/G + z⁺ − z⁻        z⁺ p⁺ = μ,   z⁻ p⁻ = μ,   μ → 0
-//
-// s are the impulses, z± the plastic slips, p⁺ = F⁺ + ηz⁺ − s and p⁻ = F⁻ + ηz⁻ + s what is left to the caps,
-// which hardening raises by η per slip; all p, z > 0. Each round is one system with the pattern of H: the
-// slope of a row is 1/(1/G + z⁺/(p⁺ + ηz⁺) + z⁻/(p⁻ + ηz⁻)). Mehrotra's predictor–corrector.
+#include "interior_point.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver.h"
+#include "objective.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
-namespace {
-constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
-
-int Solver::interior_point() {
+int interior_point(System& system, Hessian& hessian, double work, std::span<BarrierRows> barrier,
+                   std::span<Vec3> g, std::span<Vec3> d) {
   constexpr double boundary = 0.995;  // share of the way to a bound that a step may go
   // Of the work: rows that slip a hundred-millionth of what others do are told apart from those that hold.
   // What is left undecided makes the Newton rounds that follow cycle: at 1e-11 in a struck beam at 6000 Hz,
   // at 1e-15 in a spinning chain whose pieces weigh 1e4 times as much as their neighbours and which stretches
   // everywhere at once.
   constexpr double accuracy = 1e-19;
-  const double work = scale_ + speed_;
 
   // Start well inside, with slips of the size of the velocities at hand.
-  find_x();
+  std::vector<Joint>& joints = system.joints;
+  std::vector<JointRecord>& records = system.records;
+  const auto velocity = [&](const Joint& j) {
+    return relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
+  };
+  // d ← −H⁻¹g
+  const auto solve_for_step = [&] {
+    for (std::size_t i = 0; i < system.free; ++i) {
+      if (system.bodies[i].inertia == 0) g[i].w = 0;
+      d[i] = -1.0 * g[i];
+    }
+    hessian.solve(d.first(system.free));
+  };
+  find_x(system);
   double slip = 0;
   int bounds = 0;
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    const SolverJoint& j = joints[k];
+    const Joint& j = joints[k];
     const Rows& x = records[k].x;
     for (unsigned i = 0; i < 3; ++i) {
-      Barrier& w = barrier_[k][i];
+      Barrier& w = barrier[k][i];
       w = {};
       if (!(j.G[i] > 0)) continue;
       const double cap[2] = {records[k].law.cap[i], records[k].law.cap_reverse[i]};
@@ -60,7 +61,7 @@ int Solver::interior_point() {
   slip /= bounds;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     for (unsigned i = 0; i < 3; ++i) {
-      Barrier& w = barrier_[k][i];
+      Barrier& w = barrier[k][i];
       const double x = records[k].x[i];
       w.z[0] = std::max(x, 0.0) + slip / 10;
       w.z[1] = std::max(-x, 0.0) + slip / 10;
@@ -71,11 +72,11 @@ int Solver::interior_point() {
     }
   }
 
-  const auto each_bound = [this](auto&& visit) {
+  const auto each_bound = [&](auto&& visit) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       for (unsigned i = 0; i < 3; ++i) {
         for (int side = 0; side < 2; ++side) {
-          if (barrier_[k][i].bounded[side]) visit(barrier_[k][i], side);
+          if (barrier[k][i].bounded[side]) visit(barrier[k][i], side);
         }
       }
     }
@@ -87,35 +88,33 @@ int Solver::interior_point() {
     each_bound([&](const Barrier& w, int side) { gap += w.z[side] * w.p[side]; });
     if (!(gap > accuracy * work)) break;
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      SolverJoint& j = joints[k];
+      const Joint& j = joints[k];
       for (unsigned i = 0; i < 3; ++i) {
-        const Barrier& w = barrier_[k][i];
+        Barrier& w = barrier[k][i];
         double compliance = 1 / j.G[i];
         for (int side = 0; side < 2; ++side) {
           if (w.bounded[side]) compliance += w.z[side] / (w.p[side] + w.hardening * w.z[side]);
         }
-        records[k].slope[i] = j.G[i] > 0 ? 1 / compliance : 0;
+        w.slope = j.G[i] > 0 ? 1 / compliance : 0;
       }
+      Coupling& D = records[k].tangent;
+      D.nn = barrier[k][0].slope, D.qq = barrier[k][1].slope, D.mm = barrier[k][2].slope;
     }
-    factor();
+    hessian.refactor(system);
     ++factorisations;
 
     // Predictor (μ = 0), then a corrector with the centring and the second-order terms that the predictor
     // calls for.
     double mu = 0, step = 1;
     for (const bool corrector : {false, true}) {
-      for (std::size_t i = 0; i < free_; ++i) {
-        const SolverBody& b = bodies[i];
-        const Vec3 given = b.v - b.v_free;
-        g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
-      }
+      inertial_gradient(system, g);
       for (std::size_t k = 0; k < joints.size(); ++k) {
-        const SolverJoint& j = joints[k];
-        const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+        const Joint& j = joints[k];
+        const Rows v = velocity(j);
         Rows s{};
         for (unsigned i = 0; i < 3; ++i) {
           if (!(j.G[i] > 0)) continue;
-          Barrier& w = barrier_[k][i];
+          Barrier& w = barrier[k][i];
           w.r = v[i] + j.bias[i] - w.s / j.G[i];
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
@@ -123,21 +122,17 @@ int Solver::interior_point() {
             const double over = w.z[side], after = w.hardening * over;
             w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side] + after * over) / (w.p[side] + after);
           }
-          s[i] = w.s + records[k].slope[i] * w.r;
+          s[i] = w.s + w.slope * w.r;
         }
-        scatter(j, s);
+        add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
       }
-      for (std::size_t i = 0; i < free_; ++i) {
-        if (bodies[i].inertia == 0) g_[i].w = 0;
-        d_[i] = -1.0 * g_[i];
-      }
-      ldlt_.solve({d_.data(), free_});
+      solve_for_step();
       for (std::size_t k = 0; k < joints.size(); ++k) {
-        const SolverJoint& j = joints[k];
-        const Rows y = relative(j, d_[z(j.a)], d_[z(j.b)]);
+        const Joint& j = joints[k];
+        const Rows y = relative_velocity(j, d[z(j.a)], d[z(j.b)]);
         for (unsigned i = 0; i < 3; ++i) {
-          Barrier& w = barrier_[k][i];
-          w.ds = records[k].slope[i] * (y[i] + w.r);
+          Barrier& w = barrier[k][i];
+          w.ds = w.slope * (y[i] + w.r);
           for (int side = 0; side < 2; ++side) {
             if (!w.bounded[side]) continue;
             const double over = w.z[side], ds = side == 0 ? w.ds : -w.ds;
@@ -158,8 +153,8 @@ int Solver::interior_point() {
       });
       mu = std::pow(std::clamp(after / gap, 0.0, 1.0), 3) * gap / bounds;
     }
-    for (std::size_t i = 0; i < free_; ++i) bodies[i].v += step * d_[i];
-    for (auto& rows : barrier_) {
+    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v += step * d[i];
+    for (auto& rows : barrier) {
       for (Barrier& w : rows) w.s += step * w.ds;
     }
     each_bound([&](Barrier& w, int side) {
@@ -169,47 +164,30 @@ int Solver::interior_point() {
   }
 
   // The rows that flow are known now. Velocities are not yet good enough to tell by: a rigid row multiplies
-  // what they lack by κ. So the law is taken on those linear pieces, whatever x says, and solved there.
+  // what they lack by κ. So the law is taken in those regimes, whatever x says, and solved there.
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    unsigned piece = 0;
+    unsigned regime = 0;
     for (unsigned i = 0; i < 3; ++i) {
       for (unsigned side = 0; side < 2; ++side) {
-        const Barrier& w = barrier_[k][i];
-        if (w.bounded[side] && w.z[side] * joints[k].G[i] > w.p[side]) piece |= 1u << (i + 3 * side);
+        const Barrier& w = barrier[k][i];
+        if (w.bounded[side] && w.z[side] * joints[k].G[i] > w.p[side]) regime |= 1u << (i + 3 * side);
       }
     }
-    joints[k].piece = static_cast<std::uint8_t>(piece);
+    joints[k].regime = static_cast<std::uint8_t>(regime);
   }
-  short_step_ = false;
-  factor_tangents();
+  hessian.factor_tangents(system, false);
   ++factorisations;
   for (int refinement = 0; refinement < 2; ++refinement) {
-    for (std::size_t i = 0; i < free_; ++i) {
-      const SolverBody& b = bodies[i];
-      const Vec3 given = b.v - b.v_free;
-      g_[i] = {b.mass * given.x, b.mass * given.y, b.inertia * given.w};
+    inertial_gradient(system, g);
+    for (const Joint& j : joints) {
+      Rows x = velocity(j);
+      for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
+      add_transposed(j, respond_in(system.record(j).law, j.regime, x), g[z(j.a)], g[z(j.b)]);
     }
-    for (const SolverJoint& j : joints) {
-      const RowLaw& law = record(j).law;
-      const Rows v = relative(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-      Rows s;
-      for (unsigned i = 0; i < 3; ++i) {
-        const double trial = j.G[i] * (v[i] + j.bias[i]);
-        const double held = (j.piece >> i & 1) != 0         ? law.cap[i]
-                            : (j.piece >> (i + 3) & 1) != 0 ? -law.cap_reverse[i]
-                                                            : trial;
-        s[i] = held + law.after_yield[i] * (trial - held);
-      }
-      scatter(j, s);
-    }
-    for (std::size_t i = 0; i < free_; ++i) {
-      if (bodies[i].inertia == 0) g_[i].w = 0;
-      d_[i] = -1.0 * g_[i];
-    }
-    ldlt_.solve({d_.data(), free_});
-    for (std::size_t i = 0; i < free_; ++i) bodies[i].v += d_[i];
+    solve_for_step();
+    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v += d[i];
   }
   return factorisations;
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

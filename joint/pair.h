@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace ductile {
+namespace ductile::dynamics {
 
 using Pair [[gnu::vector_size(16)]] = double;
 
@@ -26,4 +26,4 @@ inline void subtract(double* from, const Pair& what) {
 
 inline Pair swapped(const Pair& p) { return Pair{p[1], p[0]}; }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

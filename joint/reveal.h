@@ -5,7 +5,7 @@
 //   of(body, b2Body_m_islandIndex{})
 #pragma once
 
-namespace ductile {
+namespace ductile::dynamics {
 
 template <class Tag, typename Tag::Type member>
 struct Reveal {
@@ -24,4 +24,4 @@ auto& of(Object& object, Tag tag) {
   return object.*reveal(tag);
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

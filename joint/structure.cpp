@@ -9,6 +9,8 @@
 
 namespace ductile {
 
+using namespace dynamics;
+
 Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(watch_world(w, *this)) {}
 
 Structure::Impl::~Impl() {
@@ -46,19 +48,19 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.break_group = d.break_group;
   for (unsigned i = 0; i < 3; ++i) {
     const RowDef& row = d.rows[i];
-    m.own_record.stiffness[i] = row.stiffness;
-    m.own_record.damping_ratio[i] = row.damping_ratio;
-    m.own_record.cap[i] = row.cap;
-    m.own_record.cap_reverse[i] = row.cap_reverse;
-    m.own_record.hardening[i] = row.hardening;
+    m.own_record.material.stiffness[i] = row.stiffness;
+    m.own_record.material.damping_ratio[i] = row.damping_ratio;
+    m.own_record.material.cap[i] = row.cap;
+    m.own_record.material.cap_reverse[i] = row.cap_reverse;
+    m.own_record.material.hardening[i] = row.hardening;
   }
   if (!d.interaction.empty()) {
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
-    m.own_record.surface = m.surface.get();
+    m.own_record.material.surface = m.surface.get();
   }
-  m.own.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
-  m.own.follow = d.axisFollow;
-  m.own.reference = weld->GetReferenceAngle();
+  m.own.frame.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
+  m.own.frame.follow = d.axisFollow;
+  m.own.frame.reference = weld->GetReferenceAngle();
   b2Body *a = weld->GetBodyA(), *b = weld->GetBodyB();
   m.joint = ElasticPlasticJoint::put_in_place(weld, &m);
   members.push_back(std::move(member));
@@ -86,14 +88,14 @@ void Structure::Impl::forget(Member& member) {
 }
 
 void Structure::Impl::dissolve(Component& component) {
-  gone_.damping += component.solver.ledger.damping;
-  gone_.numerical += component.solver.ledger.numerical;
-  gone_.driven += component.solver.ledger.driven;
+  gone_.damping += component.solver.energies().damping;
+  gone_.numerical += component.solver.energies().numerical;
+  gone_.driven += component.solver.energies().driven;
   component.solver.find_gaps();
   for (Member* m : component.members) {
     m->own = component.solver.joints[m->index];
     m->own_record = component.solver.records[m->index];
-    m->drift_time = component.solver.drift_time;
+    m->drift_time = component.solver.drift_time();
     m->known = {component.known(m->own.a), component.known(m->own.b)};
     if (m->broken) m->own.impulse = {};
     m->belong_to(nullptr);
@@ -201,11 +203,11 @@ void Structure::Impl::form() {
 void Structure::Impl::look_for_breaks(Component& component) {
   if (!component.solver.any_flows()) return;
   for (Member* m : component.members) {
-    SolverJoint& j = component.solver.joints[m->index];
-    if (j.piece == 0 || m->broken) continue;
-    const Rows force = Solver::force(j, m->record());
+    Joint& j = component.solver.joints[m->index];
+    if (j.regime == 0 || m->broken) continue;
+    const Rows force = dynamics::force(j, m->record());
     const unsigned row =
-        j.piece == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.piece)));
+        j.regime == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.regime)));
     const double energy = m->joint->dissipated();
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear
@@ -233,7 +235,7 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
   const auto let_go = [&](Member& m) {
     m.broken = broke_ = true;
     say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
-    SolverJoint& j = m.data();
+    Joint& j = m.data();
     JointRecord& r = m.record();
     if (m.component != nullptr) m.component->solver.find_gaps();
     for (unsigned i = 0; i < 3; ++i) {
@@ -241,8 +243,8 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
       r.stored[i] = 0;
       j.neutral[i] = r.gap[i];
     }
-    r.cap = r.cap_reverse = {};
-    r.surface = nullptr;
+    r.material.cap = r.material.cap_reverse = {};
+    r.material.surface = nullptr;
     if (m.component != nullptr) m.component->disturb();
   };
   let_go(member);
@@ -259,9 +261,9 @@ JointEnergy Structure::Impl::energy() const {
     sum.dissipated += m->joint->dissipated();
   }
   for (const auto& c : components) {
-    sum.damping += c->solver.ledger.damping;
-    sum.numerical += c->solver.ledger.numerical;
-    sum.driven += c->solver.ledger.driven;
+    sum.damping += c->solver.energies().damping;
+    sum.numerical += c->solver.energies().numerical;
+    sum.driven += c->solver.energies().driven;
   }
   return sum;
 }

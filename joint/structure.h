@@ -14,11 +14,11 @@ struct Structure::Impl {
   ~Impl();
 
   ElasticPlasticJoint* take(b2WeldJoint* weld, const ElasticPlasticJointDef& joint_def);
-  void forget(Member& member);
+  void forget(dynamics::Member& member);
   void world_is_gone();
 
   // The phases of an island in b2World::Step, called by its joints.
-  bool enlist(Member* member, Component* component);  // whether it is the first
+  bool enlist(dynamics::Member* member, dynamics::Component* component);  // whether it is the first
   void velocity(const b2SolverData& data);
   void position(const b2SolverData& data);
 
@@ -28,7 +28,7 @@ struct Structure::Impl {
   void restore(const State& state);
 
   void update();
-  void shift_origin(const b2Vec2& new_origin, Member& caller);
+  void shift_origin(const b2Vec2& new_origin, dynamics::Member& caller);
   std::size_t bytes() const;
   JointEnergy energy() const;
 
@@ -36,9 +36,9 @@ struct Structure::Impl {
   StructureDef def;
   b2Body* watch;
   std::uint32_t next_id = 0;
-  std::vector<std::unique_ptr<Member>> members;  // by id
-  std::vector<ElasticPlasticJoint*> joints;      // as members
-  std::vector<std::unique_ptr<Component>> components;
+  std::vector<std::unique_ptr<dynamics::Member>> members;  // by id
+  std::vector<ElasticPlasticJoint*> joints;                // as members
+  std::vector<std::unique_ptr<dynamics::Component>> components;
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
@@ -46,15 +46,15 @@ struct Structure::Impl {
 
  private:
   void form();
-  void dissolve(Component& component);
-  void look_for_breaks(Component& component);
-  void break_joint(Member& member, JointEvent::Mode mode, Row row);
-  void say(const Member& member, const JointEvent& event);
+  void dissolve(dynamics::Component& component);
+  void look_for_breaks(dynamics::Component& component);
+  void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
+  void say(const dynamics::Member& member, const JointEvent& event);
   decltype(members)::iterator find(std::uint32_t id);
 
   // The island at hand.
-  std::vector<Member*> enlisted_;
-  std::vector<Component*> active_;
+  std::vector<dynamics::Member*> enlisted_;
+  std::vector<dynamics::Component*> active_;
   std::uint64_t batch_ = 0;
   int velocity_calls_ = 0;
   bool enlisting_ = false;
@@ -75,9 +75,9 @@ struct Structure::Impl::State {
   StructureDef def;
   b2Body* watch;
   std::uint32_t next_id;
-  std::vector<Member> members;
+  std::vector<dynamics::Member> members;
   struct Formed {
-    Component component;
+    dynamics::Component component;
     std::vector<std::uint32_t> ids;  // of its members
   };
   std::vector<Formed> components;

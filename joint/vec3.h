@@ -1,7 +1,12 @@
 // Three numbers of one planar body: velocity (vx, vy, ω), momentum, or displacement, in the body's own frame.
 #pragma once
 
-namespace ductile {
+#include <cstddef>
+
+namespace ductile::dynamics {
+
+/// Bodies and joints are numbered by int; as an index.
+constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 struct Vec3 {
   double x = 0, y = 0, w = 0;
@@ -23,4 +28,4 @@ struct Turn {
 inline Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 inline Turn inverse(const Turn& a) { return {a.c, -a.s}; }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

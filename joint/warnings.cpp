@@ -8,6 +8,8 @@
 
 namespace ductile {
 
+using namespace dynamics;
+
 namespace {
 
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ductile {
+namespace ductile::dynamics {
 
 namespace {
 
@@ -172,4 +172,4 @@ Coupling YieldSurface::tangent(const Rows& G, double h, const Rows& trial) const
           .qm = -vq * vm / bottom};
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

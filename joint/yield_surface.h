@@ -11,11 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "ductile/joint.h"
+#include "ductile/joint_law.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
-using Rows = std::array<double, 3>;  // axial, shear, rotation
+/// One number per row of a joint: axial, shear, rotation.
+using Rows = std::array<double, 3>;
 
 /// A symmetric 3×3 matrix.
 struct Coupling {
@@ -59,4 +60,4 @@ class YieldSurface {
   double shear_;
 };
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

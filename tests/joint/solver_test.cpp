@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace ductile {
+namespace ductile::dynamics {
 namespace {
 
 // Masses on a line, joined by elastic-plastic axial rows: in one dimension no rotation bends the energy's
@@ -13,33 +13,33 @@ namespace {
 struct Line {
   explicit Line(int n) {
     for (int i = 0; i < n; ++i) {
-      SolverBody body;
+      Body body;
       body.mass = 100 + 37 * (i % 5);
       body.inertia = 10;
       solver.bodies.push_back(body);
-      Solver::put(solver.places.emplace_back(), {2.0 * i, 0, 0});
+      put(solver.places.emplace_back(), {2.0 * i, 0, 0});
     }
     for (int i = 1; i < n; ++i) {
-      SolverJoint joint;
+      Joint joint;
       joint.a = i - 1, joint.b = i;
-      joint.ax = 1, joint.bx = -1;
+      joint.frame.ax = 1, joint.frame.bx = -1;
       solver.joints.push_back(joint);
       JointRecord record;
-      record.stiffness = {1e6, unlimited, unlimited};
-      record.cap = {2e3 + 500 * (i % 3), unlimited, unlimited};
-      record.cap_reverse = {3e3, unlimited, unlimited};
+      record.material.stiffness = {1e6, unlimited, unlimited};
+      record.material.cap = {2e3 + 500 * (i % 3), unlimited, unlimited};
+      record.material.cap_reverse = {3e3, unlimited, unlimited};
       solver.records.push_back(record);
     }
     solver.keeps_ledger = true;
     solver.form(solver.bodies.size());
     solver.locate();
-    for (SolverJoint& j : solver.joints) j.neutral = solver.record(j).gap;
+    for (Joint& j : solver.joints) j.neutral = solver.record(j).gap;
   }
   double energy() {
     solver.find_gaps();
     double sum = 0;
-    for (const SolverBody& b : solver.bodies) sum += b.mass * b.v.x * b.v.x / 2;
-    for (const SolverJoint& j : solver.joints) {
+    for (const Body& b : solver.bodies) sum += b.mass * b.v.x * b.v.x / 2;
+    for (const Joint& j : solver.joints) {
       const double strain = solver.record(j).gap[axial] - j.neutral[axial];
       sum += 1e6 * strain * strain / 2;
     }
@@ -47,14 +47,14 @@ struct Line {
   }
   // The same, with what is gone, by the solver's books.
   double booked() const {
-    double sum = solver.ledger.damping + solver.ledger.numerical;
-    for (const SolverBody& b : solver.bodies) sum += b.mass * b.v.x * b.v.x / 2;
+    double sum = solver.energies().damping + solver.energies().numerical;
+    for (const Body& b : solver.bodies) sum += b.mass * b.v.x * b.v.x / 2;
     for (const JointRecord& r : solver.records) sum += r.stored[axial] + r.dissipated[axial];
     return sum;
   }
   void expect_stored() {
     solver.find_gaps();
-    for (const SolverJoint& j : solver.joints) {
+    for (const Joint& j : solver.joints) {
       const double strain = solver.record(j).gap[axial] - j.neutral[axial];
       EXPECT_NEAR(solver.record(j).stored[axial], 1e6 * strain * strain / 2, 1e-9);
     }
@@ -69,8 +69,6 @@ struct Line {
     solver.advance();
     return report;
   }
-  static constexpr double unlimited = std::numeric_limits<double>::infinity();
-  static constexpr int axial = 0;
   Solver solver;
 };
 
@@ -81,10 +79,10 @@ TEST(Solver, ACutOffSolveAddsNoEnergyAndIsCounted) {
   std::mt19937 random(1);
   double energy = line.energy(), hits = 0, momentum = 0;
   const double start = energy;
-  for (const SolverBody& b : line.solver.bodies) momentum += b.mass * b.v.x;
+  for (const Body& b : line.solver.bodies) momentum += b.mass * b.v.x;
   for (int i = 0; i < 2000; ++i) {
     const bool cut = random() % 3 == 0;
-    line.solver.round_bound = cut ? static_cast<int>(random() % 2) : 100;
+    line.solver.tunables().round_bound = cut ? static_cast<int>(random() % 2) : 100;
     const SolveReport report = line.step(1.0 / 240);
     EXPECT_TRUE(cut || !report.bound_hit);
     hits += report.bound_hit;
@@ -95,7 +93,7 @@ TEST(Solver, ACutOffSolveAddsNoEnergyAndIsCounted) {
     energy = now;
   }
   EXPECT_GT(hits, 20);
-  for (const SolverBody& b : line.solver.bodies) momentum -= b.mass * b.v.x;
+  for (const Body& b : line.solver.bodies) momentum -= b.mass * b.v.x;
   EXPECT_NEAR(momentum, 0, 1e-6);
 }
 
@@ -107,17 +105,17 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
     l->solver.begin(1.0 / 240);
     SolveReport report;
     if (l == &line) {
-      l->solver.round_bound = 0;
+      l->solver.tunables().round_bound = 0;
       l->solver.solve(report);
       EXPECT_TRUE(report.bound_hit);
-      l->solver.round_bound = 100;
+      l->solver.tunables().round_bound = 100;
     }
     l->solver.solve(report);
     l->solver.advance();
   }
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_GT(std::abs(other.solver.records[i].plastic[0]), 1e-3);
-    EXPECT_NEAR(line.solver.records[i].plastic[0], other.solver.records[i].plastic[0], 1e-12);
+    EXPECT_GT(std::abs(other.solver.records[i].plastic.net[0]), 1e-3);
+    EXPECT_NEAR(line.solver.records[i].plastic.net[0], other.solver.records[i].plastic.net[0], 1e-12);
     EXPECT_NEAR(line.solver.joints[i].neutral[0], other.solver.joints[i].neutral[0], 1e-12);
   }
 }
@@ -128,19 +126,19 @@ TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
   line.solver.keeps_ledger = false;
   for (int i = 0; i < 12; ++i) {
     line.solver.begin(1.0 / 60);
-    for (SolverBody& b : line.solver.bodies) b.v_free = {1, 0, 0};
+    for (Body& b : line.solver.bodies) b.v_free = {1, 0, 0};
     SolveReport report;
     line.solver.solve(report);
     EXPECT_FALSE(report.bound_hit) << i;
-    for (const SolverBody& b : line.solver.bodies) EXPECT_NEAR(b.v.x, 1, 1e-9) << i;
+    for (const Body& b : line.solver.bodies) EXPECT_NEAR(b.v.x, 1, 1e-9) << i;
     if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     line.solver.advance();
     if (i != 2) continue;
-    for (int k = 0; k < 3; ++k) Solver::put(line.solver.places[static_cast<std::size_t>(k)], {2.0 * k, 0, 0});
+    for (int k = 0; k < 3; ++k) put(line.solver.places[static_cast<std::size_t>(k)], {2.0 * k, 0, 0});
     line.solver.locate();
     line.solver.bodies[1].v = {};
   }
 }
 
 }  // namespace
-}  // namespace ductile
+}  // namespace ductile::dynamics

@@ -7,7 +7,7 @@
 
 #include "beam.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 namespace {
 
 // |m| = 1 − n² of a rectangle, as a polygon of 2k points.
@@ -194,4 +194,4 @@ TEST(YieldSurface, ACollapsingChainIsSolvedInTime) {
 }
 
 }  // namespace
-}  // namespace ductile
+}  // namespace ductile::dynamics

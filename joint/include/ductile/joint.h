@@ -17,51 +17,23 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace ductile {
+#include "ductile/joint_law.h"
 
-/// A cap or a maximum that is never reached.
-inline constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// The stiffness of a row that is as stiff as the step can integrate.
-inline constexpr double rigid = std::numeric_limits<double>::infinity();
+namespace ductile {
 
 class ElasticPlasticJoint;
 class Structure;
+namespace dynamics {  // what is private to the room
 struct Component;
-struct Member;
-struct SolverJoint;
+struct Joint;
 struct JointRecord;
-
-/// Index of a row.
-enum Row : unsigned { axial, shear, rotation };
-
-/// The law of one row.
-struct RowDef {
-  double stiffness = rigid;  ///< k, N/m or N m/rad; > 0
-  double damping_ratio =
-      0;  ///< ζ ≥ 0: c = 2ζ√(k·m_eff), m_eff the row's effective mass; no effect when rigid
-  double cap = unlimited;  ///< F⁺ ≥ 0, N or N m: tension, left shear, counter-clockwise moment; 0: free
-  double cap_reverse = unlimited;  ///< F⁻ ≥ 0, as a positive number
-  double hardening = 0;            ///< stiffness after yield, N/m or N m/rad; ≥ 0, below `stiffness`;
-                                   ///< 0 with an interaction curve
-
-  /// A row that carries nothing: a pin is rotation = free(), a roller axial = free().
-  static constexpr RowDef free() { return {.cap = 0, .cap_reverse = 0}; }
-  /// A row of cap ±k·displacement: "max force given by a maximum elastic displacement or rotation".
-  static constexpr RowDef elastic_up_to(double k, double displacement) {
-    return {.stiffness = k, .cap = k * displacement, .cap_reverse = k * displacement};
-  }
-};
-
-/// A point of an N–M interaction curve: N in tension positive, M as the joint's.
-struct AxialMoment {
-  double N = 0, M = 0;
-};
+struct Member;
+}  // namespace dynamics
 
 /// Definition of an elastic-plastic joint, as a b2WeldJointDef is of a weld.
 struct ElasticPlasticJointDef : b2JointDef {
@@ -142,18 +114,18 @@ class ElasticPlasticJoint : public b2WeldJoint {
 
  private:
   friend class Structure;
-  static ElasticPlasticJoint* put_in_place(b2WeldJoint* weld, Member* member);
-  ElasticPlasticJoint(const b2WeldJoint& weld, Member* member);
+  static ElasticPlasticJoint* put_in_place(b2WeldJoint* weld, dynamics::Member* member);
+  ElasticPlasticJoint(const b2WeldJoint& weld, dynamics::Member* member);
   ~ElasticPlasticJoint() override;
 
-  const SolverJoint& state() const;
-  const JointRecord& record() const;
+  const dynamics::Joint& state() const;
+  const dynamics::JointRecord& record() const;
   void wake();
 
-  friend struct Member;
-  Member* member_;
-  Component* component_ = nullptr;  // as member_->component: what each step looks at is in the joint itself
-  bool leads_ = false;              // first joint of its island: does the work of all
+  friend struct dynamics::Member;
+  dynamics::Member* member_;
+  dynamics::Component* component_ = nullptr;  // member_'s, as each step looks at it
+  bool leads_ = false;                        // first joint of its island: does the work of all
 };
 
 /// How Structure::draw() shows joints. A scale of 0 leaves its mark out.

@@ -1,10 +1,10 @@
-#include "forecast.h"
+#include "warm_start.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace ductile {
+namespace ductile::dynamics {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr auto differences_up_to() {
 
 }  // namespace
 
-void Forecast::form(std::span<const Vec3> masses) {
+void LinearPrediction::form(std::span<const Vec3> masses) {
   for (auto& v : past_) v.assign(masses.size(), {});
   samples_.clear();
   const std::size_t count = std::min(sampled, (masses.size() + 9) / 10);
@@ -32,13 +32,13 @@ void Forecast::form(std::span<const Vec3> masses) {
   forget();
 }
 
-std::span<Vec3> Forecast::newest() {
+std::span<Vec3> LinearPrediction::newest() {
   newest_ = (newest_ + terms - 1) % terms;
   known_ = std::min(known_ + 1, terms + 2);
   return past_[z(newest_)];
 }
 
-void Forecast::next(std::span<Vec3> to) const {
+void LinearPrediction::next(std::span<Vec3> to) const {
   // Number by number, whichever of the three it is: two at once.
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const double* past[terms];
@@ -51,7 +51,7 @@ void Forecast::next(std::span<Vec3> to) const {
   }
 }
 
-void Forecast::fit() {
+void LinearPrediction::fit() {
   const auto slot = [this](int steps_ago) { return z((newest_ + steps_ago) % terms); };
   const int n = std::min(known_ - 1, terms);  // terms that are known of the solution before the newest,
   const double older = known_ > terms + 1 ? 0.5 : 0;  // and were of the one before that
@@ -83,7 +83,7 @@ void Forecast::fit() {
 
 // L D Lᵀ; a trifle on the diagonal keeps terms out that rounding alone tells apart. False where nothing
 // moves, or nothing is finite.
-bool Forecast::solve(int n, double (&a)[terms]) const {
+bool LinearPrediction::solve(int n, double (&a)[terms]) const {
   double l[terms][terms], inverse[terms], x[terms] = {};
   for (int i = 0; i < n; ++i) {
     double d = gram_[i][i] * (1 + 1e-14), scaled[terms];
@@ -109,10 +109,10 @@ bool Forecast::solve(int n, double (&a)[terms]) const {
   return true;
 }
 
-std::size_t Forecast::bytes() const {
+std::size_t LinearPrediction::bytes() const {
   std::size_t sum = samples_.capacity() * sizeof(Sample);
   for (const auto& v : past_) sum += v.capacity() * sizeof(Vec3);
   return sum;
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

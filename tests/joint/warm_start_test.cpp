@@ -1,13 +1,13 @@
 // What a forecast tells, against sums of modes, which it must know to rounding once it has seen enough of
 // them.
-#include "../../joint/forecast.h"
+#include "../../joint/warm_start.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace ductile {
+namespace ductile::dynamics {
 namespace {
 
 struct Mode {
@@ -53,11 +53,11 @@ struct Told {
     return largest;
   }
   std::vector<Vec3> masses;
-  Forecast forecast;
+  LinearPrediction forecast;
 };
 
 // Seven terms know six geometric sequences, which three damped modes are, and what stays.
-TEST(Forecast, KnowsASumOfModes) {
+TEST(LinearPrediction, KnowsASumOfModes) {
   const std::vector<Mode> modes{{0.99, 0.2}, {0.9, 0.7}, {1, 0.05}};
   for (const std::size_t bodies : {4u, 5u, 40u, 99u, 100u, 300u}) {
     Told told(bodies);
@@ -71,7 +71,7 @@ TEST(Forecast, KnowsASumOfModes) {
   }
 }
 
-TEST(Forecast, OfWhatStaysIsThatItStays) {
+TEST(LinearPrediction, OfWhatStaysIsThatItStays) {
   Told told(3);
   const auto same = [](std::size_t i) { return Vec3{1, 2.0 * static_cast<double>(i), -3}; };
   for (int n = 0; n < 12; ++n) {
@@ -80,7 +80,7 @@ TEST(Forecast, OfWhatStaysIsThatItStays) {
   }
 }
 
-TEST(Forecast, OfNothingIsNothing) {
+TEST(LinearPrediction, OfNothingIsNothing) {
   Told told(2);
   for (int n = 0; n < 12; ++n) told.see([](std::size_t) { return Vec3{}; });
   EXPECT_EQ(told.error([](std::size_t) { return Vec3{}; }), 0);
@@ -89,7 +89,7 @@ TEST(Forecast, OfNothingIsNothing) {
 }
 
 // What swings on with another law than before, as after a blow, is known again once what was is forgotten.
-TEST(Forecast, LearnsAnew) {
+TEST(LinearPrediction, LearnsAnew) {
   const std::vector<Mode> before{{1, 1.3}}, after{{0.95, 0.3}};
   Told told(6);
   for (int n = 0; n < 10; ++n) told.see([&](std::size_t i) { return sum(before, i, n); });
@@ -99,7 +99,7 @@ TEST(Forecast, LearnsAnew) {
 }
 
 // What lay still but for rounding and is thrown does not become the same multiple of itself once more.
-TEST(Forecast, IsNotCarriedAwayByAThrow) {
+TEST(LinearPrediction, IsNotCarriedAwayByAThrow) {
   Told told(4);
   for (int n = 0; n < 12; ++n) {
     told.see([&](std::size_t i) {
@@ -111,7 +111,7 @@ TEST(Forecast, IsNotCarriedAwayByAThrow) {
   EXPECT_LE(told.error(thrown), 1e6);
 }
 
-TEST(Forecast, IsFiniteAgainAfterWhatIsNot) {
+TEST(LinearPrediction, IsFiniteAgainAfterWhatIsNot) {
   Told told(4);
   for (int n = 0; n < 10; ++n) told.see([](std::size_t) { return Vec3{std::sin(1e3), 1e200, 0}; });
   told.see([](std::size_t) { return Vec3{std::numeric_limits<double>::quiet_NaN(), 0, 0}; });
@@ -121,4 +121,4 @@ TEST(Forecast, IsFiniteAgainAfterWhatIsNot) {
 }
 
 }  // namespace
-}  // namespace ductile
+}  // namespace ductile::dynamics

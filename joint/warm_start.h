@@ -16,9 +16,9 @@
 
 #include "vec3.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
-class Forecast {
+class LinearPrediction {
  public:
   /// For bodies of these masses (m, m, I). Allocates.
   void form(std::span<const Vec3> masses);
@@ -42,7 +42,6 @@ class Forecast {
   };
 
   bool solve(int n, double (&a)[terms]) const;
-  static constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
   std::array<std::vector<Vec3>, terms> past_;  // a ring
   std::array<double, terms> share_{};          // of each in what comes next
@@ -52,4 +51,4 @@ class Forecast {
   double gram_[terms][terms + 1] = {};  // the normal equations; the column after them is their right side
 };
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

@@ -1,0 +1,156 @@
+// How joints that hang together become a component: elimination order, poses in doubles, what is known of
+// them from before.
+#include "component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "frames.h"
+
+namespace ductile::dynamics {
+
+Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind)
+    : solver(solver_kind == SolverKind::iterative), members(std::move(enlisted_members)), kind(solver_kind) {
+  // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
+  std::unordered_map<b2Body*, int> number, degree;
+  std::vector<b2Body*> bodies, others;
+  for (const Member* m : members) {
+    for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
+      ++degree[body];
+      if (!number.try_emplace(body, 0).second) continue;
+      (is_free(body) ? bodies : others).push_back(body);
+    }
+  }
+  const std::size_t free_bodies = bodies.size();
+  for (std::size_t i = 0; i < free_bodies; ++i) number[bodies[i]] = static_cast<int>(i);
+  std::vector<std::pair<int, int>> edges;
+  for (const Member* m : members) {
+    b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
+    if (is_free(a) && is_free(b)) edges.emplace_back(number[a], number[b]);
+  }
+  const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
+  std::vector<b2Body*> ordered;
+  ordered.reserve(free_bodies + others.size());
+  for (const int i : order) ordered.push_back(bodies[z(i)]);
+  ordered.insert(ordered.end(), others.begin(), others.end());
+
+  // Poses are kept relative to a place nearby, so that doubles resolve strains anywhere in the world.
+  const b2Vec2 near = ordered.front()->GetWorldCenter();
+  origin_x = std::round(near.x);
+  origin_y = std::round(near.y);
+  mirrors.resize(ordered.size());
+  solver.bodies.resize(ordered.size());
+  solver.places.resize(ordered.size());
+  goal.resize(ordered.size());
+  accounts.resize(ordered.size());
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    b2Body* body = ordered[i];
+    number[body] = static_cast<int>(i);
+    Mirror& mirror = mirrors[i];
+    mirror.body = body;
+    mirror.left = {body->GetWorldCenter(), body->GetAngle()};
+    mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
+    mirror.exact = in_doubles(mirror.given);
+    mirror.type = body->GetType();
+    read_mass(i);
+    int edges = 0;
+    for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
+    mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
+    put(solver.places[i], relative(mirror.left));
+  }
+
+  bool held_anew = false;
+  const auto remember = [&](std::size_t i, const KnownPose& known) {
+    held_anew |= freedom(i, free_bodies) < known.freedom;
+    Pose at = known.pose;
+    // Fixtures came or went.
+    const double x = double{mirrors[i].local_center.x} - known.local_center.x;
+    const double y = double{mirrors[i].local_center.y} - known.local_center.y;
+    at.x += std::cos(at.angle) * x - std::sin(at.angle) * y;
+    at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
+    const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
+    if (!same(left, mirrors[i].left)) return;
+    put(solver.places[i], {at.x - origin_x, at.y - origin_y, at.angle});
+  };
+  solver.joints.reserve(members.size());
+  solver.records.reserve(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Member& m = *members[i];
+    Joint& j = solver.joints.emplace_back(m.own);
+    solver.records.push_back(m.own_record);
+    solver.drift_time() = std::max(solver.drift_time(), m.drift_time);
+    m.belong_to(this);
+    m.index = i;
+    j.a = number[m.joint->GetBodyA()];
+    j.b = number[m.joint->GetBodyB()];
+    if (!m.fresh) {
+      remember(z(j.a), m.known[0]);
+      remember(z(j.b), m.known[1]);
+    }
+    // In doubles: what floats round of it changes when the centre of mass does, and would strain rigid rows.
+    const b2Vec2 a = m.joint->GetLocalAnchorA(), from_a = m.joint->GetBodyA()->GetLocalCenter();
+    const b2Vec2 b = m.joint->GetLocalAnchorB(), from_b = m.joint->GetBodyB()->GetLocalCenter();
+    j.frame.ax = double{a.x} - from_a.x, j.frame.ay = double{a.y} - from_a.y;
+    j.frame.bx = double{b.x} - from_b.x, j.frame.by = double{b.y} - from_b.y;
+  }
+  solver.form(free_bodies);
+  solver.locate();
+  // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint
+  // took back what turning has parted, they would strain each other.
+  const bool hold =
+      held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Joint& j = solver.joints[i];
+    Rows& gap = solver.records[i].gap;
+    if (std::exchange(members[i]->fresh, false)) {
+      j.neutral = gap;
+      continue;
+    }
+    // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
+    // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
+    const Rows& seen = members[i]->own_record.gap;
+    bool moved = false;
+    for (unsigned row = 0; row < 3; ++row) moved |= std::abs(gap[row] - seen[row]) > 1e-9;
+    for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += gap[row] - seen[row];
+    if (moved) gap = seen;
+    parted_ |= moved;
+    for (unsigned row = 0; row < 3 && hold; ++row) {
+      if (j.G[row] > 0) j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
+    }
+  }
+}
+
+void Component::read_mass(std::size_t i) {
+  Mirror& m = mirrors[i];
+  m.mass = m.body->GetMass();
+  m.inverse_mass = 1.0f / m.mass;
+  m.inertia = m.body->GetInertia();
+  m.local_center = m.body->GetLocalCenter();
+  const double offset = m.local_center.LengthSquared();
+  m.gyration = m.mass > 0 ? std::sqrt(m.inertia / m.mass) : 0;
+  solver.bodies[i].mass = m.mass;
+  solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
+}
+
+b2Position Component::box2d_pose(std::size_t i) const {
+  const Pose& p = solver.places[i].pose;
+  return {{static_cast<float>(p.x + origin_x), static_cast<float>(p.y + origin_y)},
+          static_cast<float>(p.angle)};
+}
+
+int Component::freedom(std::size_t body, std::size_t free_bodies) const {
+  return body >= free_bodies ? 0 : solver.bodies[body].inertia > 0 ? 3 : 2;
+}
+
+KnownPose Component::known(int body) const {
+  const Pose& p = solver.places[z(body)].pose;
+  return {{p.x + origin_x, p.y + origin_y, p.angle},
+          mirrors[z(body)].local_center,
+          freedom(z(body), solver.free_bodies())};
+}
+
+Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }
+
+}  // namespace ductile::dynamics

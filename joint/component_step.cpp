@@ -1,0 +1,337 @@
+// A step of a component: how it reads and writes the island that it is in. Written against Box2D 2.4.1.
+#include "component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "frames.h"
+#include "reveal.h"
+
+namespace ductile::dynamics {
+
+// The index in the island at hand. b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine,
+// a cosine and a matrix inverse per joint; so it is a load per body.
+DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
+
+bool Component::look(const b2SolverData& data) {
+  bool masses = true;
+  alone_ = kind == SolverKind::direct;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    Mirror& m = mirrors[i];
+    if (m.body->GetType() != m.type) return false;
+    if (m.type == b2_staticBody) continue;
+    m.island_index = of(*m.body, b2Body_m_islandIndex{});
+    alone_ &= i >= solver.free_bodies() || only_ours(m);
+    if (!at_rest_) take(m, data);  // while the body is at hand
+    masses &= m.type != b2_dynamicBody || (m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
+                                           m.body->GetLocalCenter() == m.local_center);
+  }
+  return masses;
+}
+
+// Box2D prepends new joints to a body's list, and one of ours that goes dissolves the component.
+bool Component::only_ours(const Mirror& m) {
+  return m.body->GetContactList() == nullptr && m.body->GetJointList() == m.joints;
+}
+
+void Component::disturb() {
+  at_rest_ = resting = false;
+  solver.laws_changed();
+}
+
+// What velocities of a structure at rest may differ by, m/s.
+float Component::slack() const { return static_cast<float>(Solver::rest_tolerance * solver.impulse_speed()); }
+
+// A structure at rest is brought the same poses and velocities step after step, and answers them with the
+// same.
+bool Component::as_before(const b2SolverData& data) const {
+  if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
+  const float slack = this->slack();
+  for (const Mirror& m : mirrors) {
+    if (m.type == b2_staticBody) {
+      if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
+      continue;
+    }
+    const b2Velocity& v = data.velocities[m.island_index];
+    const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
+                                   m.gyration * std::abs(v.w - m.taken.w)});
+    if (!(change <= slack) || !same(data.positions[m.island_index], m.left)) return false;
+  }
+  return true;
+}
+
+// The velocity that Box2D brings. Where its floats, bit by bit, are what gravity and damping make of those
+// that we gave, so are the doubles: rounded anew in each step, they would shake what swings, and spoil the
+// forecast.
+void Component::take(Mirror& m, const b2SolverData& data) const {
+  m.taken = data.velocities[m.island_index];
+  if (m.type != b2_dynamicBody || kind != SolverKind::direct) {
+    m.exact = in_doubles(m.given = m.taken);
+    return;
+  }
+  // As b2Island::Solve does it, without forces.
+  const b2Vec2& gravity = m.body->GetWorld()->GetGravity();
+  const float h = data.step.dt, scale = m.body->GetGravityScale();
+  const float damping = m.body->GetLinearDamping(), turn_damping = m.body->GetAngularDamping();
+  b2Velocity v = m.given;
+  v.v += h * m.inverse_mass * (scale * m.mass * gravity);
+  v.v *= 1.0f / (1.0f + h * damping);
+  v.w *= 1.0f / (1.0f + h * turn_damping);
+  if (v.v == m.taken.v && v.w == m.taken.w) {
+    const double weight = double{h} * scale, slower = 1 / (1 + double{h} * damping);
+    m.exact = {slower * (m.exact.x + weight * gravity.x), slower * (m.exact.y + weight * gravity.y),
+               m.exact.w / (1 + double{h} * turn_damping)};
+  } else {
+    m.exact = in_doubles(m.taken);
+  }
+  m.given = m.taken;
+}
+
+void Component::first_velocity(const b2SolverData& data) {
+  resting = as_before(data);
+  if (resting) {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
+      data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    open = solver.keeps_ledger;  // something may strike it before the step is over
+    ++report->resting;
+    return;
+  }
+  bool moved = std::exchange(parted_, false);
+  const auto start_from = [this](std::size_t i) {
+    Body& b = solver.bodies[i];
+    const Vec3& v = mirrors[i].exact;
+    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+  };
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    Mirror& m = mirrors[i];
+    if (m.type == b2_staticBody) {
+      moved |= !same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left);
+      m.exact = {};
+    } else {
+      moved |= !same(data.positions[m.island_index], m.left);
+      if (at_rest_) take(m, data);
+    }
+    start_from(i);
+  }
+  solver.begin(data.step.dt);
+  if (moved) {
+    // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
+    // it. Joint by joint, the sweeps do that.
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      Mirror& m = mirrors[i];
+      const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
+                                                    : data.positions[m.island_index];
+      goal[i] = same(at, m.left) ? solver.places[i].pose : relative(at);
+      if (m.type == b2_staticBody) m.left = at;
+    }
+    if (kind == SolverKind::direct) {
+      project(true);
+    } else {
+      solver.sweep_positions(goal);
+      solver.begin(data.step.dt);
+    }
+    write_poses(data);
+    for (std::size_t i = 0; i < mirrors.size(); ++i) start_from(i);
+  }
+  if (solver.keeps_ledger) {
+    // b2Body still has the velocities from before gravity.
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      const b2Velocity v =
+          accounts[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
+      solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
+      accounts[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
+    }
+    open = true;
+  }
+  if (kind == SolverKind::iterative) solver.warm_start();
+  solve(data);
+}
+
+void Component::next_velocity(const b2SolverData& data) {
+  if (alone_) {
+    ++report->skipped;
+    return;
+  }
+  bool touched = false;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const b2Velocity& now = data.velocities[mirrors[i].island_index];
+    b2Velocity& given = mirrors[i].given;
+    if (now.v == given.v && now.w == given.w) continue;
+    touched = true;
+    Body& b = solver.bodies[i];
+    const Vec3 change = into_own_frame(solver.places[i].turn, double{now.v.x} - given.v.x,
+                                       double{now.v.y} - given.v.y, double{now.w} - given.w);
+    solver.push(i, change);
+    if (kind == SolverKind::iterative) b.v += change;
+    given = now;
+  }
+  if (touched) resting = false;
+  if (touched || kind == SolverKind::iterative) {
+    solve(data);
+  } else {
+    ++report->skipped;
+  }
+}
+
+void Component::solve(const b2SolverData& data) {
+  SolveReport solved;
+  if (kind == SolverKind::direct) {
+    solver.solve(solved);
+  } else {
+    solver.sweep();
+  }
+  give(data);
+  ++report->solves;
+  report->rounds += solved.rounds;
+  report->factorisations += solved.factorisations;
+  report->bounds_hit += solved.bound_hit ? 1 : 0;
+  report->residual = std::max(report->residual, solved.residual);
+}
+
+void Component::project(bool try_goal) {
+  const bool kept = solver.project(goal, try_goal);
+  report->bounds_hit += kept ? 0 : 1;
+  report->parted += kept ? 0 : 1;
+  ++report->projections;
+}
+
+void Component::give(const b2SolverData& data) {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    Mirror& m = mirrors[i];
+    m.exact = into_world(solver.places[i].turn, solver.bodies[i].v);
+    data.velocities[m.island_index] = m.given = in_floats(m.exact);
+  }
+}
+
+void Component::position(const b2SolverData& data) {
+  if (alone_ && !resting) return write_poses(data);
+  if (alone_) {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
+      data.positions[mirrors[i].island_index] = mirrors[i].left;
+    return;
+  }
+  bool pushed = false;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    b2Position& at = data.positions[mirrors[i].island_index];
+    const bool kept = same(at, mirrors[i].left);
+    goal[i] = kept ? solver.places[i].pose : relative(at);
+    pushed |= !kept;
+    at = mirrors[i].left;
+  }
+  if (kind == SolverKind::direct && !pushed) return;
+  if (kind == SolverKind::iterative) {
+    solver.sweep_positions(goal);
+  } else {
+    for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.places[i].pose;
+    project(false);
+  }
+  at_rest_ = false;
+  write_poses(data);
+}
+
+void Component::write_poses(const b2SolverData& data) {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    data.positions[mirrors[i].island_index] = mirrors[i].left = box2d_pose(i);
+  }
+}
+
+// Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
+// what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
+// together.
+void Component::limit_speed(const b2SolverData& data) {
+  if (kind != SolverKind::direct) return;
+  constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
+  const auto share = [&](double limit, double speed) {
+    return std::min(1.0, rounding * limit / (solver.step() * speed));
+  };
+  const auto kinetic = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const Body& b = solver.bodies[i];
+      sum += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    }
+    return sum;
+  };
+  double before = 0;
+  for (int pass = 0;; ++pass) {
+    const double least =
+        std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
+    if (least == 1) {
+      if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return;
+    }
+    if (pass == 0) before = kinetic();
+    const bool together = pass == 4;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      Body& b = solver.bodies[i];
+      const double linear = together ? least : share(b2_maxTranslation, std::hypot(b.v.x, b.v.y));
+      const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
+      const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
+      const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
+      accounts[i].lost.v += lost.v;
+      accounts[i].lost.w += lost.w;
+      if (together) continue;
+      b.v_free -= less;
+      b.v -= less;
+    }
+    if (together) {
+      solver.scale(least);
+      report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return give(data);
+    }
+    solve(data);
+  }
+}
+
+// After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
+// Box2D.
+void Component::advance(const b2SolverData& data) {
+  // Stock joints that come before ours in the list see velocities without our impulses, and take back what
+  // they do about it in the iterations that follow: they need those iterations.
+  bool alone = true;
+  if (!alone_) {
+    const float slack = this->slack();
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const Body& b = solver.bodies[i];
+      const Mirror& m = mirrors[i];
+      const Vec3 by_others =
+          b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
+      alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
+               slack;
+    }
+  }
+  solver.advance();
+  bool kinematic = false;
+  // Where nothing else moves them, position() tells it, if it is called at all.
+  const bool later = alone_ && data.step.positionIterations > 0;
+  for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
+    if (mirrors[i].type != b2_staticBody) mirrors[i].left = box2d_pose(i);
+    kinematic |= mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
+  }
+  at_rest_ = kind == SolverKind::direct && alone && !kinematic && solver.at_rest();
+}
+
+double Component::close_ledger() {
+  if (!std::exchange(open, false)) return 0;
+  const float h = static_cast<float>(solver.step());
+  double clamped = 0;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& m = mirrors[i];
+    const b2Vec2 v = m.body->GetLinearVelocity();
+    const float w = m.body->GetAngularVelocity();
+    solver.before[i] = {};
+    if (i >= solver.free_bodies()) continue;
+    solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
+    // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
+    b2Velocity lost = accounts[i].lost;
+    if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
+    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
+    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (accounts[i].began.v + v)) +
+               solver.bodies[i].inertia * lost.w * (accounts[i].began.w + w) / 2;
+  }
+  solver.close_ledger(solver.before);
+  return clamped;
+}
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,36 @@
+// Between Box2D's floats in the world and the solver's doubles in bodies' own frames.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vec3.h"
+
+namespace ductile::dynamics {
+
+// Floats that differ by no more than their own rounding say the same: nothing pushed the body.
+inline bool same(float a, float b) {
+  return a == b || std::abs(a - b) <= 2.4e-7f * std::max(1.0f, std::abs(b));
+}
+
+inline bool same(const b2Position& a, const b2Position& b) {
+  return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
+}
+
+inline Vec3 into_own_frame(const Turn& turn, double x, double y, double w) {
+  return {turn.c * x + turn.s * y, turn.c * y - turn.s * x, w};
+}
+
+inline Vec3 into_world(const Turn& turn, const Vec3& v) {
+  return {turn.c * v.x - turn.s * v.y, turn.s * v.x + turn.c * v.y, v.w};
+}
+
+inline b2Velocity in_floats(const Vec3& v) {
+  return {{static_cast<float>(v.x), static_cast<float>(v.y)}, static_cast<float>(v.w)};
+}
+
+inline Vec3 in_doubles(const b2Velocity& v) { return {v.v.x, v.v.y, v.w}; }
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,59 @@
+// H = M + Jᵀ D J with D = ds/dx, its factor, and what is known of that factor.
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "block_ldlt.h"
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// What the factor was made of.
+enum class Factored {
+  nothing,
+  tangents,  // of the present poses and of the regimes of some evaluation since the step began
+  earlier,   // tangents or secants of an earlier step
+  secants,   // of the present poses; F h/|x| for rows that flow
+  holding,   // rows that hold, as stiff as κ allows (Projection)
+};
+
+class Hessian {
+ public:
+  /// Finds the pattern, and each joint's block in it. Allocates.
+  void analyse(System& system);
+  void forget() { factored_ = Factored::nothing; }
+  /// Another step: bodies have moved.
+  void begin_step();
+  Factored factored() const { return factored_; }
+
+  /// Factors the tangents of the joints' regimes; those of rows that flow are secants where these are larger,
+  /// if asked for: after a short step of the line search they take it further.
+  void factor_tangents(System& system, bool secants);
+  /// Factors H for pushes: whatever holds is as stiff as κ allows, so that a push moves the bodies as one
+  /// that does not give. With their own stiffness in it, rows took up a share of every push, and a block on a
+  /// beam was catapulted. `softened`: rigid rows are not at κ.
+  void factor_holding(System& system, int changed, bool softened);
+  /// Factors the records' tangents as they are, at the present poses.
+  void refactor(const System& system);
+
+  /// x ← H⁻¹ x; or its halves: see BlockLdlt.
+  void solve(std::span<Vec3> x) const { ldlt_.solve(x); }
+  double forward(std::span<Vec3> x) const { return ldlt_.forward(x); }
+  void backward(std::span<Vec3> x) const { ldlt_.backward(x); }
+
+  /// Block products of one iteration with the factor, and of a factorisation, for so many joints.
+  double iteration_work(std::size_t joints) const {
+    return static_cast<double>(ldlt_.solve_work() + 3 * joints);
+  }
+  double factor_work(std::size_t joints) const {
+    return static_cast<double>(ldlt_.factor_work() + 3 * joints);
+  }
+  std::size_t bytes() const { return ldlt_.bytes(); }
+
+ private:
+  BlockLdlt ldlt_;
+  Factored factored_ = Factored::nothing;
+};
+
+}  // namespace ductile::dynamics

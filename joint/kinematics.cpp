@@ -1,0 +1,37 @@
+#include "kinematics.h"
+
+#include <utility>
+
+namespace ductile::dynamics {
+
+Rows locate(Joint& j, const Place& a, const Place& b) {
+  Jacobian& J = j.J;
+  const Frame& f = j.frame;
+  const Turn relative = inverse(a.turn) * b.turn;
+  const double bend = b.pose.angle - a.pose.angle - f.reference;
+  J.axis_a = f.follow == 0 ? f.axis : f.axis * turn_of(f.follow * bend);
+  J.axis_b = J.axis_a * inverse(relative);
+  // From anchor to anchor, in A's frame and then along and across the axis.
+  const double wx = b.pose.x - a.pose.x, wy = b.pose.y - a.pose.y;
+  const double dx = a.turn.c * wx + a.turn.s * wy + relative.c * f.bx - relative.s * f.by - f.ax;
+  const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * f.bx + relative.c * f.by - f.ay;
+  const double u = J.axis_a.c * dx + J.axis_a.s * dy;
+  const double v = -J.axis_a.s * dx + J.axis_a.c * dy;
+  J.au = -(f.ax * J.axis_a.s - f.ay * J.axis_a.c) + (1 - f.follow) * v;
+  J.av = -(f.ax * J.axis_a.c + f.ay * J.axis_a.s) - (1 - f.follow) * u;
+  J.bu = f.bx * J.axis_b.s - f.by * J.axis_b.c + f.follow * v;
+  J.bv = f.bx * J.axis_b.c + f.by * J.axis_b.s - f.follow * u;
+  return {u, v, bend};
+}
+
+void find_gaps(System& system) {
+  if (std::exchange(system.gaps_known, true)) return;
+  for (Joint& j : system.joints) system.record(j).gap = locate(j, system.places);
+}
+
+void locate_all(System& system) {
+  system.biases_known = system.gaps_known = false;
+  find_gaps(system);
+}
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,267 @@
+#include "newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "line_search.h"
+
+namespace ductile::dynamics {
+
+/// What one round hands to the next.
+struct Newton::Round {
+  int number = 0;
+  int used = 0;              // rounds with the present factor
+  double first2 = 0;         // |∇f|² where it began
+  bool conjugate = false;    // d_ continues the last direction
+  bool crossed = false;      // rows changed their regime in the last round: its tangent is not this one's
+  bool short_step = false;   // the last line search ended early: secants of flowing rows help the next round
+  bool pushed_only = false;  // the gradient is what the pushes since the last solve made of it
+  double zg = 0, beta = 0;
+};
+
+void Newton::form(const System& system) {
+  for (auto* v : {&g_, &d_, &z_}) v->assign(system.bodies.size(), {});
+  barrier_.assign(system.joints.size(), {});
+  pushed_.assign(system.free, 0);
+}
+
+// ∇f = M (v − v*) + …, and v is where the last evaluation was.
+void Newton::push(System& system, std::size_t body, const Vec3& change) {
+  Body& b = system.bodies[body];
+  b.v_free += change;
+  Vec3& g = g_[body];
+  pushed2_ -= square(b, g);
+  g -= momentum(b, change);
+  pushed2_ += square(b, g);
+  if (pushes_ < pushed_.size()) pushed_[pushes_++] = body;
+}
+
+void Newton::forget() {
+  gradient_known_ = false;
+  pushed2_ = 0;
+  pushes_ = 0;
+}
+
+// The structure's impulses to `tolerance` of themselves, or to what rounding leaves: in a rigid row the
+// velocity's last bits are multiplied by κ.
+double Newton::target(const Evaluation& at) const {
+  constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
+  return tunables.tolerance * tunables.tolerance * at.impulse2 + floor * floor * at.speed2;
+}
+
+// An old factor is kept while the rounds that it still needs cost less than a new one (Hairer & Wanner,
+// Solving ODEs II, IV.8, decide so about Jacobians).
+// 1. Nothing is gained where it is of the present tangents.
+// 2. A row that changed its regime costs a round of conjugate gradients; otherwise the contraction tells.
+// 3. What rows that changed their regime ask for is but a guess, as rounding may deny conjugate directions:
+//    one round more than that is enough.
+bool Newton::worth_refactoring(const System& system, const Hessian& hessian, const Evaluation& at,
+                               const Round& round) const {
+  if (hessian.factored() == Factored::tangents && at.changed == 0 && !round.short_step) return false;
+  if (at.changed > 0 && round.used > at.changed + 1) return true;
+  const double left2 = target(at), contraction = std::log(contraction_);
+  const double by_rate =
+      at.gradient2 <= contraction_ * left2 ? 1 : std::ceil(std::log(at.gradient2 / left2) / contraction);
+  const double expected = at.changed > 0 ? at.changed + 1.0 : by_rate;
+  return (expected - 1) * hessian.iteration_work(system.joints.size()) >
+         hessian.factor_work(system.joints.size());
+}
+
+// d_ ← −H⁻¹∇f, made conjugate to the last direction: Polak and Ribière's β, not below 0.
+void Newton::preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
+                                     Round& round) {
+  const std::size_t free = system.free;
+  double turned = 0;  // gᵀ H⁻¹ of the last g
+  if (round.conjugate) {
+    const std::vector<Vec3>& last = round.beta == 0 ? d_ : z_;
+    for (std::size_t i = 0; i < free; ++i) turned -= dot(g_[i], last[i]);
+  }
+  if (round.number == 0 && round.pushed_only && at.gradient2 > 1e4 * left2_) {
+    // The pushes are all that there is to answer to: a few right-hand sides, and half a solve.
+    std::fill_n(z_.begin(), free, Vec3{});
+    for (std::size_t k = 0; k < pushes_; ++k) z_[pushed_[k]] = -1.0 * g_[pushed_[k]];
+  } else {
+    for (std::size_t i = 0; i < free; ++i) z_[i] = -1.0 * g_[i];
+  }
+  const double last_zg = round.zg;
+  round.zg = hessian.forward({z_.data(), free});  // gᵀ H⁻¹ g
+  hessian.backward({z_.data(), free});
+  round.beta = round.conjugate ? std::max(0.0, (round.zg - turned) / last_zg) : 0;
+  if (round.beta == 0) {
+    std::swap(d_, z_);
+  } else {
+    for (std::size_t i = 0; i < free; ++i) d_[i] = z_[i] + round.beta * d_[i];
+  }
+}
+
+// The zero of f'(t) = ∇f(v0 + t d)·d, which rises monotonically and is piecewise linear, after an evaluation
+// at t = 1 and with f' at 0 and 1. Leaves the bodies' v there; false when they were there already.
+bool Newton::search(System& system, const Evaluation& at_one, double slope0, double slope1,
+                    bool& short_step) {
+  const auto move_to = [&](double t) {
+    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v += (t - 1) * d_[i];
+  };
+  const double secant = slope0 / (slope0 - slope1);
+  short_step = false;
+  if (!at_one.crossed && std::abs(secant - 1) < 0.01) return false;
+  if (!at_one.crossed && secant > 0 && secant < 1) {
+    move_to(secant);
+    return true;
+  }
+  find_x(system);
+  double at_rest = 0, curvature = 0;  // f' = at_rest + t·curvature + Σ y s(x0 + t y)
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    const Vec3 md = momentum(b, d_[i]);
+    at_rest += dot(md, b.v - d_[i] - b.v_free);
+    curvature += dot(md, d_[i]);
+  }
+  const auto slope = [&](double t) {
+    Slope at{at_rest + t * curvature, curvature};
+    for (const Joint& j : system.joints) {
+      const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
+      const JointRecord& r = system.record(j);
+      Rows x = r.x;
+      for (unsigned i = 0; i < 3; ++i) x[i] += (t - 1) * y[i];
+      const auto [s, regime] = respond(r.law, x);
+      for (unsigned i = 0; i < 3; ++i) {
+        at.value += y[i] * s[i];
+        at.rise += y[i] * y[i] * tangent(r.law, regime, i);  // which leaves yield surfaces out
+      }
+    }
+    return at;
+  };
+  const double t = line_search(slope, secant, slope1 > 0, 1e-9 * std::abs(slope0));
+  short_step = t < 0.1;
+  move_to(t);
+  return true;
+}
+
+// From the lower of the bodies' v and v*.
+void Newton::start_from_lower(System& system, Evaluation& at) {
+  const double f = objective(system, at);
+  for (std::size_t i = 0; i < system.free; ++i) {
+    Body& b = system.bodies[i];
+    d_[i] = b.v, b.v = b.v_free;
+  }
+  at = evaluate(system, g_);
+  if (!(objective(system, at) > f)) return;
+  for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v = d_[i];
+  at = evaluate(system, g_);
+}
+
+Solution Newton::solve(System& system, Hessian& hessian, StepLaws& laws, const Evaluation& last,
+                       bool last_abandoned, const LinearPrediction* prediction, SolveReport& report) {
+  Round round;
+  round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0 && !last_abandoned;
+  if (prediction != nullptr) prediction->next({z_.data(), system.free});
+  Evaluation at = last;
+  if (round.pushed_only) {
+    at.gradient2 = std::max(0.0, left2_ + pushed2_);
+  } else {
+    at = evaluate(system, g_, [&](std::size_t i, Body& b) {
+      if (prediction != nullptr) b.v = z_[i];
+      if (b.inverse_inertia == 0) b.v.w = b.v_free.w;  // no joint changes it
+    });
+  }
+  if (!std::isfinite(at.gradient2)) {
+    // The past, too, knew what is not finite; this step need not.
+    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v = system.bodies[i].v_free;
+    at = evaluate(system, g_);
+  }
+  if (at.gradient2 > target(at) && at.flows && !round.pushed_only) start_from_lower(system, at);
+
+  bool by_interior_point = false;
+  double best2 = at.gradient2;
+  round.first2 = at.gradient2;
+  int idle = 0;  // rounds that gained nothing
+  // A predicted start always takes one round, even within tolerance: that removes the prediction's bias.
+  for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
+         round.number < tunables.round_bound;
+       ++round.number) {
+    bool refactor = worth_refactoring(system, hessian, at, round);
+    if (round.number >= tunables.newton_rounds && (at.flows || round.crossed) && !by_interior_point) {
+      const int factorisations = interior_point(system, hessian, at.impulse2 + at.speed2, barrier_, g_, d_);
+      report.factorisations += factorisations;
+      if (factorisations > 0) round.short_step = false;
+      at = evaluate(system, g_);
+      best2 = at.gradient2;
+      by_interior_point = true;
+      round.crossed = round.conjugate = false;
+    }
+    if (round.number == tunables.soften_round && at.curved && !laws.softened()) {
+      laws.soften(system);
+      hessian.forget();
+      at = evaluate(system, g_);
+      best2 = at.gradient2;
+    }
+    refactor |= hessian.factored() == Factored::nothing || hessian.factored() == Factored::holding ||
+                round.crossed || at.curved;
+    if (refactor) {
+      hessian.factor_tangents(system, round.short_step);
+      ++report.factorisations;
+      at.changed = 0;
+      round.used = 0;
+      round.first2 = at.gradient2;
+      round.conjugate = false;
+      contraction_ = std::pow(contraction_, 1.1);  // in the hope that the next step's motion calls for less
+    }
+    ++round.used;
+    preconditioned_gradient(system, hessian, at, round);
+    const bool tangents = hessian.factored() == Factored::tangents;
+    const bool exact = tangents && round.beta == 0 && at.changed == 0 && !at.curved;
+    const double before2 = at.gradient2;
+    double slope0 = 0;
+    at = evaluate(system, g_, [&](std::size_t i, Body& b) {
+      slope0 += dot(g_[i], d_[i]);
+      b.v += d_[i];
+    });
+    round.conjugate = true;
+    round.crossed = at.crossed;
+    // A Newton step within one regime: this is the solution, as far as rounding allows; and that is not far
+    // where the step came from much faster velocities.
+    if (exact && !at.crossed && !(at.gradient2 > target(at) && at.gradient2 <= 1e-4 * before2)) {
+      ++round.number;
+      break;
+    }
+    if (at.gradient2 > target(at)) {
+      double slope1 = 0;
+      for (std::size_t i = 0; i < system.free; ++i) slope1 += dot(g_[i], d_[i]);
+      if (search(system, at, slope0, slope1, round.short_step)) at = evaluate(system, g_);
+    }
+    // Rounding may be worse than target() says (prescribed velocities are not in speed2, long arms): where
+    // round after round gains nothing, this is the minimum. So it is where what is left of joints that press
+    // against each other is the last bits of their impulses.
+    const bool gains = at.gradient2 <= 0.999 * best2;
+    best2 = std::min(best2, at.gradient2);
+    if (!gains && at.gradient2 <= rounding_of_impulses(system)) break;
+    idle = !gains && at.gradient2 <= 1e-10 * at.impulse2 + 1e-8 * at.speed2 ? idle + 1 : 0;
+    if (idle == 5) break;
+    if (!tangents && !round.crossed && round.first2 > target(at)) {
+      const double by = round.first2 / at.gradient2;
+      contraction_ = std::clamp(round.used == 1 ? by : std::pow(by, 1.0 / round.used), 1.2, 1e17);
+    }
+  }
+  // Across gaps of 100 km all that H holds is what it gains from rigid rows, and what rounding makes of a
+  // turn there is as fast as anything else.
+  const double norm2 = at.gradient2;
+  const bool lost =
+      !std::isfinite(norm2) || !(norm2 <= target(at) || norm2 <= 1e-4 * (at.impulse2 + at.speed2) ||
+                                 norm2 <= 1e4 * rounding_of_impulses(system));
+  if (lost) hessian.forget();
+  report.rounds += round.number;
+  report.residual = norm2 > 0 ? tunables.tolerance * std::sqrt(norm2 / target(at)) : 0;
+  left2_ = norm2;
+  pushed2_ = 0;
+  pushes_ = 0;
+  return {at, round.number > 0, lost || round.number == tunables.round_bound};
+}
+
+std::size_t Newton::bytes() const {
+  return (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
+         pushed_.capacity() * sizeof(std::size_t) + barrier_.capacity() * sizeof(barrier_[0]);
+}
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,89 @@
+// The minimum of f by Newton's method with an exact line search, where the factor of an earlier H serves as
+// the preconditioner of conjugate gradients for as long as that is cheaper than to factor anew.
+//
+// Each iteration is a round: a direction d = −H⁻¹∇f (made conjugate to the last one while the factor stays
+// the same), a step along it, and where that crossed into other regimes of the rows, the zero of f' along d.
+// With a fresh factor a round is a Newton step, and within one regime it ends at the solution.
+#pragma once
+
+#include <vector>
+
+#include "hessian.h"
+#include "interior_point.h"
+#include "objective.h"
+#include "step_laws.h"
+#include "warm_start.h"
+
+namespace ductile::dynamics {
+
+struct SolveReport {
+  int rounds = 0;  // directions computed
+  int factorisations = 0;
+  double residual = 0;  // |∇f| in the norm of M⁻¹ as a share of its target, times `tolerance`
+  bool bound_hit = false;
+};
+
+/// What is chosen, with its reason.
+struct NewtonTunables {
+  /// Relative residual at which a solve ends: root moments good to 1e-8.
+  double tolerance = 1e-8;
+  /// Rounds after which a solve is abandoned. The worst impact known needs 30.
+  int round_bound = 100;
+  /// Rounds after which a solve in which rows flow is handed to the interior point method: many rows change
+  /// their regime against each other, and each round finds out about few of them.
+  int newton_rounds = 5;
+  /// Rounds after which joints with yield surfaces are softened (StepLaws::soften).
+  int soften_round = 20;
+};
+
+/// How a solve ended.
+struct Solution {
+  Evaluation at;
+  bool moved = false;      // any round was needed
+  bool abandoned = false;  // the impulses are not those of the minimum
+};
+
+class Newton {
+ public:
+  NewtonTunables tunables;
+
+  void form(const System& system);
+
+  /// Another velocity changed: v* of a body, in its own frame. All that happens between two solves of a step
+  /// is said so, or none of it: the gradient follows.
+  void push(System& system, std::size_t body, const Vec3& change);
+  /// Bodies were moved: the gradient is not known any more.
+  void forget();
+
+  /// From the bodies' v, or from where `prediction` says; `last` is the evaluation that the last solve ended
+  /// with, which it also was if it was abandoned.
+  Solution solve(System& system, Hessian& hessian, StepLaws& laws, const Evaluation& last,
+                 bool last_abandoned, const LinearPrediction* prediction, SolveReport& report);
+  std::size_t bytes() const;
+
+  /// One momentum per body, the gradient's own, for who needs it while that is not known.
+  std::span<Vec3> scratch() { return g_; }
+
+ private:
+  struct Round;
+  double target(const Evaluation& at) const;
+  bool worth_refactoring(const System& system, const Hessian& hessian, const Evaluation& at,
+                         const Round& round) const;
+  void preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
+                               Round& round);
+  bool search(System& system, const Evaluation& at_one, double slope0, double slope1, bool& short_step);
+  void start_from_lower(System& system, Evaluation& at);
+
+  std::vector<Vec3> g_;               // ∇f at the bodies' v, from a solve to the pushes after it
+  std::vector<Vec3> d_, z_;           // 0 for bodies whose velocities are prescribed
+  std::vector<BarrierRows> barrier_;  // interior_point()'s
+  // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
+  std::vector<std::size_t> pushed_;
+  std::size_t pushes_ = 0;
+  bool gradient_known_ = false;
+  double left2_ = 0, pushed2_ = 0;
+  /// |∇f|² falls by so many times in a round with a factor of an earlier step.
+  double contraction_ = 1e6;
+};
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,105 @@
+#include "objective.h"
+
+#include <bit>
+#include <cmath>
+
+namespace ductile::dynamics {
+
+namespace {
+
+bool is_elastic(const Joint& j, const Rows& s) {
+  const auto within = [&](unsigned i) { return std::abs(s[i]) <= j.elastic_range[i]; };
+  return within(0) && within(1) && within(2);
+}
+
+}  // namespace
+
+double square(const System& system, std::span<Vec3> g) {
+  double norm = 0;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    if (system.bodies[i].inertia == 0) g[i].w = 0;
+    norm += square(system.bodies[i], g[i]);
+  }
+  return norm;
+}
+
+void add_impulses(System& system, std::span<Vec3> g, Evaluation& told) {
+  int changed = 0;
+  unsigned crossed = 0, any = 0;
+  const Body* bodies = system.bodies.data();
+  for (Joint& j : system.joints) {
+    const Rows x = biased_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    const auto take = [&](const Rows& s, unsigned regime) {
+      add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
+      j.impulse = s;
+      if ((regime | j.regime | j.factored_flow) == 0) return;
+      crossed |= (regime ^ j.regime) | (regime & on_surface);
+      any |= regime;
+      j.regime = static_cast<std::uint8_t>(regime);
+      changed += std::popcount(flowing(regime) ^ j.factored_flow);
+    };
+    // Two calls: the one that most joints take keeps all in registers, as no address of `trial` is taken.
+    const Rows trial{j.G[0] * x[0], j.G[1] * x[1], j.G[2] * x[2]};
+    if (is_elastic(j, trial)) {
+      take(trial, 0);
+    } else {
+      JointRecord& r = system.record(j);
+      const Response beyond = respond(r.law, r.x = x);
+      take(beyond.s, beyond.regime);
+    }
+  }
+  told.changed = changed;
+  told.crossed = crossed != 0;
+  told.flows = any != 0;
+  told.curved = (any & on_surface) != 0;
+}
+
+void inertial_gradient(const System& system, std::span<Vec3> g) {
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    g[i] = momentum(b, b.v - b.v_free);
+  }
+}
+
+void find_x(System& system, double faster) {
+  for (const Joint& j : system.joints) {
+    if (j.regime != 0) continue;  // known
+    const Rows v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
+    Rows& x = system.record(j).x;
+    for (unsigned i = 0; i < 3; ++i) x[i] = faster * v[i] + j.bias[i];
+  }
+}
+
+// By Moreau's identity φ(x) = s·x − ½ s²/G in every regime of a row.
+double objective(System& system, const Evaluation& at) {
+  find_x(system);
+  double f = at.impulse2 / 2;
+  for (const Joint& j : system.joints) {
+    const Rows& x = system.record(j).x;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (j.G[i] > 0) f += j.impulse[i] * (x[i] - j.impulse[i] / (2 * j.G[i]));
+    }
+  }
+  return f;
+}
+
+double rounding_of_impulses(const System& system) {
+  double sum = 0;
+  for (const Joint& j : system.joints) {
+    const Rows& m_eff = system.record(j).m_eff;
+    for (unsigned i = 0; i < 3; ++i) sum += m_eff[i] > 0 ? j.impulse[i] * j.impulse[i] / m_eff[i] : 0;
+  }
+  return 1e-28 * sum;
+}
+
+void drop_impulses(System& system, Evaluation& at) {
+  at.fastest2 = at.fastest_turn2 = 0;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    Body& b = system.bodies[i];
+    b.v = b.v_free;
+    at.see(b);
+  }
+  for (Joint& j : system.joints) system.record(j).x = j.impulse = {};
+}
+
+}  // namespace ductile::dynamics

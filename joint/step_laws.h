@@ -1,0 +1,55 @@
+// The laws of a step's rows and their biases b, from materials, gaps and what went before.
+//
+// b = relaxation · e with e the elastic strain at the step's start, in a row without a damper gap/h. The gap
+// is more than the strain where turning bodies parted along their tangents in the step before, by r(ωh)²/2:
+// that constraint drift is taken back in as much time as it took to arise, be it in several shorter steps; at
+// once it would be a blow. What the shorter steps themselves add is taken back at once: it would pile up.
+// Which is which is known by size alone; all rows defer the same share, so that those of parallel joints
+// agree.
+#pragma once
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+class StepLaws {
+ public:
+  /// Springs stiffer than so many m_eff/h² are taken as rigid.
+  double elastic_ratio = rigid_ratio;
+  /// s in which the constraint drift of a longer step is still to be taken back.
+  double drift_time = 0;
+
+  /// Caps, stiffness, masses or joints were changed: the next begin() makes all laws anew.
+  void invalidate() { known_ = false; }
+  /// Laws and biases of a step of h seconds; whether laws are others than those of the last step.
+  bool begin(System& system, double h);
+  double step() const { return h_; }
+
+  /// Biases of the next step if it is as long, in a row without a damper.
+  static void set_equal_bias(Joint& joint, const Rows& gap, double rate) {
+    for (unsigned i = 0; i < 3; ++i) joint.bias[i] = rate * (gap[i] - joint.neutral[i]);
+  }
+  /// Whether some row is damped or on a yield surface: its bias needs more than the gap.
+  bool peculiar() const { return damped_ || surfaces_; }
+  /// A joint's law anew, of this step, as its material was changed.
+  void set_law(Joint& joint, JointRecord& record) const;
+
+  /// The facet of a yield surface that a joint flows on is a needle of width 1/κ among the directions of
+  /// flow. Where the solver cannot find it, soften() makes it wide enough: rigid rows of joints with a yield
+  /// surface keep their energy, and lose stiffness until nothing flows any more.
+  void soften(System& system);
+  void harden_again() { softened_ = known_ = false; }
+  bool softened() const { return softened_; }
+
+ private:
+  static constexpr double soft_ratio = 1e5;  // of m_eff/h²: wide enough to be found in a few iterations
+  double deferred_share(System& system, double h);
+  void follow_law(Joint& joint, JointRecord& record, Rows& strain, double h) const;
+
+  double h_ = 0;
+  bool known_ = false;  // the laws are those of h_, caps and stiffness
+  bool damped_ = false, surfaces_ = false;
+  bool softened_ = false;
+};
+
+}  // namespace ductile::dynamics

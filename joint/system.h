@@ -1,0 +1,110 @@
+// Bodies and joints of one structure as the solver sees them: plain arrays that all its parts share.
+//
+// Each body's unknowns (vx, vy, ω) are in its own frame: H = M + Jᵀ G J then depends on relative rotations
+// only, and its factor survives tumbling and rest.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "pose.h"
+#include "row.h"
+
+namespace ductile::dynamics {
+
+struct Body {
+  double mass = 1, inertia = 1;  // kg, kg m² about the centre of mass; inertia 0: does not rotate
+  double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
+  Vec3 v_free;  // v*, m/s and rad/s: velocity without the structure's impulses
+  Vec3 v;       // the solution; also where the next solve starts
+};
+
+/// The rows of J that a joint has for its two bodies, and nothing that is 0 or ±1 in them.
+struct Jacobian {
+  Turn axis_a, axis_b;                    // the joint's axis in A's and B's own frames
+  double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and the shear row, m
+};
+
+/// Where a joint sits on its bodies.
+struct Frame {
+  double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
+  Turn axis;                              // in A's frame at rest
+  double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
+  double reference = 0;  // angle of B against A at rest, rad
+};
+
+/// What every step reads and writes of a joint. What it needs only where something flows, is factored or
+/// changes, is in the joint's record: large structures do not fit the cache, and each pass over them costs
+/// what it drags along.
+struct Joint {
+  int a = 0, b = 0;  // bodies
+  Jacobian J;
+  Rows bias{};                     // b, m/s or rad/s
+  Rows impulse{};                  // s, N s or N m s
+  std::uint8_t regime = 0;         // of the law (row.h)
+  std::uint8_t factored_flow = 0;  // rows that were flowing in the current factorisation
+  bool free = false;               // some row holds nothing
+  int block = -1;                  // of H, when both bodies are free
+
+  Rows G{}, elastic_range{};  // of the law
+  Rows neutral{};             // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
+  Frame frame;
+};
+
+/// Plastic offsets, m, m, rad.
+struct PlasticFlow {
+  Rows net{};
+  Rows forward{}, back{};  // accumulated by sign, ≥ 0
+};
+
+/// The rest of a joint, at the same index.
+struct JointRecord {
+  Rows gap{};  // u, v, θ: after find_gaps()
+  Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
+  RowLaw law;
+  Coupling tangent;  // ds/dx that is in H
+  Rows strain{};     // elastic, at the step's start: where it changes, is damped or has a yield surface
+  double deferred_drift = 0;  // Σ m_eff d² of the constraint drift d of a longer step, not yet taken back
+  PlasticFlow plastic;
+  Rows dissipated{};  // J
+  Rows stored{};      // J: ½ k e² of the last step, when a ledger is kept
+  Material material;
+  Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
+};
+
+/// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
+/// (static and kinematic bodies) are prescribed.
+struct System {
+  std::vector<Body> bodies;
+  std::vector<Place> places;  // of the bodies
+  std::vector<Joint> joints;
+  std::vector<JointRecord> records;  // of the joints
+  std::size_t free = 0;              // bodies
+  double mass = 0;                   // of all free bodies, kg
+  bool gaps_known = false;           // no pose was moved since they were found
+  bool biases_known = false;         // the joints' are those of an equal step from the present poses
+
+  const JointRecord& record(const Joint& joint) const { return records[index(joint)]; }
+  JointRecord& record(const Joint& joint) { return records[index(joint)]; }
+  std::size_t index(const Joint& joint) const { return static_cast<std::size_t>(&joint - joints.data()); }
+  bool is_free(int body) const { return z(body) < free; }
+
+  /// Inverse masses, m_eff and the total mass, of so many free bodies.
+  void form(std::size_t free_bodies);
+};
+
+/// The elastic strain that the last solve ended with, m or rad. Spring and damper side by side, in series
+/// with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc. The gap itself may be more: turning bodies part
+/// along their tangents in a step, by r(ωh)²/2, before the next one brings them back.
+inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
+  return j.G[i] > 0 ? r.law.h * (j.impulse[i] + r.law.damping[i] * r.strain[i]) / j.G[i] : 0;
+}
+
+/// Of the last solve, N, N, N m.
+Rows force(const Joint& joint, const JointRecord& record);
+
+/// Whether a row is stiffer than the step can integrate.
+inline bool is_rigid(const JointRecord& r, unsigned i) { return r.law.spring[i] != r.material.stiffness[i]; }
+
+}  // namespace ductile::dynamics
