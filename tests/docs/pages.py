@@ -9,6 +9,7 @@ On a page, in their order:
   ```cpp with a main                          runs there, compiled
   ```text after either                        is what it prints; a line `…` stands for any lines, a `…` in a line for anything
   ![…](…/pictures/NAME)                       is what a command of the page drew as NAME
+  […](PATH)                                   is there
 """
 import os
 import re
@@ -76,9 +77,11 @@ def check(page, command, folder, keep):
         elif shown.suffix == ".svg" and without_numbers(shown) != without_numbers(drawn):
             failed.append(f"{name} is not what the page's commands draw now")
     shutil.rmtree(scratch)
-    if did == 0:
-        failed.append("the page runs nothing")
-    print("\n".join(failed) or f"{did} commands and programs")
+    links = [link for link in re.findall(r"\]\(([^)#\s]+)", BLOCK.sub("", page.read_text())) if not link.startswith("http")]
+    failed += [f"it links to {link}, which is not there" for link in links if not (page.parent / link).exists()]
+    if did + len(links) == 0:
+        failed.append("the page runs nothing and links to nothing")
+    print("\n".join(failed) or f"{did} commands and programs, {len(links)} links")
     return 1 if failed else 0
 
 
