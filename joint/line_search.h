@@ -31,7 +31,7 @@ double line_search(const SlopeAt& slope, double t, bool bracketed, double enough
     } else {
       t = (low + high) / 2;
     }
-    if (high - low <= 1e-15 * high) break;
+    if (std::isfinite(high) && high - low <= 1e-15 * high) break;
   }
   return t;
 }

@@ -70,14 +70,20 @@ void find_x(System& system, double faster) {
   }
 }
 
-// By Moreau's identity φ(x) = s·x − ½ s²/G in every regime of a row.
+// By Moreau's identity φ(x) = s·x − φ*(s), with φ*(s) = ½ s²/G, and ½ (|s| − hF)²/η where a hardening row has
+// slipped beyond its cap F; η is what the cap grows by per slip.
 double objective(System& system, const Evaluation& at) {
   find_x(system);
   double f = at.impulse2 / 2;
   for (const Joint& j : system.joints) {
-    const Rows& x = system.record(j).x;
+    const JointRecord& r = system.record(j);
     for (unsigned i = 0; i < 3; ++i) {
-      if (j.G[i] > 0) f += j.impulse[i] * (x[i] - j.impulse[i] / (2 * j.G[i]));
+      const double s = j.impulse[i], after = r.law.after_yield[i];
+      if (j.G[i] > 0) f += s * (r.x[i] - s / (2 * j.G[i]));
+      if (after > 0 && flows(j.regime, i)) {
+        const double over = std::abs(s) - (s > 0 ? r.law.cap : r.law.cap_reverse)[i];
+        f -= over * over * (1 - after) / (2 * after * j.G[i]);
+      }
     }
   }
   return f;

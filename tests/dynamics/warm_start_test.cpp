@@ -108,7 +108,7 @@ TEST(LinearPrediction, IsNotCarriedAwayByAThrow) {
   }
   const auto thrown = [](std::size_t) { return Vec3{8e3, -2e3, 1}; };
   told.see(thrown);
-  EXPECT_LE(told.error(thrown), 1e6);
+  EXPECT_LE(told.error(thrown), 1e-9);
 }
 
 TEST(LinearPrediction, IsFiniteAgainAfterWhatIsNot) {
