@@ -579,24 +579,32 @@ class Planner {
   }
 
   void join(const JointBetweenDef& def) {
-    const auto [a, a_end] = pieces_of(def.a);
-    const auto [b, b_end] = pieces_of(def.b);
+    const auto of_a = pieces_of(def.a), of_b = pieces_of(def.b);  // from, to
     double size = unlimited;
-    for (const int piece : {a, b}) {
+    for (const int piece : {of_a.first, of_b.first}) {
       const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
       size = std::min(size, body.circle > 0 ? 2 * body.circle : box_of(body.outline.outer).diagonal());
     }
-    const double gap = def.gap > 0 ? def.gap : 1e-6 * size;
+    const double least = 1e-6 * size;
+    const double gap = def.gap > 0 ? def.gap : least;
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
     const std::size_t before = plan_.joints.size();
-    for (int i = a; i < a_end; ++i)
-      for (int j = b; j < b_end; ++j) {
-        const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
-        if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
-        std::vector<Touch> touches;
-        for (const Contact& c : touching(one.outline, two.outline, gap)) touches.push_back({c.from, c.to});
-        if (!touches.empty()) add_joints(i, j, touches, overriding);
-      }
+    const auto join_within = [&](double distance) {
+      for (int i = of_a.first; i < of_a.second; ++i)
+        for (int j = of_b.first; j < of_b.second; ++j) {
+          const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
+          if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, distance)) continue;
+          std::vector<Touch> touches;
+          for (const Contact& c : touching(one.outline, two.outline, distance))
+            touches.push_back({c.from, c.to});
+          if (!touches.empty()) add_joints(i, j, touches, overriding);
+        }
+    };
+    // Only an overlap three times as long as the gap is an edge that two outlines share, so a gap that is
+    // larger than it need be may hide it: the largest of its halves that finds one is taken.
+    for (double distance = gap; distance >= std::min(least, gap) && plan_.joints.size() == before;
+         distance /= 2)
+      join_within(distance);
     if (plan_.joints.size() == before)
       problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
                            "their edges do not overlap anywhere within " + to_string(gap) + " m",

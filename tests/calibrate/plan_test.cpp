@@ -379,12 +379,14 @@ TEST(Calibrate, BodiesJoinWhereEdgesOverlap) {
   SceneDef scene = cantilever(1);
   scene.bodies[1].at = {0.001, 0};
   EXPECT_NE(problems_of(scene).find("their edges do not overlap anywhere"), std::string::npos);
-  scene.joints[0].gap = 0.002;
-  const Plan plan = calibrate(scene);
-  ASSERT_EQ(plan.joints.size(), 1u);
-  EXPECT_EQ(plan.joints[0].name, "wall-beam");
-  EXPECT_DOUBLE_EQ(plan.joints[0].height, 1);
-  EXPECT_EQ(plan.joints[0].axis, (Point{1, 0}));
+  for (const double gap : {0.002, 0.2, 0.5, 3.0}) {  // any that is large enough
+    scene.joints[0].gap = gap;
+    const Plan plan = calibrate(scene);
+    ASSERT_EQ(plan.joints.size(), 1u) << gap;
+    EXPECT_EQ(plan.joints[0].name, "wall-beam");
+    EXPECT_DOUBLE_EQ(plan.joints[0].height, 1) << gap;
+    EXPECT_EQ(plan.joints[0].axis, (Point{1, 0}));
+  }
 }
 
 // A wedge that comes to a point: cut where its height drowns in the rounding of its coordinates.
