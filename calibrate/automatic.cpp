@@ -252,7 +252,9 @@ class Automatic {
       for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
       const double own = error_of(cuts), expected = last * (last_n / n) * (last_n / n);
       const bool stalls = own > 1.5 * expected && own > 0.7 * last;
-      if (best.empty() || own < error) best = std::move(cuts), error = own;
+      // More cuts that hardly help, as in a shape too stout to bend like a beam, are not worth their joints.
+      if (best.empty() || (own < error && (!stalls || own <= margin * target_)))
+        best = std::move(cuts), error = own;
       if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
         break;
       last = own;
