@@ -12,11 +12,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180;
 
-Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
-Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
-Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
-double length(const Point& p) { return std::hypot(p.x, p.y); }
-
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 bool is_letter(char c) { return is_lower(c) || (c >= 'A' && c <= 'Z'); }
@@ -46,13 +41,14 @@ class Pen {
   /// SVG 1.1, F.6.5: from end points to centre.
   void arc_to(double rx, double ry, double rotation, bool large, bool positive, const Point& p);
   void close() {
+    if (!path.empty()) path.back().closed = true;
     here = start_;
     open_ = false;
   }
 
  private:
   void begin() {
-    path.push_back({to_(start_), {}});
+    path.push_back({to_(start_), {}, false});
     open_ = true;
   }
   void add(const Curve& curve, const Point& end) {
@@ -90,12 +86,6 @@ void Pen::arc_to(double rx, double ry, double rotation, bool large, bool positiv
   if (!positive && sweep > 0) sweep -= 2 * pi;
   const Point u = rx * ex, v = ry * ey;
   arc(0.5 * (here + p) + c.x * u + c.y * v, u, v, from, sweep, p);
-}
-
-/// The largest half diameter of an ellipse with conjugate half diameters u and v.
-double half_diameter(const Point& u, const Point& v) {
-  const double uu = u.x * u.x + u.y * u.y, vv = v.x * v.x + v.y * v.y, uv = u.x * v.x + u.y * v.y;
-  return std::sqrt((uu + vv + std::hypot(uu - vv, 2 * uv)) / 2);
 }
 
 }  // namespace
@@ -234,7 +224,7 @@ std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
   return std::move(pen.path);
 }
 
-std::vector<Subpath> polygon(std::string_view points, const Affine& to) {
+std::vector<Subpath> polygon(std::string_view points, bool closed, const Affine& to) {
   Pen pen(to);
   Numbers in(points);
   int count = 0;
@@ -248,6 +238,7 @@ std::vector<Subpath> polygon(std::string_view points, const Affine& to) {
   } catch (const std::invalid_argument& error) {
     throw ShapeError("point " + std::to_string(count), error.what(), "write x,y x,y ...");
   }
+  if (closed) pen.close();
   return std::move(pen.path);
 }
 
@@ -257,6 +248,7 @@ std::vector<Subpath> ellipse(Point center, double rx, double ry, const Affine& t
   pen.move(right);
   pen.arc(center, {rx, 0}, {0, ry}, 0, pi, left);
   pen.arc(center, {rx, 0}, {0, ry}, pi, pi, right);
+  pen.close();
   return std::move(pen.path);
 }
 
@@ -279,6 +271,7 @@ std::vector<Subpath> rectangle(Point corner, double width, double height, double
   round(1, {corner.x + rx, far.y - ry}, {corner.x, far.y - ry});
   pen.line({corner.x, corner.y + ry});
   round(2, {corner.x + rx, corner.y + ry}, {corner.x + rx, corner.y});
+  pen.close();
   return std::move(pen.path);
 }
 
@@ -323,111 +316,6 @@ Affine parse_transform(std::string_view text) {
     refuse(error.what());
   }
   return all;
-}
-
-// ---- curves to rings
-
-double extent(const std::vector<Subpath>& path) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point low{infinity, infinity}, high{-infinity, -infinity};
-  bool finite = true;
-  const auto reach = [&](const Point& p) {
-    finite = finite && std::isfinite(p.x) && std::isfinite(p.y);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  };
-  for (const Subpath& subpath : path) {
-    reach(subpath.start);
-    for (const Curve& curve : subpath.curves) {
-      std::visit([&](const auto& c) { reach(c.end); }, curve);
-      if (const auto* cubic = std::get_if<Cubic>(&curve)) {
-        reach(cubic->control1);
-        reach(cubic->control2);
-      } else if (const auto* arc = std::get_if<Arc>(&curve)) {
-        const double r = half_diameter(arc->u, arc->v);
-        reach(arc->center + Point{r, r});
-        reach(arc->center - Point{r, r});
-      }
-    }
-  }
-  return finite && !path.empty() ? length(high - low) : std::numeric_limits<double>::quiet_NaN();
-}
-
-namespace {
-
-constexpr double most_chords = 10'000;           // of one curve
-constexpr std::size_t most_points = 10'000'000;  // of one shape
-
-/// How many equal steps of the parameter keep the chords within the tolerance.
-double chords(const Line&, const Point&, double) { return 1; }
-double chords(const Cubic& c, const Point& start, double tolerance) {
-  // A chord over a step δ is off by at most δ²/8 max|P''|, and |P''| <= 6 max of the second differences.
-  const double bend =
-      std::max(length(start - 2 * c.control1 + c.control2), length(c.control1 - 2 * c.control2 + c.end));
-  return std::ceil(std::sqrt(6. / 8 * bend / tolerance));
-}
-double chords(const Arc& a, const Point&, double tolerance) {
-  // Sagitta r (1 − cos δ/2) = 2 r sin² δ/4; at least a chord a quarter, for the ring to have an inside.
-  const double r = half_diameter(a.u, a.v);
-  const double step = 4 * std::asin(std::sqrt(std::min(tolerance / (2 * r), 1.)));
-  return std::ceil(std::abs(a.sweep) / std::min(step, pi / 2));
-}
-
-Point at(const Line& c, const Point&, double) { return c.end; }
-Point at(const Cubic& c, const Point& start, double t) {
-  const double s = 1 - t;
-  return s * s * s * start + 3 * s * s * t * c.control1 + 3 * s * t * t * c.control2 + t * t * t * c.end;
-}
-Point at(const Arc& a, const Point&, double t) {
-  const double angle = a.from + t * a.sweep;
-  return a.center + std::cos(angle) * a.u + std::sin(angle) * a.v;
-}
-
-double area(const Ring& ring) {
-  double sum = 0;
-  for (std::size_t i = 2; i < ring.size(); ++i) {
-    const Point p = ring[i - 1] - ring[0], q = ring[i] - ring[0];
-    sum += p.x * q.y - p.y * q.x;
-  }
-  return sum / 2;
-}
-
-}  // namespace
-
-std::vector<Ring> flatten(const std::vector<Subpath>& path, double tolerance) {
-  const double near = tolerance / 100;
-  std::size_t total = 0;
-  std::vector<Ring> rings;
-  for (const Subpath& subpath : path) {
-    Ring ring{subpath.start};
-    double perimeter = 0;
-    Point start = subpath.start;
-    const auto add = [&](const Point& p) {
-      const double step = length(p - ring.back());
-      if (step <= near) return;
-      perimeter += step;
-      ring.push_back(p);
-    };
-    for (const Curve& curve : subpath.curves) {
-      std::visit(
-          [&](const auto& c) {
-            const double n = std::max(chords(c, start, tolerance), 1.);
-            if (!(n <= most_chords) || (total += static_cast<std::size_t>(n)) > most_points) {
-              throw ShapeError("curves",
-                               "need more chords than " + std::to_string(static_cast<int>(most_chords)) +
-                                   " a curve or " + std::to_string(most_points) + " a shape",
-                               "give a larger tolerance");
-            }
-            for (int i = 1; i < n; ++i) add(at(c, start, i / n));
-            add(c.end);
-            start = c.end;
-          },
-          curve);
-    }
-    while (ring.size() > 1 && length(ring.back() - ring.front()) <= near) ring.pop_back();
-    if (std::abs(area(ring)) > near * perimeter) rings.push_back(std::move(ring));
-  }
-  return rings;
 }
 
 }  // namespace ductile::svg

@@ -1,6 +1,8 @@
 // The geometry of an SVG shape: path data and basic shapes to curves, curves to rings.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,6 +12,11 @@
 #include "ductile/section.h"
 
 namespace ductile::svg {
+
+inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
+inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
+inline Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
+inline double length(const Point& p) { return std::hypot(p.x, p.y); }
 
 /// (x, y) → (a x + c y + e, b x + d y + f), as SVG's matrix(a b c d e f).
 struct Affine {
@@ -36,10 +43,10 @@ struct Arc {
 };
 using Curve = std::variant<Line, Cubic, Arc>;
 
-/// Filling closes a subpath, whether or not it was closed.
 struct Subpath {
   Point start;
   std::vector<Curve> curves;
+  bool closed = false;  ///< a stroke joins its ends; filling closes every subpath
 };
 
 /// What is wrong with a shape's data; `place` is within it ("command 3").
@@ -74,19 +81,34 @@ class Numbers {
 
 /// Path data: M L H V C S Q T A Z, absolute and relative.
 std::vector<Subpath> parse_path(std::string_view data, const Affine& to);
-std::vector<Subpath> polygon(std::string_view points, const Affine& to);
+std::vector<Subpath> polygon(std::string_view points, bool closed, const Affine& to);
 std::vector<Subpath> ellipse(Point center, double rx, double ry, const Affine& to);
 std::vector<Subpath> rectangle(Point corner, double width, double height, double rx, double ry,
                                const Affine& to);
 /// A list of matrix, translate, scale, rotate, skewX, skewY.
 Affine parse_transform(std::string_view text);
 
-/// Diagonal of the box around the curves' control points.
-double extent(const std::vector<Subpath>& path);
+/// The largest length of a direction of length 1 after the map.
+double stretch(const Affine& to);
 
-/// Chords that stay within `tolerance` of the curves, with their ends on them. Subpaths without area are left
-/// out, and points nearer to their neighbour than a hundredth of the tolerance: drawing programs close rings
-/// with their rounding error.
-std::vector<Ring> flatten(const std::vector<Subpath>& path, double tolerance);
+/// A box with sides along the axes; empty where low is not <= high.
+struct Box {
+  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  void add(const Point& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+/// A box around the curves: of their ends, control points and whole ellipses.
+Box box_around(const std::vector<Subpath>& path);
+
+struct Polyline {
+  std::vector<Point> points;  ///< a closed one does not repeat its first point
+  bool closed = false;
+};
+/// Chords that stay within `tolerance` of the curves, with their ends on them; points nearer to their
+/// neighbour than a hundredth of the tolerance are left out: drawing programs close rings with their rounding
+/// error. A ShapeError where a curve needs more than 10,000 chords.
+std::vector<Polyline> flatten(const std::vector<Subpath>& path, double tolerance);
 
 }  // namespace ductile::svg

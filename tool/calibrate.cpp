@@ -19,7 +19,8 @@ namespace ductile::tool {
 namespace {
 
 struct Options {
-  std::string scene, to, out;
+  SceneFile scene;
+  std::string to, out;
   std::vector<std::string> pictures;
   std::optional<double> target_error;
   std::optional<double> leave_out;
@@ -135,7 +136,7 @@ std::string definitions_of(const Plan& plan, const Options& options) {
   if (options.to == "cpp")
     return in_file(options.scene, [&] { return cpp_text(plan, function_of(options.scene)); });
   if (options.to == "rube") {  // a scene of its own keeps what no plan holds
-    const std::string text = read_text(options.scene);
+    const std::string text = read_text(options.scene.name);
     return is_rube(text) ? calibrated_rube(text, options.scene)
                          : in_file(options.scene, [&] { return rube_text(plan); });
   }
@@ -159,6 +160,12 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
 }
 
 std::string run(const Options& options) {
+  if (options.to == "scene") {
+    const std::string text = scene_text(scene_of(options.scene, read_text(options.scene.name)));
+    if (options.out.empty()) return text;
+    write_text(options.out, text);
+    return "";
+  }
   Plan plan = plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
   std::string left_out;
   if (options.leave_out) {
@@ -177,7 +184,7 @@ std::string run(const Options& options) {
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
     const std::string svg =
-        picture_svg(plan, {.title = title_of(options.scene), .subtitle = what, .panels = {Panel{}}});
+        picture_svg(plan, {.title = title_of(options.scene.name), .subtitle = what, .panels = {Panel{}}});
     for (const std::string& file : options.pictures) write_picture(file, svg);
   }
   if (!options.out.empty()) write_text(options.out, definitions);
@@ -190,9 +197,11 @@ std::string run(const Options& options) {
 void add_calibrate(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("calibrate", "Split a scene's bodies and calibrate their joints");
-  command->add_option("SCENE", options->scene, "scene file, or a level of R.U.B.E.")->required();
-  command->add_option("--to", options->to, "print definitions: json, box2d, cpp or rube")
-      ->check(CLI::IsMember({"json", "box2d", "cpp", "rube"}));
+  add_scene(command, options->scene);
+  command
+      ->add_option("--to", options->to,
+                   "print definitions: json, box2d, cpp or rube; or the scene file itself")
+      ->check(CLI::IsMember({"json", "box2d", "cpp", "rube", "scene"}));
   command
       ->add_option("--target-error", options->target_error,
                    "relative displacement error of automatic splits (0.01)")

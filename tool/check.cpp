@@ -10,7 +10,7 @@ namespace ductile::tool {
 namespace {
 
 struct Options {
-  std::string scene;
+  SceneFile scene;
   bool json = false;
 };
 
@@ -74,7 +74,7 @@ void add_check(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("check", "Static utilisation of every joint under the scene's loads");
-  command->add_option("SCENE", options->scene, "scene file")->required();
+  add_scene(command, options->scene);
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -11,7 +11,45 @@
 
 namespace ductile::tool {
 
-Plan plan_of(const std::string& scene_file, bool kept_elsewhere, std::optional<double> target_error) {
+namespace {
+
+/// What a drawing does not say, and what of it was not taken, on stderr.
+SceneDef scene_of_drawing(std::string_view text, const SceneFile& file) {
+  DrawnScene drawn = drawing_scene(Drawing(text, file.name), file.metres_per_unit);
+  if (drawn.scale > 0)
+    fmt::print(stderr, "warning: {}: has no physical size; a unit is taken as {:.4g} m: give --scale\n",
+               file.name, drawn.scale);
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(drawn.left_out.size(), most); ++i) {
+    const Problem& problem = drawn.left_out[i];
+    fmt::print(stderr, "warning: {}: {} (left out); {}\n", problem.place, problem.what, problem.remedy);
+  }
+  if (drawn.left_out.size() > most)
+    fmt::print(stderr, "warning: {}: {} more left out\n", file.name, drawn.left_out.size() - most);
+  return std::move(drawn.scene);
+}
+
+}  // namespace
+
+void add_scale(CLI::App* command, double& metres_per_unit) {
+  command
+      ->add_option("--scale", metres_per_unit,
+                   "metres per unit of a drawing (default: its physical size, else it is 10 m large)")
+      ->check(finite(0, true));
+}
+
+void add_scene(CLI::App* command, SceneFile& scene) {
+  command->add_option("SCENE", scene.name, "scene file, level of R.U.B.E. or SVG drawing")->required();
+  add_scale(command, scene.metres_per_unit);
+}
+
+SceneDef scene_of(const SceneFile& file, const std::string& text) {
+  return is_drawing(text) ? scene_of_drawing(text, file)
+                          : parse_scene(text, file.name, std::filesystem::path(file.name).parent_path());
+}
+
+Plan plan_of(const SceneFile& file, bool kept_elsewhere, std::optional<double> target_error) {
+  const std::string& scene_file = file.name;
   const std::string text = read_text(scene_file);  // once: it may be a pipe
   if (is_rube(text)) {
     std::vector<Problem> beyond;
@@ -19,7 +57,7 @@ Plan plan_of(const std::string& scene_file, bool kept_elsewhere, std::optional<d
     if (!beyond.empty() && !kept_elsewhere) throw InvalidInput(std::move(beyond));
     return plan;
   }
-  SceneDef scene = parse_scene(text, scene_file, std::filesystem::path(scene_file).parent_path());
+  SceneDef scene = scene_of(file, text);
   if (target_error) scene.target_error = *target_error;
   return in_file(scene_file, [&] { return calibrate(scene); });
 }

@@ -24,10 +24,24 @@ void add_limit(CLI::App& app, std::string& output);
 void add_report(CLI::App& app, std::string& output);
 void add_view(CLI::App& app, std::string& output);
 
-/// The plan of a scene file, with another target error for its automatic splits if one is given, or of a
-/// R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can hold is
-/// an error, unless the caller keeps it elsewhere.
-Plan plan_of(const std::string& scene_file, bool kept_elsewhere = false,
+/// The file that a command works on.
+struct SceneFile {
+  std::string name;
+  double metres_per_unit = 0;  ///< of a drawing; 0: as it says itself, else it is 10 m large
+  operator const std::string&() const { return name; }
+};
+/// SCENE and --scale.
+void add_scene(CLI::App* command, SceneFile& scene);
+/// --scale alone.
+void add_scale(CLI::App* command, double& metres_per_unit);
+
+/// The scene of a drawing or a scene file, whose text it is; warnings of what was not taken on stderr.
+SceneDef scene_of(const SceneFile& file, const std::string& text);
+
+/// The plan of a drawing or a scene file, with another target error for its automatic splits if one is given,
+/// or of a R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can
+/// hold is an error, unless the caller keeps it elsewhere.
+Plan plan_of(const SceneFile& file, bool kept_elsewhere = false,
              std::optional<double> target_error = std::nullopt);
 
 /// "ground" for −1.

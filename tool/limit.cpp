@@ -9,7 +9,7 @@ namespace ductile::tool {
 namespace {
 
 struct Options {
-  std::string scene;
+  SceneFile scene;
   bool fixed_gravity = false, json = false;
 };
 
@@ -26,9 +26,9 @@ std::string run(const Options& options) {
   }
   const char* what = options.fixed_gravity ? "the loads, gravity as it is" : "the loads and gravity";
   if (limit.load_factor == unlimited)
-    return fmt::format("{}: no multiple of {} collapses it\n", options.scene, what);
+    return fmt::format("{}: no multiple of {} collapses it\n", options.scene.name, what);
   std::string text =
-      fmt::format("{}: collapses at {:.6g} times {}, in\n", options.scene, limit.load_factor, what);
+      fmt::format("{}: collapses at {:.6g} times {}, in\n", options.scene.name, limit.load_factor, what);
   for (const Json& hinge : hinges) text += fmt::format("  {}\n", hinge.get<std::string>());
   if (limit.time > 0) text += fmt::format("the loads are those from {:g} s on\n", limit.time);
   return text;
@@ -39,7 +39,7 @@ std::string run(const Options& options) {
 void add_limit(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("limit", "Collapse load factor and hinges by limit analysis");
-  command->add_option("SCENE", options->scene, "scene file")->required();
+  add_scene(command, options->scene);
   command->add_flag("--fixed-gravity", options->fixed_gravity, "multiply the loads only");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });

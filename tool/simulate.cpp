@@ -18,7 +18,8 @@ namespace {
 constexpr double most_steps = 1e7;
 
 struct Options {
-  std::string scene, history, replay, solver = "direct";
+  SceneFile scene;
+  std::string history, replay, solver = "direct";
   std::vector<std::string> pictures;
   std::vector<double> picture_at;
   double time = 0;
@@ -144,8 +145,9 @@ class Pictures {
   void write(const Simulation& simulation, const Options& options) {
     const std::string how = fmt::format("{} joints, {} solver, steps of {:.3g} s",
                                         simulation.plan().joints.size(), options.solver, options.stepping.dt);
-    const std::string svg = picture_svg(
-        simulation.plan(), {.title = title_of(options.scene), .subtitle = how, .panels = std::move(panels_)});
+    const std::string svg =
+        picture_svg(simulation.plan(),
+                    {.title = title_of(options.scene.name), .subtitle = how, .panels = std::move(panels_)});
     for (const std::string& file : options.pictures) write_picture(file, svg);
   }
 
@@ -226,7 +228,8 @@ std::string run(const Options& options) {
   }
   if (history) history->keep();
   if (replay_file) {
-    replay_file->write(replay.page(std::filesystem::path(options.scene).filename().string(), *simulation));
+    replay_file->write(
+        replay.page(std::filesystem::path(options.scene.name).filename().string(), *simulation));
     replay_file->keep();
   }
   if (!options.pictures.empty()) pictures.write(*simulation, options);
@@ -247,7 +250,7 @@ void add_simulate(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("simulate", "Run a scene and report forces, usage, damage and energy");
-  command->add_option("SCENE", options->scene, "scene file")->required();
+  add_scene(command, options->scene);
   command->add_option("--time", options->time, "how long, s")->required()->check(finite(0));
   command->add_option("--dt", options->stepping.dt, "time step, s (default 1/60)")->check(finite(0, true));
   command

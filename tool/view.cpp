@@ -34,13 +34,14 @@ void add_view(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("view", "The window: run a scene, look into its joints, play with it, edit it");
-  command->add_option("SCENE", options->scene, "scene file or SVG drawing")->required();
+  command->add_option("SCENE", options->scene, "scene file, level of R.U.B.E. or SVG drawing")->required();
+  add_scale(command, options->view.metres_per_unit);
   command->add_option("--select", options->view.select, "name of a joint to look into; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--tab", options->view.tab, "what is open at first on the right")
       ->check(CLI::IsMember({"joint", "joints", "edit", "events", "ledger"}));
   command->add_flag("--forces", options->view.forces, "draw forces and moments at first");
-  command->add_option("--scale", options->view.scale, "size of everything (default: as the display asks for)")
+  command->add_option("--zoom", options->view.scale, "size of everything (default: as the display asks for)")
       ->check(CLI::Range(0.5, 8.));
   auto* frames = command->add_option("--frames", options->view.frames, "run so many steps, then end")
                      ->check(CLI::Range(0L, 10'000'000L));

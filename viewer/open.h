@@ -16,8 +16,8 @@ struct Opened {
 };
 
 /// A scene file, a R.U.B.E. level, or a drawing, whose shapes become steel bodies above a floor. Throws
-/// InvalidInput and std::system_error.
-Opened open_file(const std::filesystem::path& file);
+/// InvalidInput and std::system_error. `metres_per_unit` of a drawing; 0: as it says itself, else 10 m large.
+Opened open_file(const std::filesystem::path& file, double metres_per_unit = 0);
 
 /// Files of scenes in a folder, by name. None where there is no such folder.
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder);

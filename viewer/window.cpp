@@ -234,7 +234,7 @@ ViewCost view(const ViewDef& def) {
   using namespace viewer;
   const std::filesystem::path folder = def.scene.has_parent_path() ? def.scene.parent_path() : ".";
   Workbench bench(scenes_in(folder));
-  bench.open(def.scene);
+  bench.open(def.scene, def.metres_per_unit);
   bench.select(find_joints(bench.plan(), def), false);
   const bool counted = def.frames >= 0;
   Window window(bench, def.scale, !counted);

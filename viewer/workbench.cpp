@@ -40,8 +40,8 @@ Workbench::Workbench(std::vector<std::filesystem::path> scenes)
   run_ = std::make_unique<Timeline>(before_);
 }
 
-void Workbench::open(const std::filesystem::path& file) {
-  Opened opened = open_file(file);
+void Workbench::open(const std::filesystem::path& file, double metres_per_unit) {
+  Opened opened = open_file(file, metres_per_unit);
   Plan plan;
   std::unique_ptr<Timeline> run;
   in_file(file.string(), [&] {

@@ -20,7 +20,7 @@ class Workbench {
 
   // --- the scene ---
   /// Another scene. Throws, with everything as it was, where the file cannot be used.
-  void open(const std::filesystem::path& file);
+  void open(const std::filesystem::path& file, double metres_per_unit = 0);
   /// The same as a user asks for it: what is wrong becomes the message, and so does what would be lost; false
   /// then. Asked again, edits that are not saved are lost.
   bool try_open(const std::filesystem::path& file);

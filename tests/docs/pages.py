@@ -4,7 +4,7 @@
     pages.py check  PAGE COMMAND PROGRAMS [--keep] runs one page; with --keep pictures go where the page shows them
 
 On a page, in their order:
-  ```json after a line that ends in `NAME`:   is written to NAME
+  ```json or ```xml after a line that ends in `NAME`:  is written to NAME
   ```sh                                       runs in that folder, with `ductile` in its path
   ```cpp with a main                          runs there, compiled
   ```text after either                        is what it prints; a line `…` stands for any lines, a `…` in a line for anything
@@ -52,7 +52,7 @@ def check(page, command, folder, keep):
     path = dict(os.environ, PATH=f"{scratch / 'bin'}:{os.environ['PATH']}")
     printed, failed, number, did = None, [], 0, 0
     for lead, kind, text in blocks(page):
-        if kind == "json":
+        if kind in ("json", "xml"):
             name = re.search(r"`([\w.]+)`:$", lead)
             if name:
                 (scratch / name[1]).write_text(text)

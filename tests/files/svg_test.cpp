@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "ductile/files.h"
@@ -244,9 +245,10 @@ TEST(Svg, AScaleOverridesThePhysicalSize) {
 }
 
 TEST(Svg, KnowsItsShapes) {
-  const Drawing page(drawing("<g id='g'><rect id='b'/><path inkscape:label='c'/></g><text id='d'/><circle/>"),
+  const Drawing page(drawing("<g id='g'><rect id='b'/><path inkscape:label='c'/></g><text id='d'/><circle/>"
+                             "<circle><title>wheel</title></circle><rect fill='none'/>"),
                      "t.svg");
-  EXPECT_EQ(page.ids(), (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(page.ids(), (std::vector<std::string>{"b", "c", "circle 1", "wheel"}));
 }
 
 struct Bad {
@@ -289,29 +291,31 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"text", "<text id='a'>x</text>", "0 shapes"},
         Bad{"rect_without_height", "<rect id='a' width='1'/>", "height"},
         Bad{"negative_radius", "<circle id='a' r='-1'/>", "r: is not > 0"},
-        Bad{"percent", "<circle id='a' r='10%'/>", "r: is"},
         Bad{"unknown_unit", "<circle id='a' r='10em'/>", "em"},
         Bad{"half_a_polygon_point", "<polygon id='a' points='0,0 1'/>", "point 1"},
         Bad{"unknown_transform", path("M0 0h1v1z", "transform='bend(3)'"), "transform"},
         Bad{"transform_of_too_few", path("M0 0h1v1z", "transform='matrix(1 2 3)'"), "transform"},
         Bad{"transform_cut_off", path("M0 0h1v1z", "transform='rotate(1'"), "transform"},
-        Bad{"transform_by_style", path("M0 0h1v1z", "style='transform: rotate(3deg)'"), "transform"},
+        Bad{"transform_about_an_origin",
+            path("M0 0h1v1z", "style='transform: rotate(3deg); transform-origin: 1px 1px'"),
+            "transform-origin"},
         Bad{"flattened_by_its_transform", path("M0 0h1v1z", "transform='scale(1 0)'"), "no area"},
         Bad{"fill_rule", path("M0 0h1v1z", "fill-rule='odd'"), "fill-rule"},
-        Bad{"fill_rule_by_sheet",
-            "<style>path { fill-rule: evenodd }</style>" + path("M0 0h10v10h-10z M2 2h2v2h-2z"), "fill-rule"},
         Bad{"use_of_nothing", "<use id='a' href='#b'/>", "#b"},
         Bad{"use_of_another_file", "<use id='a' href='other.svg#b'/>", "other.svg"},
         Bad{"use_of_itself", "<use id='a' href='#a'/>", "#a"},
         Bad{"use_in_a_circle", "<use id='a' href='#b'/><g id='b'><use href='#a'/></g>", "<use>"},
-        Bad{"nested_view", "<svg viewBox='0 0 1 1'>" + path("M0 0h1v1z") + "</svg>", "<svg>"}),
+        Bad{"half_transparent_mask",
+            "<mask id='m'><rect width='9' height='9' fill='gray'/></mask>" +
+                path("M0 0h5v5h-5z", "mask='url(#m)'"),
+            "half transparent"}),
     [](const auto& info) { return info.param.name; });
 
 TEST(Svg, ADrawingWithoutSizeNeedsAScale) {
-  for (const char* attributes : {"viewBox='0 0 100 100'", "width='100' height='100' viewBox='0 0 100 100'",
-                                 "width='100%' viewBox='0 0 100 100'", "width='1cm'",
-                                 "viewBox='0 0 0 1' width='1cm'", "viewBox='0 0 1' width='1cm'",
-                                 "viewBox='0 0 1 1' width='-1cm'", "viewBox='0 0 1 1' width='1furlong'"}) {
+  for (const char* attributes :
+       {"viewBox='0 0 100 100'", "width='100' height='100' viewBox='0 0 100 100'",
+        "width='100%' viewBox='0 0 100 100'", "viewBox='0 0 0 1' width='1cm'", "viewBox='0 0 1' width='1cm'",
+        "viewBox='0 0 1 1' width='-1cm'", "viewBox='0 0 1 1' width='1furlong'"}) {
     EXPECT_THROW(Drawing(drawing(path("M0 0h1v1z"), attributes), "t.svg").outline("a"), InvalidInput)
         << attributes;
   }
@@ -326,5 +330,174 @@ TEST(Svg, WhatIsNoDrawingIsRefused) {
 TEST(Svg, AToleranceThatAsksForEndlessChordsIsRefused) {
   const Drawing page(drawing("<circle id='a' r='5'/>"), "t.svg");
   EXPECT_THROW(page.outline("a", {.metres_per_unit = 1, .tolerance = 1e-300}), InvalidInput);
+}
+
+/// What a drawing shows, by name: areas in closed form, of shapes 10 units and more across.
+struct Seen {
+  const char* name;
+  std::string content;
+  std::map<std::string, double> areas;
+  double tolerance = 1e-5;
+};
+std::ostream& operator<<(std::ostream& out, const Seen& seen) { return out << seen.name; }
+class AsABrowser : public testing::TestWithParam<Seen> {};
+
+TEST_P(AsABrowser, ShowsTheseAreas) {
+  const auto drawn = Drawing(drawing(GetParam().content), "t.svg")
+                         .shapes({.metres_per_unit = 1, .tolerance = GetParam().tolerance});
+  std::map<std::string, double> areas;
+  for (const auto& shape : drawn.shapes) {
+    EXPECT_TRUE(validate(shape.outline).empty()) << shape.name;
+    areas[shape.name] = area(shape.outline);
+  }
+  ASSERT_EQ(areas.size(), GetParam().areas.size());
+  for (const auto& [name, expected] : GetParam().areas) {
+    ASSERT_TRUE(areas.contains(name)) << name;
+    EXPECT_NEAR(areas[name], expected, GetParam().tolerance * 300) << name;  // chords: tolerance × perimeter
+  }
+}
+
+const std::string square = "<rect id='a' width='10' height='10'/>";
+INSTANTIATE_TEST_SUITE_P(
+    Svg, AsABrowser,
+    testing::Values(
+        Seen{"nothing_hidden",
+             "<style>.gone{display:none} #b{visibility:hidden}</style>" + square +
+                 "<rect id='b' width='10' height='10'/><rect class='x gone' width='9' height='9'/>"
+                 "<g style='display:none'><rect id='c' width='9' height='9'/></g>"
+                 "<rect fill='none' width='9' height='9'/><rect fill-opacity='0' width='9' height='9'/>"
+                 "<g opacity='0'><rect width='9' height='9'/></g><defs><rect width='9' height='9'/></defs>",
+             {{"a", 100}}},
+        Seen{"visible_in_hidden",
+             "<g visibility='hidden'><rect id='a' visibility='visible' width='10' height='10'/></g>",
+             {{"a", 100}}},
+        Seen{"the_more_specific_rule",
+             "<style>#a{display:inline} rect{display:none} rect.b{display:inline} g "
+             "rect.b{display:none}</style>" +
+                 square +
+                 "<rect class='b' id='b' width='5' height='5'/><g><rect class='b' width='7' height='7'/></g>",
+             {{"a", 100}, {"b", 25}}},
+        Seen{"important_wins",
+             "<style>rect{display:none !important}</style><rect style='display:inline' width='9' height='9'/>"
+             "<circle id='a' r='10'/>",
+             {{"a", 100 * pi}}},
+        Seen{"fill_rule_by_sheet",
+             "<style>path { fill-rule: evenodd }</style>" + path("M0 0h10v10h-10z M2 2h2v2h-2z"),
+             {{"a", 96}}},
+        Seen{"bow_tie", path("M0 0 L10 10 L10 0 L0 10 Z"), {{"a 1", 25}, {"a 2", 25}}},
+        // A pentagram of circumradius 10: its points are 5 triangles, its middle a pentagon. With φ the
+        // golden ratio its inner circumradius is 10/φ², and its area 5 R r sin 36°.
+        Seen{"star",
+             path("M0 -10 L5.877852522924731 8.090169943749475 L-9.510565162951535 -3.0901699437494745"
+                  " L9.510565162951535 -3.0901699437494745 L-5.877852522924731 8.090169943749475 Z",
+                  "transform='translate(20 20)'"),
+             {{"a", 5 * 10 * 10 * 0.3819660112501051 * std::sin(pi / 5)}}},
+        Seen{"wire", path("M10 10 H60", "fill='none' stroke='black' stroke-width='4'"), {{"a", 200}}},
+        Seen{"wire_with_round_ends",
+             path("M10 10 H60", "stroke='black' stroke-width='4' stroke-linecap='round'"),
+             {{"a", 200 + 4 * pi}}},
+        Seen{"wire_with_square_ends",
+             path("M10 10 H60", "stroke='black' stroke-width='4' stroke-linecap='square'"),
+             {{"a", 216}}},
+        Seen{"mitred_corner",
+             path("M10 10 H60 V60", "fill='none' stroke='black' stroke-width='4'"),
+             {{"a", 400}}},
+        Seen{"bevelled_corner",
+             path("M10 10 H60 V60", "fill='none' stroke='black' stroke-width='4' stroke-linejoin='bevel'"),
+             {{"a", 398}}},
+        Seen{"rounded_corner",
+             path("M10 10 H60 V60", "fill='none' stroke='black' stroke-width='4' stroke-linejoin='round'"),
+             {{"a", 396 + pi}}},
+        Seen{"mitre_beyond_its_limit",
+             path("M10 10 H60 V60", "fill='none' stroke='black' stroke-width='4' stroke-miterlimit='1.4'"),
+             {{"a", 398}}},
+        Seen{
+            "frame",
+            "<rect id='a' x='10' y='10' width='50' height='50' fill='none' stroke='black' stroke-width='4'/>",
+            {{"a", 54 * 54 - 46 * 46}}},
+        Seen{"ring",
+             "<circle id='a' cx='50' cy='50' r='20' fill='none' stroke='black' stroke-width='4'/>",
+             {{"a", pi*(22 * 22 - 18 * 18)}}},
+        Seen{"pen_wider_than_its_circle",
+             "<circle id='a' cx='50' cy='50' r='5' fill='none' stroke='black' stroke-width='30'/>",
+             {{"a", pi * 400}},
+             1e-3},
+        Seen{"fill_and_stroke",
+             "<rect id='a' x='10' y='10' width='50' height='50' stroke='black' stroke-width='4'/>",
+             {{"a", 54 * 54}}},
+        Seen{"dashes",
+             path("M10 10 H60", "stroke='black' stroke-width='4' stroke-dasharray='10 20'"),
+             {{"a 1", 40}, {"a 2", 40}}},
+        Seen{
+            "dashes_from_an_offset",
+            path("M10 10 H40", "stroke='black' stroke-width='4' stroke-dasharray='10' stroke-dashoffset='5'"),
+            {{"a 1", 40}, {"a 2", 20}}},
+        Seen{"stroke_under_a_skewed_scale",
+             path("M10 10 H60", "stroke='black' stroke-width='4' transform='scale(1 3)'"),
+             {{"a", 600}}},
+        Seen{"clipped",
+             "<clipPath id='p'><circle cx='10' cy='10' r='5'/></clipPath>"
+             "<rect id='a' width='50' height='10' clip-path='url(#p)'/>",
+             {{"a", 12.5 * pi}}},
+        Seen{"clipped_to_its_box",
+             "<clipPath id='p' clipPathUnits='objectBoundingBox'><rect width='0.5' height='1'/></clipPath>"
+             "<rect id='a' x='20' y='5' width='50' height='10' clip-path='url(#p)'/>",
+             {{"a", 250}}},
+        Seen{"clipped_twice",
+             "<clipPath id='p'><rect width='20' height='9'/></clipPath><clipPath id='q'><rect x='10' "
+             "width='50' height='9'/></clipPath>"
+             "<g clip-path='url(#p)'><rect id='a' width='50' height='50' clip-path='url(#q)'/></g>",
+             {{"a", 90}}},
+        Seen{"masked",
+             "<mask id='m'><rect width='20' height='20' fill='white'/><rect width='5' height='5'/></mask>"
+             "<rect id='a' width='50' height='10' mask='url(#m)'/>",
+             {{"a", 175}}},
+        Seen{"copies",
+             "<defs><rect id='b' width='10' height='10'/></defs><use id='u' href='#b' x='20'/>"
+             "<use href='#b' transform='scale(2)'/>",
+             {{"u", 100}, {"b", 400}}},
+        // A symbol of 10 units in a frame of 20 × 40 is scaled by 2 and centred; what leaves the frame is
+        // cut.
+        Seen{"symbol",
+             "<symbol id='s' viewBox='0 0 10 10'><rect id='b' x='5' width='10' height='10'/></symbol>"
+             "<use href='#s' width='20' height='40'/>",
+             {{"b", 200}}},
+        Seen{"nested_view",
+             "<svg width='50' height='25' viewBox='0 0 10 10' preserveAspectRatio='none'>"
+             "<rect id='a' width='2' height='2'/></svg>",
+             {{"a", 50}}},
+        Seen{"sliced_view",
+             "<svg width='50' height='25' viewBox='0 0 10 10' preserveAspectRatio='xMidYMin slice'>"
+             "<rect id='a' width='10' height='10'/></svg>",
+             {{"a", 1250}}},
+        Seen{"percent", "<rect id='a' width='10%' height='50%'/>", {{"a", 500}}},
+        Seen{"style_transform",
+             path("M0 0h10v10h-10z", "style='transform: rotate(30deg) scale(2)'"),
+             {{"a", 400}}},
+        Seen{"ring_drawn_in_one_line", path("M0 0H30V30H0V0H10V20H20V10H0Z"), {{"a", 900 - 100}}},
+        Seen{"hole_that_touches_the_edge",
+             path("M0 0H30V30H0Z M15 0 L20 10 L10 10 Z", "fill-rule='evenodd'"),
+             {{"a", 850}}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Svg, OneBadShapeIsLeftOutAndSaid) {
+  const auto drawn = Drawing(drawing(square + "<path id='b' d='M 0 0 L 1 x'/><text id='t'>x</text>"), "t.svg")
+                         .shapes({.metres_per_unit = 1});
+  ASSERT_EQ(drawn.shapes.size(), 1u);
+  ASSERT_EQ(drawn.left_out.size(), 2u);
+  EXPECT_EQ(drawn.left_out[0].place, "t.svg:t");
+  EXPECT_EQ(drawn.left_out[1].place, "t.svg:#b, path command 2");
+}
+
+TEST(Svg, AHiddenShapeIsTakenByItsName) {
+  EXPECT_NEAR(area(outline("<defs><rect id='a' width='10' height='10'/></defs>")), 100, 1e-12);
+  EXPECT_NEAR(area(outline("<g display='none' transform='scale(2)'>" + square + "</g>")), 400, 1e-12);
+}
+
+TEST(Svg, OneOfSeveralAreasIsTakenByItsNumber) {
+  const Drawing page(drawing(path("M0 0h1v1h-1z M3 3h2v2h-2z")), "t.svg");
+  EXPECT_NEAR(area(page.outline("a 1", {.metres_per_unit = 1})), 4, 1e-12);
+  EXPECT_NEAR(area(page.outline("a 2", {.metres_per_unit = 1})), 1, 1e-12);
+  EXPECT_THROW(page.outline("a 3", {.metres_per_unit = 1}), InvalidInput);
 }
 }  // namespace

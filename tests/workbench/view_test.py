@@ -61,7 +61,7 @@ class Batch(unittest.TestCase):
     def test_screenshots_have_the_size_asked_for(self):
         for scale, size in ((1, (1280, 720)), (2, (2560, 1440))):
             with tempfile.NamedTemporaryFile(suffix=".png") as file:
-                run = view(SCENES / "cantilever.scene.json", "--frames", 5, "--scale", scale, "--screenshot", file.name)
+                run = view(SCENES / "cantilever.scene.json", "--frames", 5, "--zoom", scale, "--screenshot", file.name)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 png = Path(file.name).read_bytes()
                 self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
@@ -93,7 +93,7 @@ class Window(unittest.TestCase):
         self.path = Path(self.folder.name)
         for name in "a", "b":
             (self.path / f"{name}.scene.json").write_text(json.dumps(SCENE))
-        self.process = subprocess.Popen([COMMAND, "view", self.path / "a.scene.json", "--scale", "0.5", "--trace"], env=screen.env,
+        self.process = subprocess.Popen([COMMAND, "view", self.path / "a.scene.json", "--zoom", "0.5", "--trace"], env=screen.env,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.frames, self.line = 0, ""
         self.reader = threading.Thread(target=self.read)

@@ -40,25 +40,59 @@ struct DrawingScale {
   double tolerance = 0;  ///< m, between a curve and its chords; 0: 1e-4 of the diagonal of the shape's points
 };
 
-/// An SVG drawing. Shapes are path, rect, circle, ellipse, polygon, polyline, and `use` of one; a group
-/// stands for the one shape in it. y is flipped at the bottom of the viewBox, x stays.
+/// What a drawing shows.
+struct DrawnShapes {
+  struct Shape {
+    std::string name;  ///< id, label or title, else "path 7"; with a number where it has several areas
+    Outline outline;
+  };
+  std::vector<Shape> shapes;      ///< in the order in which they are painted
+  std::vector<Problem> left_out;  ///< what is shown and could not be taken: text, images, broken paths
+};
+
+/// An SVG drawing as a browser shows it: what is hidden or only defined is no shape, style sheets count, a line
+/// is as wide as its stroke, clip paths cut. docs/files/svg.md has what is taken and what is not. y is flipped
+/// at the bottom of the viewBox, x stays.
 class Drawing {
  public:
   explicit Drawing(const std::filesystem::path& file);
   Drawing(std::string_view text, std::string name);
 
-  /// The filled area of the element with that id, or else inkscape:label, in metres: its fill-rule decides
-  /// what is outer ring and what is hole. A problem where that is not one connected area, or something in it
-  /// is not understood.
+  /// What is painted of the element with that id, inkscape:label or title, in metres. A problem where that is
+  /// not one connected area, or something in it is not understood. An element that the page does not show is
+  /// taken, too, when it is asked for.
   Outline outline(std::string_view id, const DrawingScale& scale = {}) const;
 
-  /// Ids (labels where there is no id) of the shapes, in document order.
+  /// All that the page shows. One bad shape is left out, not the drawing.
+  DrawnShapes shapes(const DrawingScale& scale = {}) const;
+
+  /// Names of what the page shows, in document order.
   std::vector<std::string> ids() const;
+
+  /// What problems call it.
+  const std::string& name() const;
+
+  /// Does it say how large it is in the world ("200mm")? Else a scale must be given.
+  bool sized() const;
 
  private:
   struct Data;
   std::shared_ptr<const Data> data_;
 };
+
+/// Is it a drawing? Told by its first character: what is no drawing is JSON.
+bool is_drawing(std::string_view text);
+
+/// A first scene of a drawing, to look at and to go on from: every shape is a body of S355 in up to 8 pieces,
+/// a twentieth of the drawing thick, above a floor, not joined to the others. What reaches down to the floor is
+/// held there.
+struct DrawnScene {
+  SceneDef scene;
+  double scale = 0;               ///< metres per unit, where the drawing did not say it and it became 10 m large
+  std::vector<Problem> left_out;  ///< as in DrawnShapes
+};
+/// Throws InvalidInput where the drawing shows nothing that is a body. `metres_per_unit` as DrawingScale has it.
+DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit = 0);
 
 /// The file's bytes. A problem when it cannot be read, or is larger than 256 MiB.
 std::string read_text(const std::filesystem::path& file);

@@ -13,6 +13,7 @@ struct ViewDef {
   std::string tab = "joint";         ///< which is open at first: joint, joints, edit, events, ledger
   bool forces = false;               ///< forces and moments are drawn at first
   long frames = -1;                  ///< so many steps, then the end; negative: until it is closed
+  double metres_per_unit = 0;        ///< of a drawing; 0: as it says itself, else it is 10 m large
   double scale = 0;                  ///< pixels per pixel of 1280 × 720; 0: as the display asks for
   std::filesystem::path screenshot;  ///< PNG of the last frame; empty: none
   bool trace = false;                ///< each frame's state as a line of JSON on stdout, for tests

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "ductile/files.h"
+
+namespace ductile {
+namespace {
+
+constexpr double size_without_scale = 10;  // m, of a drawing that does not say how large it is
+
+/// A name that a scene takes, each once: without "/ # -", and not one of its own.
+std::string body_name(std::string name, std::set<std::string>& taken) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == '#' || c == '-'; }, '_');
+  if (name == "ground" || name == "floor") name += "_";
+  std::string one = name;
+  for (int i = 2; !taken.insert(one).second; ++i) one = name + "_" + std::to_string(i);
+  return one;
+}
+
+struct Frame {
+  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  double size() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+Frame around(const DrawnShapes& drawn) {
+  Frame frame;
+  for (const auto& shape : drawn.shapes) {
+    for (const Point& p : shape.outline.outer) {
+      frame.low = {std::min(frame.low.x, p.x), std::min(frame.low.y, p.y)};
+      frame.high = {std::max(frame.high.x, p.x), std::max(frame.high.y, p.y)};
+    }
+  }
+  return frame;
+}
+
+/// Where a ring stands on the floor: the middles of its edges there, else its lowest vertex.
+std::vector<Point> feet(const Ring& ring, double floor) {
+  std::vector<Point> feet;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    if (ring[i].y <= floor && ring[j].y <= floor)
+      feet.push_back({(ring[i].x + ring[j].x) / 2, (ring[i].y + ring[j].y) / 2});
+  }
+  const Point lowest =
+      *std::min_element(ring.begin(), ring.end(), [](Point p, Point q) { return p.y < q.y; });
+  if (feet.empty() && lowest.y <= floor) feet.push_back(lowest);
+  return feet;
+}
+
+/// In as many pieces as it can be split into: a body that cannot be split is still a body.
+BodyDef split(BodyDef body) {
+  BodyDef parts = body;
+  parts.pieces = 8;
+  try {
+    calibrate(parts);
+    return parts;
+  } catch (const InvalidInput&) {
+    return body;
+  }
+}
+
+}  // namespace
+
+DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
+  DrawnScene result;
+  DrawnShapes drawn;
+  if (metres_per_unit > 0 || drawing.sized()) {
+    drawn = drawing.shapes({.metres_per_unit = metres_per_unit});
+  } else {
+    const Frame units = around(drawing.shapes({.metres_per_unit = 1}));
+    result.scale = units.size() > 0 ? size_without_scale / units.size() : 1;
+    drawn = drawing.shapes({.metres_per_unit = result.scale});
+  }
+  result.left_out = std::move(drawn.left_out);
+  if (drawn.shapes.empty()) {
+    auto problems = result.left_out;
+    problems.push_back({drawing.name(), "shows no shape", "draw one with a fill or a stroke"});
+    throw InvalidInput(std::move(problems));
+  }
+  const Frame frame = around(drawn);
+  const double size = frame.size();
+  BodyDef floor;
+  floor.name = "floor";
+  floor.type = BodyType::static_body;
+  floor.outline.outer = {{frame.low.x - size, frame.low.y - 0.1 * size},
+                         {frame.high.x + size, frame.low.y - 0.1 * size},
+                         {frame.high.x + size, frame.low.y},
+                         {frame.low.x - size, frame.low.y}};
+  result.scene.bodies.push_back(floor);
+  std::set<std::string> taken;
+  for (auto& shape : drawn.shapes) {
+    BodyDef body;
+    body.name = body_name(std::move(shape.name), taken);
+    body.outline = std::move(shape.outline);
+    body.material = materials::S355;
+    body.depth = 0.05 * size;
+    for (const Point& foot : feet(body.outline.outer, frame.low.y + 1e-6 * size))
+      result.scene.supports.push_back({body.name, foot, true, true, true});
+    result.scene.bodies.push_back(split(std::move(body)));
+  }
+  return result;
+}
+
+bool is_drawing(std::string_view text) {
+  const auto first = std::find_if(text.begin(), text.end(), [](unsigned char c) {
+    return !std::isspace(c) && c != 0xEF && c != 0xBB && c != 0xBF;  // a byte order mark
+  });
+  return first != text.end() && *first == '<';
+}
+
+}  // namespace ductile

@@ -1,0 +1,300 @@
+// The walk through a drawing in the order in which a browser paints it.
+#include <algorithm>
+#include <array>
+
+#include "svg_document.h"
+
+namespace ductile::svg {
+namespace {
+
+using Node = pugi::xml_node;
+
+template <std::size_t n>
+bool among(std::string_view name, const std::array<std::string_view, n>& list) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// What is around an element.
+struct Around {
+  Style style;
+  Affine to;
+  Point view;
+  std::vector<Clip> clips;
+  std::vector<std::string> names;
+  int uses = 0, depth = 0;
+};
+
+std::string_view get(const Style& style, std::string_view property) {
+  const auto found = style.find(property);
+  return found == style.end() ? std::string_view() : found->second;
+}
+
+/// CSS writes transforms with units; in px and deg they mean what the attribute's plain numbers do.
+Affine transform_of(const Style& style) {
+  if (get(style, "transform-origin") != "" && get(style, "transform") != "") {
+    throw ShapeError("transform-origin", "is not taken", "put the transform into a matrix");
+  }
+  std::string text(get(style, "transform"));
+  if (text == "none") return {};
+  for (const char* unit : {"px", "deg"}) {
+    for (auto at = text.find(unit); at != std::string::npos; at = text.find(unit))
+      text.erase(at, std::string_view(unit).size());
+  }
+  return parse_transform(text);
+}
+
+class Walk {
+ public:
+  Walk(const Document& document, bool all) : document_(document), all_(all) {}
+
+  void visit(const Node& node, const Around& around);
+  /// The shape's number among all of its kind, shown or not.
+  void count(const Node& node) {
+    if (is_shape(node)) numbers_.emplace(node, ++counts_[std::string(local_name(node))]);
+  }
+
+  Shown shown;
+
+ private:
+  void enter(const Node& node, Around here, std::string_view kind);
+  void use(const Node& node, const Around& here);
+  void frame(const Node& node, Around& here, const Point& corner, const Point& size) const;
+  void clip(const Node& node, Around& here, std::string_view property);
+  std::string place(const Node& node) const { return document_.name + ":" + title(node); }
+  std::string title(const Node& node) const;
+
+  const Document& document_;
+  bool all_;  // what the page does not show, too
+  std::map<Node, int> numbers_;
+  std::map<std::string, int> counts_;
+  std::size_t visits_ = 0;
+};
+
+/// What a user finds it by.
+std::string Walk::title(const Node& node) const {
+  for (const char* attribute : {"id", "inkscape:label", "aria-label"}) {
+    const std::string_view text = trimmed(node.attribute(attribute).value());
+    if (!text.empty()) return std::string(text);
+  }
+  for (const Node& child : node.children()) {
+    if (local_name(child) == "title" && *child.child_value())
+      return std::string(trimmed(child.child_value()));
+  }
+  const auto number = numbers_.find(node);
+  return std::string(local_name(node)) +
+         (number == numbers_.end() ? "" : " " + std::to_string(number->second));
+}
+
+void Walk::visit(const Node& node, const Around& around) {
+  static constexpr std::array<std::string_view, 4> containers{"svg", "g", "a", "switch"};
+  static constexpr std::array<std::string_view, 3> unlike{"text", "image", "foreignObject"};
+  constexpr std::size_t most_visits = 1'000'000;
+  constexpr int most_depth = 256;
+  const std::string_view kind = local_name(node);
+  const bool container = among(kind, containers);
+  if (!container && !is_shape(node) && kind != "use" && kind != "symbol" && !among(kind, unlike)) return;
+  if (around.depth > most_depth) {
+    throw InvalidInput({{place(node), "is more than 256 groups deep", "ungroup them"}});
+  }
+  if (++visits_ > most_visits) {
+    throw InvalidInput({{document_.name, "shows more than 1000000 elements", "use fewer copies"}});
+  }
+  Around here = around;
+  ++here.depth;
+  here.style = document_.sheet.style(node, around.style);
+  if (get(here.style, "display") == "none" && !all_) return;
+  if (among(kind, unlike)) {
+    const bool text = kind == "text";
+    shown.not_taken.push_back({place(node), text ? "is text" : "is no shape",
+                               text ? "turn it into a path to make a body of it" : "draw it as a path"});
+    return;
+  }
+  for (const char* attribute : {"id", "inkscape:label"}) {
+    if (const std::string_view name = node.attribute(attribute).value(); !name.empty())
+      here.names.emplace_back(name);
+  }
+  try {
+    here.to = here.to * transform_of(here.style);
+    clip(node, here, "clip-path");
+    clip(node, here, "mask");
+    const std::string_view opacity = get(here.style, "opacity");
+    if (!all_ && (opacity == "0" || opacity == "0%" || opacity == "0.0")) return;
+    if (const std::string_view filter = get(here.style, "filter"); !filter.empty() && filter != "none")
+      shown.not_taken.push_back({place(node), "has a filter, which is not taken", "expand it into shapes"});
+    enter(node, std::move(here), kind);
+  } catch (const ShapeError& error) {
+    Painted bad{node, {}, {}, {}, {}, title(node), std::move(here.names), {}};
+    bad.names.push_back(bad.name);
+    bad.problem = {place(node) + ", " + error.place, error.what(), error.remedy};
+    shown.shapes.push_back(std::move(bad));
+  }
+}
+
+void Walk::enter(const Node& node, Around here, std::string_view kind) {
+  if (kind == "use") return use(node, here);
+  if (is_shape(node)) {
+    const std::string_view visibility = get(here.style, "visibility");
+    if (!all_ && (visibility == "hidden" || visibility == "collapse")) return;
+    for (const char* marker : {"marker-start", "marker-mid", "marker-end"}) {
+      if (const auto value = get(here.style, marker); !value.empty() && value != "none") {
+        shown.not_taken.push_back(
+            {place(node), "has markers, which are not taken", "expand them into shapes"});
+        break;
+      }
+    }
+    if (!all_ && !document_.paints(here.style, "fill", "black") &&
+        !document_.paints(here.style, "stroke", "none")) {
+      return;  // a guide, or the frame of an icon
+    }
+    Painted shape{node,        std::move(here.style), here.to, here.view, std::move(here.clips),
+                  title(node), std::move(here.names), {}};
+    shape.names.push_back(shape.name);
+    shown.shapes.push_back(std::move(shape));
+    return;
+  }
+  if (kind == "svg" && node != document_.root) {
+    const Point corner{user_length(node, "x", here.view.x), user_length(node, "y", here.view.y)};
+    const Point size{user_length(node, "width", here.view.x, here.view.x),
+                     user_length(node, "height", here.view.y, here.view.y)};
+    frame(node, here, corner, size);
+  }
+  for (const Node& child : node.children()) visit(child, here);
+}
+
+/// A view of its own: what is outside of it is cut off, unless it says that it overflows.
+void Walk::frame(const Node& node, Around& here, const Point& corner, const Point& size) const {
+  here.to = here.to * Affine{1, 0, 0, 1, corner.x, corner.y};
+  const std::string_view overflow = get(here.style, "overflow");
+  if (overflow != "visible" && overflow != "auto") {
+    Ring ring;
+    for (const Point p : {Point{0, 0}, Point{size.x, 0}, size, Point{0, size.y}}) ring.push_back(here.to(p));
+    here.clips.push_back({{}, std::move(ring), {}, false});
+  }
+  here.view = size;
+  if (const auto box = view_box(node)) {
+    here.to = here.to * fit(*box, size, node.attribute("preserveAspectRatio").value());
+    here.view = {(*box)[2], (*box)[3]};
+  }
+}
+
+void Walk::use(const Node& node, const Around& around) {
+  constexpr int most_uses = 16;
+  std::string_view reference = node.attribute("href").value();
+  if (reference.empty()) reference = node.attribute("xlink:href").value();
+  const Node target = document_.target(reference);
+  if (!target || around.uses == most_uses) {
+    throw ShapeError("<use>", "leads nowhere: \"" + std::string(reference) + "\"",
+                     "let it show a shape of the drawing");
+  }
+  Around here = around;
+  ++here.uses;
+  const Point corner{user_length(node, "x", here.view.x), user_length(node, "y", here.view.y)};
+  const std::string_view kind = local_name(target);
+  if (kind == "symbol" || kind == "svg") {
+    const Around outside = here;
+    here.style = document_.sheet.style(target, here.style);
+    if (get(here.style, "display") == "none" && !all_) return;
+    const auto side = [&](const char* name, double whole) {
+      const double own = user_length(target, name, whole, whole);
+      return user_length(node, name, whole, own);
+    };
+    frame(target, here, corner, {side("width", here.view.x), side("height", here.view.y)});
+    for (const Node& child : target.children()) visit(child, here);
+    return;
+  }
+  here.to = here.to * Affine{1, 0, 0, 1, corner.x, corner.y};
+  const std::size_t before = shown.shapes.size();
+  visit(target, here);
+  // A copy is called by the name of its use where it has one.
+  if (shown.shapes.size() == before + 1 && !title(node).empty() && title(node) != "use") {
+    Painted& copy = shown.shapes.back();
+    copy.name = title(node);
+    copy.names.push_back(copy.name);
+  }
+}
+
+void Walk::clip(const Node& node, Around& here, std::string_view property) {
+  std::string_view value = get(here.style, property);
+  if (value.empty() || value == "none") return;
+  const auto open = value.find('('), close = value.find(')');
+  std::string_view reference;
+  if (value.starts_with("url") && open < close && close != std::string_view::npos) {
+    reference = trimmed(value.substr(open + 1, close - open - 1));
+    if (reference.size() > 1 && (reference[0] == '"' || reference[0] == '\''))
+      reference = reference.substr(1, reference.size() - 2);
+  }
+  const Node element = document_.target(reference);
+  if (!element) {
+    if (!reference.starts_with('#')) {
+      shown.not_taken.push_back(
+          {place(node),
+           "has the " + std::string(property) + " \"" + std::string(value) + "\", which is not taken",
+           "name a clipPath of the drawing"});
+    }
+    return;  // what is not there does not clip
+  }
+  here.clips.push_back({element, {}, here.to, property == "mask"});
+}
+
+/// Numbers the shapes, and visits `from` with what is around it.
+Shown walk(const Document& document, const Node& from, const Around& around, bool all) {
+  Walk walk(document, all);
+  struct Counter : pugi::xml_tree_walker {
+    Walk& walk;
+    explicit Counter(Walk& of) : walk(of) {}
+    bool for_each(Node& node) override {
+      walk.count(node);
+      return true;
+    }
+  } counter(walk);
+  Node(document.root).traverse(counter);
+  walk.visit(from, around);
+  return std::move(walk.shown);
+}
+
+/// The element's ancestors, from the root.
+std::vector<Node> ancestors(const Node& element) {
+  std::vector<Node> path;
+  for (Node node = element.parent(); node.type() == pugi::node_element; node = node.parent())
+    path.push_back(node);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace
+
+bool is_shape(const Node& node) {
+  static constexpr std::array<std::string_view, 7> shapes{"path",    "rect",     "circle", "ellipse",
+                                                          "polygon", "polyline", "line"};
+  return among(local_name(node), shapes);
+}
+
+Shown Document::shown(const Affine& page) const {
+  Around around;
+  around.to = page;
+  around.view = view();
+  return walk(*this, root, around, false);
+}
+
+Shown Document::held(const Node& element, const Affine& page) const {
+  Around around;
+  around.to = page;
+  around.view = view();
+  for (const Node& node : ancestors(element)) {
+    around.style = sheet.style(node, around.style);
+    around.to = around.to * transform_of(around.style);
+  }
+  return walk(*this, element, around, true);
+}
+
+Shown Document::shown_in(const Node& element, const Affine& to, const Point& view) const {
+  Around around;
+  around.to = to;
+  around.view = view;
+  for (const Node& node : ancestors(element)) around.style = sheet.style(node, around.style);
+  // The clipPath's own transform comes on top of the coordinates of what it clips.
+  around.to = around.to * transform_of(around.style);
+  return walk(*this, element, around, false);
+}
+
+}  // namespace ductile::svg

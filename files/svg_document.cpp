@@ -1,0 +1,187 @@
+#include "svg_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ductile::svg {
+namespace {
+
+using Node = pugi::xml_node;
+
+/// A length, and what its unit is in px of 1/96 inch; nothing without a unit that has a size.
+struct Length {
+  double value;
+  std::optional<double> unit;
+  bool percent = false;
+};
+
+Length parse_length(std::string_view text, const char* name) {
+  static constexpr std::array<std::pair<std::string_view, double>, 7> units{{{"px", 1},
+                                                                             {"in", 96},
+                                                                             {"cm", 96 / 2.54},
+                                                                             {"mm", 96 / 25.4},
+                                                                             {"Q", 96 / 101.6},
+                                                                             {"pt", 96. / 72},
+                                                                             {"pc", 16}}};
+  const auto refuse = [&](const std::string& what) {
+    throw ShapeError(name, what, "write a number, or a length in px, in, cm, mm, Q, pt or pc");
+  };
+  Length length{};
+  Numbers in(text);
+  try {
+    length.value = in.number();
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+  if (in.peek() == '%') {
+    in.take();
+    length.percent = true;
+  }
+  const std::string_view unit = in.name();
+  if (!in.end()) refuse("is \"" + std::string(text) + "\"");
+  if (unit.empty()) return length;
+  const auto known = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == unit; });
+  if (known == units.end()) refuse("has the unit \"" + std::string(unit) + "\"");
+  length.unit = known->second;
+  return length;
+}
+
+/// The root's width or height, where it is a length of its own.
+std::optional<Length> page_length(const Node& root, const char* name) {
+  const std::string_view text = trimmed(root.attribute(name).value());
+  if (text.empty() || text.back() == '%' || text == "auto") return std::nullopt;
+  const Length length = parse_length(text, name);
+  if (!(length.value > 0)) throw ShapeError(name, "is not > 0", "a drawing has a size");
+  return length;
+}
+
+}  // namespace
+
+double user_length(std::string_view text, const char* name, double whole) {
+  const Length length = parse_length(text, name);
+  return length.percent ? length.value / 100 * whole : length.value * length.unit.value_or(1);
+}
+
+double user_length(const Node& node, const char* name, double whole, double missing) {
+  const std::string_view text = trimmed(node.attribute(name).value());
+  return text.empty() || text == "auto" ? missing : user_length(text, name, whole);
+}
+
+std::optional<std::array<double, 4>> view_box(const Node& node) {
+  if (!node.attribute("viewBox")) return std::nullopt;
+  std::array<double, 4> box{};
+  Numbers in(node.attribute("viewBox").value());
+  try {
+    for (double& number : box) number = in.number();
+    if (!in.end() || !(box[2] > 0) || !(box[3] > 0)) throw std::invalid_argument("is no box");
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError("viewBox", error.what(), "write viewBox=\"x y width height\"");
+  }
+  return box;
+}
+
+Affine fit(const std::array<double, 4>& box, const Point& frame, std::string_view aspect) {
+  Point scale{frame.x / box[2], frame.y / box[3]};
+  aspect = trimmed(aspect);
+  Point shift{0, 0};
+  if (!aspect.starts_with("none")) {
+    const bool slice = aspect.ends_with("slice");
+    scale.x = scale.y = slice ? std::max(scale.x, scale.y) : std::min(scale.x, scale.y);
+    const auto align = [&](std::string_view axis) {
+      const auto at = aspect.find(axis);
+      const std::string_view kind = at == std::string_view::npos ? "Mid" : aspect.substr(at + 1, 3);
+      return kind == "Min" ? 0 : kind == "Max" ? 1 : 0.5;
+    };
+    shift = {align("x") * (frame.x - scale.x * box[2]), align("Y") * (frame.y - scale.y * box[3])};
+  }
+  return {scale.x, 0, 0, scale.y, shift.x - scale.x * box[0], shift.y - scale.y * box[1]};
+}
+
+Document::Document(std::string_view text, std::string file) : name(std::move(file)) {
+  const auto refuse = [&](const std::string& place, const std::string& what, const std::string& remedy) {
+    throw InvalidInput({{name + ":" + place, what, remedy}});
+  };
+  const auto result = xml.load_buffer(text.data(), text.size());
+  if (!result) {
+    const std::string_view before =
+        text.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const auto start = before.rfind('\n');
+    const auto column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
+    refuse(std::to_string(line) + ":" + std::to_string(column),
+           "is not XML: " + std::string(result.description()), "an SVG drawing is well-formed XML");
+  }
+  root = xml.document_element();
+  if (local_name(root) != "svg") {
+    refuse("1:1", "has <" + std::string(root.name()) + "> where <svg> should stand", "name an SVG drawing");
+  }
+  struct Walker : pugi::xml_tree_walker {
+    Document& document;
+    explicit Walker(Document& to) : document(to) {}
+    bool for_each(Node& node) override {
+      if (const auto id = node.attribute("id")) document.ids.emplace(id.value(), node);
+      if (const auto label = node.attribute("inkscape:label")) document.labels.emplace(label.value(), node);
+      if (local_name(node) == "style") {
+        for (const Node& text : node.children()) document.sheet.add(text.value());
+      }
+      return true;
+    }
+  } walker(*this);
+  xml.traverse(walker);
+}
+
+Node Document::find(std::string_view id) const {
+  for (const auto* names : {&ids, &labels}) {
+    if (const auto found = names->find(id); found != names->end()) return found->second;
+  }
+  return {};
+}
+
+Node Document::target(std::string_view reference) const {
+  reference = trimmed(reference);
+  return reference.starts_with('#') ? find(reference.substr(1)) : Node();
+}
+
+bool Document::sized() const {
+  const auto width = page_length(root, "width"), height = page_length(root, "height");
+  return (width && width->unit) || (height && height->unit);
+}
+
+Point Document::view() const {
+  if (const auto box = view_box(root)) return {(*box)[2], (*box)[3]};
+  const auto pixels = [&](const char* side, double missing) {
+    const auto length = page_length(root, side);
+    return length ? length->value * length->unit.value_or(1) : missing;
+  };
+  return {pixels("width", 300), pixels("height", 150)};  // what CSS gives to what has no size
+}
+
+Affine Document::page(const DrawingScale& scale) const {
+  constexpr double metres_per_px = 0.0254 / 96;
+  const auto width = page_length(root, "width"), height = page_length(root, "height");
+  const auto box = view_box(root);
+  Point unit{scale.metres_per_unit, scale.metres_per_unit};
+  if (scale.metres_per_unit == 0) {
+    if (!sized()) {
+      throw ShapeError("svg", "has no physical size",
+                       "give its width and height a unit (\"200mm\"), or say how many metres a unit is "
+                       "(\"scale\" of the body, --scale)");
+    }
+    const auto px_per_unit = [&](const std::optional<Length>& length, double of) {
+      return length && length->unit && box ? length->value * *length->unit / of : std::optional<double>();
+    };
+    const auto across = px_per_unit(width, box ? (*box)[2] : 1),
+               up = px_per_unit(height, box ? (*box)[3] : 1);
+    unit = {across.value_or(up.value_or(1)) * metres_per_px, up.value_or(across.value_or(1)) * metres_per_px};
+    const std::string_view aspect = root.attribute("preserveAspectRatio").value();
+    if (!aspect.starts_with("none")) {
+      const bool slice = aspect.ends_with("slice");
+      unit.x = unit.y = slice ? std::max(unit.x, unit.y) : std::min(unit.x, unit.y);
+    }
+  }
+  const double bottom = box ? (*box)[1] + (*box)[3] : view().y;
+  return {unit.x, 0, 0, -unit.y, 0, unit.y * bottom};
+}
+
+}  // namespace ductile::svg
