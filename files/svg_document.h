@@ -73,8 +73,8 @@ struct Document {
   /// The same of a part of a clipPath or mask, whose coordinates `to` brings to the page.
   Shown shown_in(const pugi::xml_node& element, const Affine& to, const Point& view) const;
 
-  /// The connected areas that a shape covers within what clips it, the largest first. A ring that is as it was
-  /// drawn keeps its first point and its direction.
+  /// The connected areas that a shape covers within what clips it, the largest first. A ring that is as it
+  /// was drawn keeps its first point and its direction.
   std::vector<Outline> areas(const Painted& shape, double tolerance) const;
   /// The diagonal of a box around it, m. Throws ShapeError where its data is wrong.
   double extent(const Painted& shape) const;

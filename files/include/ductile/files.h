@@ -50,9 +50,9 @@ struct DrawnShapes {
   std::vector<Problem> left_out;  ///< what is shown and could not be taken: text, images, broken paths
 };
 
-/// An SVG drawing as a browser shows it: what is hidden or only defined is no shape, style sheets count, a line
-/// is as wide as its stroke, clip paths cut. docs/files/svg.md has what is taken and what is not. y is flipped
-/// at the bottom of the viewBox, x stays.
+/// An SVG drawing as a browser shows it: what is hidden or only defined is no shape, style sheets count, a
+/// line is as wide as its stroke, clip paths cut. docs/files/svg.md has what is taken and what is not. y is
+/// flipped at the bottom of the viewBox, x stays.
 class Drawing {
  public:
   explicit Drawing(const std::filesystem::path& file);
@@ -84,14 +84,15 @@ class Drawing {
 bool is_drawing(std::string_view text);
 
 /// A first scene of a drawing, to look at and to go on from: every shape is a body of S355 in up to 8 pieces,
-/// a twentieth of the drawing thick, above a floor, not joined to the others. What reaches down to the floor is
-/// held there.
+/// a twentieth of the drawing thick, above a floor, not joined to the others. What reaches down to the floor
+/// is held there.
 struct DrawnScene {
   SceneDef scene;
-  double scale = 0;               ///< metres per unit, where the drawing did not say it and it became 10 m large
+  double scale = 0;  ///< metres per unit, where the drawing did not say it and it became 10 m large
   std::vector<Problem> left_out;  ///< as in DrawnShapes
 };
-/// Throws InvalidInput where the drawing shows nothing that is a body. `metres_per_unit` as DrawingScale has it.
+/// Throws InvalidInput where the drawing shows nothing that is a body. `metres_per_unit` as DrawingScale has
+/// it.
 DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit = 0);
 
 /// The file's bytes. A problem when it cannot be read, or is larger than 256 MiB.
