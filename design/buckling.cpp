@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bars.h"
 #include "plane.h"
 
 namespace ductile {
@@ -21,13 +22,34 @@ struct End {
   std::array<double, 3> scale;
 };
 
+// N times the bars' form in (θ_a, θ_b, v), v = Σ ± (Je·x + e·r θ).
+void add_curved(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& joint,
+                const std::array<Arm, 2>& arms, double N, const std::vector<End>& ends) {
+  std::array<double, 2> follow{};
+  for (const End& end : ends) follow[end.sign > 0] = end.follow;
+  const Eigen::Matrix3d form = N * curved(joint, arms, follow);
+  if (form.isZero(0)) return;
+  const Point across = left(joint.axis);
+  std::vector<std::pair<int, Eigen::Vector3d>> columns;  // of x, y and θ of both: their (θ_a, θ_b, v)
+  for (const End& end : ends) {
+    columns.emplace_back(end.column, Eigen::Vector3d(0, 0, end.sign * across.x * end.scale[0]));
+    columns.emplace_back(end.column + 1, Eigen::Vector3d(0, 0, end.sign * across.y * end.scale[1]));
+    columns.emplace_back(
+        end.column + 2,
+        end.scale[2] * Eigen::Vector3d(end.sign<0, end.sign> 0, end.sign * dot(across, left(end.arm))));
+  }
+  for (const auto& [row, a] : columns)
+    for (const auto& [column, b] : columns) entries.emplace_back(row, column, a.dot(form * b));
+}
+
 }  // namespace
 
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
 //   u = e·δ + φ Je·δ + ½ e·(θ_a² r_a − θ_b² r_b) + …      v = Je·δ − φ e·δ + ½ Je·(θ_a² r_a − θ_b² r_b) + …
 // and a point at r from the centre comes back by ½ θ² r.
 Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const VectorXd& forces) {
+                                                const VectorXd& forces,
+                                                const std::function<double(const Plan::Load&)>& dead) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto both = [&](Index row, Index column, double value) {
     entries.emplace_back(row, column, value);
@@ -58,27 +80,37 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
         both(turn.column + 2, end.column + 2, phi * dot(across, left(end.arm)) * end.scale[2]);
       }
     }
+    if (!statics.arms().empty()) add_curved(entries, j, statics.arms()[i], N, ends);
   }
   for (const Plan::Load& load : plan.loads) {
     const int c = column(load.piece);
-    if (c < 0) continue;
+    const double share = dead(load);
+    if (c < 0 || share == 0) continue;
     const double turn = statics.scale(load.piece)[2];
-    entries.emplace_back(c + 2, c + 2,
-                         dot(load.def.force, load.at - plan.carrier(load.piece).center) * turn * turn);
+    entries.emplace_back(
+        c + 2, c + 2, share * dot(load.def.force, load.at - plan.carrier(load.piece).center) * turn * turn);
   }
   Eigen::SparseMatrix<double> K_g(statics.B.cols(), statics.B.cols());
   K_g.setFromTriplets(entries.begin(), entries.end());
   return K_g;
 }
 
-double buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g, const VectorXd& start) {
-  constexpr int most = 60;
+Buckle buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g, const VectorXd& start) {
+  constexpr int most = 400;
   std::vector<VectorXd> basis, images;  // orthonormal in K, and K times them
   std::vector<double> diagonal, beside;
   VectorXd x = statics.motions(start);
-  double greatest = 0, first = 0;
+  Buckle result;
+  double first = 0;
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+  const auto solve = [&](int what) {
+    ritz.computeFromTridiagonal(
+        Eigen::Map<const VectorXd>(diagonal.data(), static_cast<Index>(diagonal.size())),
+        Eigen::Map<const VectorXd>(beside.data(), static_cast<Index>(diagonal.size()) - 1), what);
+    return std::max(0.0, ritz.eigenvalues().maxCoeff());
+  };
   for (int step = 0; step < most; ++step) {
-    const VectorXd Kx = statics.B.transpose() * statics.stiffness().cwiseProduct(statics.B * x);
+    const VectorXd Kx = statics.B.transpose() * statics.resist(x);
     const double norm = std::sqrt(std::max(0.0, x.dot(Kx)));
     if (step == 1) first = norm;
     if (norm == 0 || norm < 1e-10 * first) break;  // the basis holds all
@@ -89,15 +121,22 @@ double buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K
     diagonal.push_back(x.dot(images.back()));
     for (int twice = 0; twice < 2; ++twice)
       for (std::size_t i = 0; i < basis.size(); ++i) x -= x.dot(images[i]) * basis[i];
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(
-        Eigen::Map<const VectorXd>(diagonal.data(), static_cast<Index>(diagonal.size())),
-        Eigen::Map<const VectorXd>(beside.data(), static_cast<Index>(beside.size())), Eigen::EigenvaluesOnly);
-    const double now = std::max(0.0, ritz.eigenvalues().maxCoeff());
-    if (step > 8 && std::abs(now - greatest) < 1e-7 * now) return now;
-    greatest = now;
+    if (step > 8 && step % 4 != 0) continue;
+    const double now = solve(Eigen::EigenvaluesOnly), change = std::abs(now - result.inverse_factor);
+    result.inverse_factor = now;
+    if (step > 8 && change <= 1e-8 * now) break;
   }
-  return greatest;
+  if (diagonal.empty() || !((result.inverse_factor = solve(Eigen::ComputeEigenvectors)) > 0)) return result;
+  const VectorXd share = ritz.eigenvectors().col(ritz.eigenvectors().cols() - 1);  // in ascending order
+  result.mode = VectorXd::Zero(start.size());
+  for (Index i = 0; i < share.size(); ++i) result.mode += share[i] * basis[static_cast<std::size_t>(i)];
+  return result;
+}
+
+VectorXd any_motion(const Equilibrium& statics) {
+  VectorXd start(statics.B.cols());
+  for (Index c = 0; c < start.size(); ++c) start[c] = std::cos(static_cast<double>(c));
+  return start;
 }
 
 }  // namespace ductile

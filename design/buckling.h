@@ -1,18 +1,30 @@
 // How near a structure is to buckling.
 #pragma once
 
+#include <functional>
+
 #include "equilibrium.h"
 
 namespace ductile {
 
 /// K_g, as B's columns: the second derivatives of the joints' elongations times their forces, and of the
-/// places where loads act times the loads (dead loads, all of the plan's together).
+/// places where loads act times the loads, all of the plan's together with `dead` times as much. With the
+/// bars' own where they give.
 Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const Eigen::VectorXd& forces);
+                                                const Eigen::VectorXd& forces,
+                                                const std::function<double(const Plan::Load&)>& dead);
 
-/// μ = max −xᵀK_g x / xᵀK x over the structures that have a part in `start`, 0 where that is negative: their
-/// inverse buckling load factor. By Lanczos' method in the metric of K.
-double buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g,
+struct Buckle {
+  double inverse_factor = 0;  ///< μ = max −xᵀK_g x / xᵀK x, 0 where that is negative: 1 / the buckling load
+  Eigen::VectorXd mode;       ///< x; empty where there is none
+};
+
+/// Over the structures that have a part in `start`, which is best a little of every mode. By Lanczos' method
+/// in the metric of K.
+Buckle buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g,
                 const Eigen::VectorXd& start);
+
+/// A start that has some of every mode.
+Eigen::VectorXd any_motion(const Equilibrium& statics);
 
 }  // namespace ductile

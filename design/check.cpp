@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "ductile/design.h"
-#include "equilibrium.h"
+#include "elastic_path.h"
 #include "yield.h"
 
 namespace ductile {
@@ -35,37 +35,66 @@ StaticJoint joint_under(const Yield& yield, const std::array<double, 3>& force) 
           .yields_at = used > 0 ? 1 / used : unlimited};
 }
 
-StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
-                       const LoadCase& load_case) {
-  const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
-  Eigen::VectorXd forces = statics.forces(f);
+// What the joints carry in a state; yields_at for forces that grow with the loads.
+StaticCheck check_state(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
+                        double time, Eigen::VectorXd forces, const Eigen::VectorXd& x) {
   drop_rounding(forces);
-  StaticCheck result{.time = load_case.time, .loose = statics.loose};
+  StaticCheck result{.time = time, .loose = statics.loose};
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const Eigen::Index r = 3 * static_cast<Eigen::Index>(i);
     result.joints.push_back(
         statics.held[i] ? joint_under(yields[i], {forces[r], forces[r + 1], forces[r + 2]}) : loose_joint());
     result.reserve = std::min(result.reserve, result.joints.back().yields_at);
   }
-  const Eigen::VectorXd x = statics.motions(f);
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     const int c = statics.column[i];
     const auto s = c < 0 ? std::array<double, 3>{} : statics.scale(static_cast<int>(i));
     result.displacement.push_back(c < 0 ? Point{} : Point{s[0] * x[c], s[1] * x[c + 1]});
+    result.turn.push_back(c < 0 ? 0 : s[2] * x[c + 2]);
+  }
+  return result;
+}
+
+// Beyond the critical load.
+StaticCheck without_state(const Plan& plan, const Equilibrium& statics, double time) {
+  return {.time = time,
+          .joints = std::vector<StaticJoint>(plan.joints.size(), loose_joint()),
+          .displacement = std::vector<Point>(plan.pieces.size(), {nan, nan}),
+          .turn = std::vector<double>(plan.pieces.size(), nan),
+          .loose = statics.loose};
+}
+
+StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
+                       const LoadCase& load_case, Order order) {
+  const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
+  if (order == Order::first)
+    return check_state(plan, statics, yields, load_case.time, statics.forces(f), statics.motions(f));
+
+  const ElasticPath path(plan, statics, load_case);
+  const std::optional<Deformed> now = path.at(1);
+  StaticCheck result = now ? check_state(plan, statics, yields, load_case.time, now->forces, now->x)
+                           : without_state(plan, statics, load_case.time);
+  const std::vector<double> reached = path.reached([&](std::size_t i, const Eigen::Vector3d& R) {
+    return statics.held[i] ? yields[i].usage({R[0], R[1], R[2]}) : 0;
+  });
+  result.reserve = path.critical();
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    result.joints[i].yields_at = reached[i];
+    result.reserve = std::min(result.reserve, reached[i]);
   }
   return result;
 }
 
 }  // namespace
 
-StaticCheck static_check(const Plan& plan) {
-  const Equilibrium statics(plan);
+StaticCheck static_check(const Plan& plan, Order order) {
+  const Equilibrium statics(plan, order == Order::first ? Between::rigid_pieces : Between::elastic_bars);
   std::vector<Yield> yields;
   for (const PlannedJoint& joint : plan.joints) yields.emplace_back(plan, joint);
   StaticCheck worst;
   bool first = true;
   for (const LoadCase& load_case : statics.cases()) {
-    StaticCheck now = check_case(plan, statics, yields, load_case);
+    StaticCheck now = check_case(plan, statics, yields, load_case, order);
     if (first || now.reserve < worst.reserve) worst = std::move(now);
     first = false;
   }

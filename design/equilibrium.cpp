@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "bars.h"
 #include "ductile/joint.h"
 #include "groups.h"
 #include "plane.h"
@@ -30,9 +31,9 @@ std::array<double, 3> row_on_piece(Row row, Point axis, Point arm) {
 
 }  // namespace
 
-// A = √k B = Q [Lᵀ …] Pᵀ; what is not shown belongs to mechanisms. L Lᵀ = Pᵀ K P without squaring A's
-// condition. SPQR, for its fronts: Eigen's own sparse QR took a thousand times as long on a frame of 2000
-// joints.
+// A = √k B = Q [Lᵀ …] Pᵀ, √k the root of k; what is not shown belongs to mechanisms. L Lᵀ = Pᵀ K P without
+// squaring A's condition. SPQR, for its fronts: Eigen's own sparse QR took a thousand times as long on a
+// frame of 2000 joints.
 struct Equilibrium::Factors {
   explicit Factors(const SparseMatrix<double>& A) {
     // A column that keeps less of itself than rounding leaves is a motion that no row resists.
@@ -55,7 +56,8 @@ struct Equilibrium::Factors {
 
 Equilibrium::~Equilibrium() = default;
 
-Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
+Equilibrium::Equilibrium(const Plan& plan, Between between) : plan_(plan) {
+  if (between == Between::elastic_bars) arms_ = arms_of(plan);
   find_loose();
   if (std::all_of(column.begin(), column.end(), [](int c) { return c < 0; }))
     throw InvalidInput(
@@ -63,7 +65,29 @@ Equilibrium::Equilibrium(const Plan& plan) : plan_(plan) {
           "add a support, or a joint to a static body"}});
   fill();
   set_stiffness();
-  factors_ = std::make_unique<Factors>(k_.cwiseSqrt().asDiagonal() * B);
+  stiffen(roots());
+}
+
+std::vector<Root> Equilibrium::roots() const {
+  std::vector<Root> roots;
+  for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+    const Eigen::Vector3d k = k_.segment<3>(3 * static_cast<Index>(i));
+    roots.emplace_back(arms_.empty() ? Root(k.cwiseSqrt().asDiagonal())
+                                     : with_bars(plan_.joints[i], arms_[i], k));
+  }
+  return roots;
+}
+
+void Equilibrium::stiffen(const std::vector<Root>& roots) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < roots.size(); ++i)
+    for (int row = 0; row < 3; ++row)
+      for (int c = 0; c < 3; ++c)
+        if (roots[i](row, c) != 0)
+          entries.emplace_back(3 * static_cast<int>(i) + row, 3 * static_cast<int>(i) + c, roots[i](row, c));
+  root_.resize(B.rows(), B.rows());
+  root_.setFromTriplets(entries.begin(), entries.end());
+  factors_ = std::make_unique<Factors>(root_ * B);
 }
 
 void Equilibrium::find_loose() {
@@ -179,14 +203,14 @@ std::vector<LoadCase> Equilibrium::cases() const {
   return result;
 }
 
-bool Equilibrium::is_mechanism() const { return factors_->L.cols() < B.cols(); }
+Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }
 
 // With A = √k B and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q L⁻¹ Pᵀ f.
 VectorXd Equilibrium::least_energy(const VectorXd& f) const {
   VectorXd y = VectorXd::Zero(B.rows());
   y.head(factors_->L.cols()) = factors_->forward(f);
   const VectorXd Y = factors_->qr.matrixQ() * y;
-  return k_.cwiseSqrt().cwiseProduct(Y);
+  return root_.transpose() * Y;
 }
 
 VectorXd Equilibrium::forces(const VectorXd& f) const {

@@ -21,10 +21,23 @@ struct LoadCase {
   Eigen::VectorXd gravity, loads;
 };
 
+/// What gives between the joints: nothing, as in a simulation, or the bars that joints stand for (bars.h).
+enum class Between { rigid_pieces, elastic_bars };
+
+/// A bar from the middle of a piece to a joint (bars.h).
+struct Arm {
+  double length = 0;  ///< m; 0: none
+  double EI = 0;      ///< N m²
+  Point along;        ///< unit, toward the joint
+};
+
+/// √k of one joint: (N, Q, M) = √kᵀ √k (u, v, θ).
+using Root = Eigen::Matrix3d;
+
 class Equilibrium {
  public:
   /// Throws InvalidInput where no joint holds anything that could move.
-  explicit Equilibrium(const Plan& plan);
+  explicit Equilibrium(const Plan& plan, Between between = Between::rigid_pieces);
   ~Equilibrium();
 
   Eigen::SparseMatrix<double> B;
@@ -39,14 +52,24 @@ class Equilibrium {
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
 
-  bool is_mechanism() const;
+  /// Motions that no joint resists.
+  Eigen::Index freedoms() const;
+  bool is_mechanism() const { return freedoms() > 0; }
 
+  /// By joints, of a and b; empty where pieces are rigid.
+  const std::vector<std::array<Arm, 2>>& arms() const { return arms_; }
   /// Stiffness of every row (0: free), rigid ones replaced.
   const Eigen::VectorXd& stiffness() const { return k_; }
+  /// The same joint by joint, with the bars where they give.
+  std::vector<Root> roots() const;
+  /// Gives every joint another stiffness, as where it flows; stiffness() and roots() stay what they are.
+  void stiffen(const std::vector<Root>& roots);
 
-  /// Forces R in equilibrium with f, those of least Σ R²/k.
+  /// Forces R in equilibrium with f, those of least energy.
   Eigen::VectorXd forces(const Eigen::VectorXd& f) const;
-  /// Motions x with Bᵀ k B x = f; 0 in the directions of a mechanism.
+  /// The forces that go with motions.
+  Eigen::VectorXd resist(const Eigen::VectorXd& x) const { return root_.transpose() * (root_ * (B * x)); }
+  /// Motions x with K x = f, K = Bᵀ k B; 0 in the directions of a mechanism.
   Eigen::VectorXd motions(const Eigen::VectorXd& f) const;
   /// cᵀ x of those motions for f = c: what a functional c of the motion gives way to a unit load on it.
   double flexibility(const Eigen::SparseVector<double>& c) const;
@@ -62,6 +85,8 @@ class Equilibrium {
 
   const Plan& plan_;
   Eigen::VectorXd k_;
+  std::vector<std::array<Arm, 2>> arms_;
+  Eigen::SparseMatrix<double> root_;  // of all joints on the diagonal
   struct Factors;
   std::unique_ptr<const Factors> factors_;
 };

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 
+#include "deformed.h"
 #include "ductile/design.h"
 #include "equilibrium.h"
 #include "yield.h"
@@ -49,9 +50,13 @@ struct Units {
 
 class Programme {
  public:
-  Programme(const Equilibrium& statics, const std::vector<Yield>& yields, const VectorXd& fixed,
-            const VectorXd& scaled)
-      : statics_(statics), yields_(yields), units_(yields), problem_(glp_create_prob(), glp_delete_prob) {
+  Programme(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
+            const VectorXd& fixed, const VectorXd& scaled)
+      : plan_(plan),
+        statics_(statics),
+        yields_(yields),
+        units_(yields),
+        problem_(glp_create_prob(), glp_delete_prob) {
     glp_term_out(GLP_OFF);
     glp_set_obj_dir(problem_.get(), GLP_MAX);
     add_variables();
@@ -81,7 +86,10 @@ class Programme {
       }
       settings.meth = GLP_DUALP;  // cuts leave the last solution optimal, but not feasible
     } while (cut());
-    return {.load_factor = glp_get_col_prim(problem_.get(), load_factor) * load_unit_, .hinges = hinges()};
+    const VectorXd velocity = velocities();
+    return {.load_factor = glp_get_col_prim(problem_.get(), load_factor) * load_unit_,
+            .hinges = hinges(velocity),
+            .mechanism = shape_of(plan_, statics_, velocity)};
   }
 
  private:
@@ -172,11 +180,16 @@ class Programme {
     return any;
   }
 
-  // Joints whose rows move in the mechanism and dissipate.
-  std::vector<int> hinges() const {
+  // Of the mechanism, as B's columns: the duals of equilibrium.
+  VectorXd velocities() const {
     VectorXd velocity(unit_.size());
     for (Index c = 0; c < unit_.size(); ++c)
-      velocity[c] = glp_get_row_dual(problem_.get(), static_cast<int>(c) + 1) / unit_[c];
+      velocity[c] = -glp_get_row_dual(problem_.get(), static_cast<int>(c) + 1) / unit_[c];
+    return velocity;
+  }
+
+  // Joints whose rows move in the mechanism and dissipate.
+  std::vector<int> hinges(const VectorXd& velocity) const {
     const VectorXd slip = statics_.B * velocity;
     std::vector<double> power;
     double all = 0;
@@ -192,6 +205,7 @@ class Programme {
     return result;
   }
 
+  const Plan& plan_;
   const Equilibrium& statics_;
   const std::vector<Yield>& yields_;
   Units units_;
@@ -215,7 +229,7 @@ LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity) {
     if (scaled.cwiseAbs().maxCoeff() == 0) continue;
     loaded = true;
     const VectorXd fixed = fixed_gravity ? gravity : VectorXd(VectorXd::Zero(scaled.size()));
-    LimitAnalysis now = Programme(statics, yields, fixed, scaled).solve();
+    LimitAnalysis now = Programme(plan, statics, yields, fixed, scaled).solve();
     now.time = load_case.time;
     if (now.load_factor < worst.load_factor) worst = std::move(now);
   }

@@ -35,14 +35,15 @@ Response::Response(const Plan& plan, double impact)
 void Response::lean() {
   VectorXd forces = VectorXd::Zero(statics_.B.rows());
   for (const Answer& answer : answers_) forces += answer.forces;
-  const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan_, statics_, forces);
+  const Eigen::SparseMatrix<double> K_g =
+      geometric_stiffness(plan_, statics_, forces, [](const Plan::Load&) { return 1.; });
   for (std::size_t s = 0; s < swing_.size(); ++s) {
     VectorXd start(statics_.B.cols());  // some of every mode
     for (Index c = 0; c < start.size(); ++c)
       start[c] = of_column_[static_cast<std::size_t>(c)] == static_cast<int>(s)
                      ? std::cos(static_cast<double>(c))
                      : 0;
-    const double mu = buckling(statics_, K_g, start);
+    const double mu = buckling(statics_, K_g, start).inverse_factor;
     swing_[s] = mu < 1 ? swing_[s] / std::pow(1 - mu, 1.5) + mu / (1 - mu) * strain_[s] : unlimited;
   }
 }

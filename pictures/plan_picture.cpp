@@ -92,7 +92,8 @@ Colour moment_colour(double share) {
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
 }
 
-/// Plastic moments on a logarithmic scale.
+/// Plastic moments on a logarithmic scale. Moments that read alike, within 1e-3, are one: what rounding makes
+/// of equal sections does not fill the scale.
 struct MomentScale {
   double low = unlimited, high = 0;
 
@@ -102,6 +103,7 @@ struct MomentScale {
       low = std::min(low, joint.M);
       high = std::max(high, joint.M);
     }
+    if (high <= low * (1 + 1e-3)) low = high;
   }
   bool empty() const { return high == 0; }
   double share(double moment) const { return high > low ? std::log(moment / low) / std::log(high / low) : 1; }
@@ -312,7 +314,13 @@ class Artist {
       add(group, "path", "fill", ink, "stroke", "none", "d",
           fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", tip.x, tip.y, tip.x - 12 * x - 5 * y,
                       tip.y - 12 * y + 5 * x, tip.x - 12 * x + 5 * y, tip.y - 12 * y - 5 * x));
-      label(group, quantity(force, "N"), {at.x + 10, at.y + 0.75 * length * y + 4});
+      // Beside the shaft: above one that lies, to the right of one that stands.
+      if (std::abs(x) > std::abs(y)) {
+        label(group, quantity(force, "N"), {at.x + length * x / 2, at.y + length * y / 2 - 8}, "text-anchor",
+              "middle");
+      } else {
+        label(group, quantity(force, "N"), {at.x + 0.75 * length * x + 10, at.y + 0.75 * length * y + 4});
+      }
     }
     if (arrow.moment != 0) {
       // Three quarters of a circle; counter-clockwise is positive.
@@ -324,9 +332,11 @@ class Artist {
     }
   }
 
-  void label(Node to, const std::string& text, Point at) const {
+  template <class... Style>
+  void label(Node to, const std::string& text, Point at, const Style&... style) const {
     write(to, text, at.x, std::clamp(at.y, place_.y0 + 16, place_.y1 - 8), "font-size", "13", "fill", ink,
-          "stroke", "#ffffff", "stroke-width", "3", "paint-order", "stroke", "stroke-linejoin", "round");
+          "stroke", "#ffffff", "stroke-width", "3", "paint-order", "stroke", "stroke-linejoin", "round",
+          style...);
   }
 
   const Plan& plan_;

@@ -11,10 +11,22 @@ namespace {
 
 struct Options {
   SceneFile scene;
-  bool json = false;
+  bool second_order = false, json = false;
 };
 
-Json json(const Plan& plan, const StaticCheck& check) {
+struct Found {
+  StaticCheck check;
+  CriticalLoad critical;
+  Reached fibre, hinge;
+};
+
+Json json(const Plan& plan, const Reached& reached) {
+  return {{"joint", reached.joint < 0 ? Json(nullptr) : Json(joint_name(plan, reached.joint))},
+          {"factor", number(reached.factor)}};
+}
+
+Json json(const Plan& plan, const Found& found) {
+  const StaticCheck& check = found.check;
   Json joints = Json::array(), first = Json::array(), loose = Json::array();
   for (std::size_t i = 0; i < check.joints.size(); ++i) {
     const StaticJoint& j = check.joints[i];
@@ -26,25 +38,35 @@ Json json(const Plan& plan, const StaticCheck& check) {
          {"usage", {{"N", number(j.usage.N)}, {"Q", number(j.usage.Q)}, {"M", number(j.usage.M)}}},
          {"yields_at", number(j.yields_at)}});
   }
-  for (const int i : check.first_to_yield) first.push_back(plan.joints[static_cast<std::size_t>(i)].name);
+  for (const int i : check.first_to_yield) first.push_back(joint_name(plan, i));
   for (const int i : check.loose) loose.push_back(piece_name(plan, i));
   return {{"joints", std::move(joints)},
           {"reserve", number(check.reserve)},
           {"first_to_yield", std::move(first)},
+          {"critical_load_factor", number(found.critical.factor)},
+          {"first_fibre", json(plan, found.fibre)},
+          {"first_hinge", json(plan, found.hinge)},
           {"time", check.time},
           {"loose", std::move(loose)}};
 }
 
-std::string table(const Plan& plan, const StaticCheck& check, const std::string& scene) {
+std::string table(const Plan& plan, const Found& found, const Options& options) {
+  const StaticCheck& check = found.check;
   std::size_t widest = 5;
   for (const PlannedJoint& joint : plan.joints) widest = std::max(widest, joint.name.size());
-  std::string text = scene + ": ";
-  if (check.reserve < unlimited) {
-    text += fmt::format("first yield at {:.6g} times the loads, in {}", check.reserve,
-                        plan.joints[static_cast<std::size_t>(check.first_to_yield.front())].name);
+  std::string text = options.scene.name + ": ";
+  if (found.hinge.joint >= 0) {
+    text += fmt::format("first hinge at {:.6g} times the loads, in {}", found.hinge.factor,
+                        joint_name(plan, found.hinge.joint));
   } else {
     text += "no load of this kind makes a joint yield";
   }
+  if (found.fibre.joint >= 0)
+    text += fmt::format("\nfirst fibre at {:.6g} times the loads, in {}", found.fibre.factor,
+                        joint_name(plan, found.fibre.joint));
+  text += '\n' + buckling_line(options.second_order, found.critical.factor);
+  if (options.second_order && found.critical.factor <= 1)
+    text += ": these loads leave it no state to tell of";
   text += fmt::format("\n\n{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>10}\n", "joint", widest, "N [N]",
                       "Q [N]", "M [N m]", "N use", "Q use", "M use", "yields at");
   const auto percent = [](double share) {
@@ -64,8 +86,17 @@ std::string table(const Plan& plan, const StaticCheck& check, const std::string&
 
 std::string run(const Options& options) {
   const Plan plan = plan_of(options.scene);
-  const StaticCheck check = in_file(options.scene, [&] { return static_check(plan); });
-  return options.json ? json(plan, check).dump() + "\n" : table(plan, check, options.scene);
+  const Order order = options.second_order ? Order::second : Order::first;
+  const Found found = in_file(options.scene, [&] {
+    Found all{.check = static_check(plan, order), .critical = critical_load(plan)};
+    all.fibre = first_fibre(plan, all.check, order);
+    if (!all.check.first_to_yield.empty()) {
+      const int first = all.check.first_to_yield.front();
+      all.hinge = {first, all.check.joints[static_cast<std::size_t>(first)].yields_at};
+    }
+    return all;
+  });
+  return options.json ? json(plan, found).dump() + "\n" : table(plan, found, options);
 }
 
 }  // namespace
@@ -75,6 +106,7 @@ void add_check(CLI::App& app, std::string& output) {
   CLI::App* command =
       app.add_subcommand("check", "Static utilisation of every joint under the scene's loads");
   add_scene(command, options->scene);
+  command->add_flag("--second-order", options->second_order, "equilibrium in the deformed state (P-delta)");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -66,6 +66,17 @@ std::string piece_name(const Plan& plan, int piece) {
   return piece < 0 ? "ground" : plan.pieces[static_cast<std::size_t>(piece)].name;
 }
 
+std::string joint_name(const Plan& plan, int joint) {
+  return plan.joints[static_cast<std::size_t>(joint)].name;
+}
+
+std::string buckling_line(bool second_order, double critical_load_factor) {
+  return std::string(second_order ? "second order" : "first order") +
+         (critical_load_factor < unlimited
+              ? fmt::format("; buckles at {:.6g} times the loads", critical_load_factor)
+              : "; does not buckle");
+}
+
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string shown(double value) {

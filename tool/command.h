@@ -47,6 +47,11 @@ Plan plan_of(const SceneFile& file, bool kept_elsewhere = false,
 /// "ground" for −1.
 std::string piece_name(const Plan& plan, int piece);
 
+std::string joint_name(const Plan& plan, int joint);
+
+/// "first order; buckles at 1.2 times the loads": what check and limit say of stability.
+std::string buckling_line(bool second_order, double critical_load_factor);
+
 /// JSON of a number; null where it is infinite (unlimited) or NaN (does not exist).
 Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.

@@ -13,15 +13,16 @@ using namespace ductile;
 
 constexpr double L = 20;
 
+// Of rigid pieces and springs, as a simulation has them.
 double factor(const SceneDef& scene) {
   Plan plan = calibrate(scene);
   for (PlannedJoint& joint : plan.joints) joint.stiffness.Q = unlimited;  // Euler's bar does not shear
   const Equilibrium statics(plan);
   const LoadCase loads = statics.cases().front();
   const Eigen::VectorXd f = statics.balanced(loads.loads + loads.gravity);
-  Eigen::VectorXd start(f.size());
-  for (Eigen::Index i = 0; i < f.size(); ++i) start[i] = std::cos(static_cast<double>(i));
-  return 1 / buckling(statics, geometric_stiffness(plan, statics, statics.forces(f)), start);
+  const auto K_g =
+      geometric_stiffness(plan, statics, statics.forces(f), [](const Plan::Load&) { return 1.; });
+  return 1 / buckling(statics, K_g, any_motion(statics)).inverse_factor;
 }
 
 constexpr double EI = 210e9 / 12, euler = std::numbers::pi * std::numbers::pi * EI / (L * L);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <pugixml.hpp>
 #include <regex>
+#include <set>
 
 #include "ductile/colours.h"
 #include "ductile/files.h"
@@ -159,6 +160,24 @@ TEST(Picture, ShowsARunInItsOwnPanels) {
   }
   ASSERT_EQ(heights.size(), 2u);
   EXPECT_NEAR((heights[1] - heights[0]) / scale_bar(document.document_element()), 1, 0.01);
+}
+
+// What rounding makes of equal sections is one colour and one tick.
+TEST(Picture, EqualMomentsHaveOneColour) {
+  Plan plan = beam();
+  for (std::size_t i = 0; i < plan.joints.size(); ++i)
+    plan.joints[i].M = 1e6 * (1 + 1e-13 * static_cast<double>(i));
+  const auto document = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  std::set<std::string> paints;
+  for (const Node& joint : all(document, "joint"))
+    paints.insert(joint.child("circle").attribute("fill").value());
+  EXPECT_EQ(paints.size(), 1u);
+  plan.joints[0].M *= 1.1;
+  const auto apart = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  paints.clear();
+  for (const Node& joint : all(apart, "joint"))
+    paints.insert(joint.child("circle").attribute("fill").value());
+  EXPECT_EQ(paints.size(), 2u);
 }
 
 TEST(Picture, DrawsLoadsAsTheyAreAtThePanelsTime) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "run.h"
 
 namespace {
@@ -30,8 +32,44 @@ TEST(CheckCommand, ACantileverWithALoadAtItsTip) {
     EXPECT_NEAR(joint["usage"]["Q"].get<double>(), 1e6 / 200e6, 1e-9);
   }
   const Ran table = run("check " + scene);
-  EXPECT_NE(table.out.find("first yield at 10 times the loads, in wall-beam/0"), std::string::npos)
+  EXPECT_NE(table.out.find("first hinge at 10 times the loads, in wall-beam/0"), std::string::npos)
       << table.out;
+}
+
+// P_cr = π²EI/4L² = π² 200e9/12/400; first fibre at M_p/1.5; M = −P L tan φ/φ of a beam-column.
+TEST(CheckCommand, BucklingFirstFibreAndSecondOrder) {
+  const Folder folder;
+  const std::string body = cantilever(R"(, "joints": [{"between": ["wall","beam"]}])");
+  std::string pushed = body;
+  pushed.replace(pushed.find("[0,-1e6]"), 8, "[-2e8,-1e6]");
+  pushed.replace(pushed.find("\"pieces\": 2"), 11, "\"pieces\": 20");
+  const std::string plain = folder.write("plain.json", body), column = folder.write("column.json", pushed);
+  const json bent = run("check " + plain + " --json").json();
+  EXPECT_EQ(bent["first_fibre"]["joint"], "wall-beam/0");
+  EXPECT_NEAR(bent["first_fibre"]["factor"].get<double>(), 10 / 1.5, 1e-9);
+  EXPECT_EQ(bent["first_hinge"]["joint"], "wall-beam/0");
+  EXPECT_NEAR(bent["first_hinge"]["factor"].get<double>(), 10, 1e-9);
+  EXPECT_EQ(bent["critical_load_factor"], nullptr);
+  EXPECT_NE(run("check " + plain).out.find("first order; does not buckle"), std::string::npos);
+
+  // Engesser's bar, which shears: 1/P = 1/P_E + 1/κGA.
+  const double EI = 200e9 / 12, euler = 3.14159265358979 * 3.14159265358979 * EI / 400,
+               shear = 5. / 6 * 200e9 / 2.6;
+  const json first = run("check " + column + " --json").json();
+  EXPECT_NEAR(first["critical_load_factor"].get<double>() * 2e8 / (1 / (1 / euler + 1 / shear)), 1, 2e-3);
+  const json second = run("check " + column + " --second-order --json").json();
+  const auto root = [](const json& result) {
+    for (const json& joint : result["joints"])
+      if (joint["name"] == "wall-beam/0") return joint["M"].get<double>();
+    return 0.0;
+  };
+  EXPECT_NEAR(root(first), -1e7, 1);
+  const double phi = std::sqrt(2e8 / EI) * 10;
+  EXPECT_NEAR(root(second) / (-1e7 * std::tan(phi) / phi), 1, 1e-2);  // which does not shear
+  EXPECT_LT(second["reserve"].get<double>(), first["critical_load_factor"].get<double>());
+  EXPECT_NE(run("check " + column).out.find("first order; buckles at "), std::string::npos);
+  EXPECT_NE(run("check " + column + " --second-order").out.find("second order; buckles at "),
+            std::string::npos);
 }
 
 TEST(CheckCommand, WhatCannotStandIsBadInput) {

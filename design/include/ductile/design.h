@@ -1,7 +1,8 @@
 // What a designer asks of a plan before it ever runs: how much each joint is used, and what it takes to
 // collapse.
 //
-// First-order statics of the pieces where they are drawn, held by the plan's joints. Contacts and wheels
+// Statics of the pieces where they are drawn (first order) or where the loads bring them (second order, P–Δ),
+// held by the plan's joints. Contacts and wheels
 // carry nothing here: a structure that no joint holds to the ground, a static or a kinematic body is loose,
 // and left out. SI units, signs as everywhere: N positive in tension, +M turns the second piece
 // counter-clockwise against the first.
@@ -34,22 +35,64 @@ struct StaticCheck {
   double time = 0;                  ///< s
   std::vector<StaticJoint> joints;  ///< by Plan::joints
   std::vector<Point> displacement;  ///< m, by Plan::pieces: of the centre of mass, elastic
-  double reserve = unlimited;       ///< the least yields_at: the factor on all loads until the first yield
+  std::vector<double> turn;         ///< rad, by Plan::pieces
+  double reserve = unlimited;       ///< the least yields_at: the factor on all loads until the first yield;
+                                    ///< of second order no more than the critical load factor
   std::vector<int> first_to_yield;  ///< joints that yield at some factor, the first first
   std::vector<int> loose;           ///< pieces that no joint holds to anything that stands still
+};
+
+enum class Order {
+  first,   ///< equilibrium of the structure as drawn
+  second,  ///< equilibrium in the deformed state, displacements small against the structure
 };
 
 /// The forces of least complementary energy among those in equilibrium with the loads (Menabrea): exact
 /// where statics alone decides, by the joints' stiffnesses where it does not; rigid rows count as stiffer
 /// than the stiffest by 1e6, each in proportion to its effective mass, as in the structure's solver. Throws
 /// InvalidInput where the loads move a mechanism, or nothing is held.
-StaticCheck static_check(const Plan& plan);
+///
+/// Of second order, joints that stand for bars bend as those do between the middles of pieces (bars.h):
+/// beam-columns, not springs between rigid pieces. Where the structure buckles at less than the loads, they
+/// have no state to tell of, and forces, usage and displacements are NaN. `yields_at` of all but the first is
+/// interpolated between states up to the critical load, beyond which it is unlimited.
+StaticCheck static_check(const Plan& plan, Order order = Order::first);
+
+/// How a piece moves, to a scale.
+struct Motion {
+  Point along;      ///< of its centre of mass, m
+  double turn = 0;  ///< rad
+};
+
+/// Elastic buckling.
+struct CriticalLoad {
+  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle
+  std::vector<Motion> mode;   ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
+  double time = 0;            ///< s, from when on these loads act (as in StaticCheck)
+};
+
+/// The least factor at which the structure, elastic, has a state of equilibrium beside its own: K + α K_g is
+/// singular for the first-order forces of the loads. Bars bend as in static_check() of second order: within
+/// 1e-4 of Euler's loads with eight pieces to a half wave. Throws InvalidInput as static_check() does.
+CriticalLoad critical_load(const Plan& plan);
+
+/// A joint, and the factor on all loads that brings it there.
+struct Reached {
+  int joint = -1;  ///< −1: none is
+  double factor = unlimited;
+};
+
+/// The joint in whose section the first fibre yields, of N and M: N E/EA + M E y/EI = f_y. A section bears
+/// more, up to its plastic moment, which is what joints yield at (StaticCheck::first_to_yield). Of second
+/// order when the check is. Joints without a section, as supports, are passed over.
+Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order = Order::first);
 
 /// What it takes to collapse.
 struct LimitAnalysis {
   double load_factor = unlimited;  ///< on loads and gravity, or on loads alone; unlimited: they never suffice
   std::vector<int> hinges;         ///< joints that dissipate in a collapse mechanism
   double time = 0;                 ///< s, from when on these loads act (as in StaticCheck)
+  std::vector<Motion> mechanism;   ///< by Plan::pieces: the largest displacement is 1 m
 };
 
 /// The collapse load factor of rigid-plastic joints in the geometry as drawn, by linear programming over all
@@ -57,6 +100,21 @@ struct LimitAnalysis {
 /// 1e-7 of it. Where several mechanisms collapse at the same load, the hinges are those of one. Throws
 /// InvalidInput where the loads move a mechanism, are zero, or gravity alone, held fixed, cannot be carried.
 LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity = false);
+
+/// Collapse in the deformed state.
+struct Pushover {
+  double load_factor = unlimited;  ///< as in LimitAnalysis
+  std::vector<Reached> hinges;     ///< joints that yield, in order, each with the factor at which it does
+  double time = 0;                 ///< s, as in StaticCheck
+  std::vector<Motion> mechanism;   ///< by Plan::pieces: how it goes; the largest displacement is 1 m
+};
+
+/// The largest factor on the loads that the structure bears as they grow from nothing, in the deformed state
+/// (displacements small against the structure), joints yielding one by one and elastic again where they
+/// unload: hinge by hinge to the point where no stable equilibrium follows. Joints are the plan's springs
+/// between rigid pieces, as a slow simulation has them, perfectly plastic and unbreakable. Where a mechanism
+/// forms that tension might yet hold, it counts as collapse. Throws InvalidInput as limit_analysis() does.
+Pushover second_order_limit(const Plan& plan, bool fixed_gravity = false);
 
 /// How much may be left out.
 struct LeaveOut {

@@ -1,0 +1,144 @@
+#include "bars.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <optional>
+
+#include "plane.h"
+#include "yield.h"
+
+namespace ductile {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A displacement across an arm, to its left, in the joint's (u, v).
+Vector3d across(const PlannedJoint& joint, const Arm& arm) {
+  return {dot(left(arm.along), joint.axis), dot(left(arm.along), left(joint.axis)), 0};
+}
+
+// As calibrate() has it: half of the piece's extent along the axis bends as the section that touches.
+Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
+  const int piece = of_b ? joint.b : joint.a;
+  if (piece < 0 || !plan.is_dynamic(piece) || !(joint.stiffness.M < unlimited)) return {};
+  const std::optional<Section> section = section_at(plan, joint, piece);
+  if (!section) return {};
+  const Point outward = of_b ? joint.axis : -joint.axis;
+  double reach = 0;
+  for (const Point& p : plan.pieces[static_cast<std::size_t>(piece)].outline.outer)
+    reach = std::max(reach, dot(p - joint.anchor, outward) / 2);
+  const double EI = section->elastic({0, -1}).EI;
+  return EI > 0 ? Arm{reach, EI, -outward} : Arm{};
+}
+
+}  // namespace
+
+std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
+  std::vector<std::array<Arm, 2>> arms(plan.joints.size());
+  std::vector<double> stiffest(plan.pieces.size());  // EI of a piece's bars
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const PlannedJoint& joint = plan.joints[i];
+    std::array<Arm, 2> own{arm(plan, joint, false), arm(plan, joint, true)};
+    double gives = 0;
+    for (const Arm& each : own)
+      if (each.length > 0) gives += each.length / each.EI;
+    if (!(std::abs(gives * joint.stiffness.M - 1) < 1e-6)) continue;
+    arms[i] = own;
+    for (const bool b : {false, true})
+      if (own[b].length > 0) {
+        double& most = stiffest[static_cast<std::size_t>(b ? joint.b : joint.a)];
+        most = std::max(most, own[b].EI);
+      }
+  }
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const PlannedJoint& joint = plan.joints[i];
+    if (joint.a >= 0 || stiffest[static_cast<std::size_t>(joint.b)] == 0) continue;
+    const Point from_middle = joint.anchor - plan.carrier(joint.b).center;
+    if (length(from_middle) > 0)
+      arms[i][1] = {length(from_middle), stiffest[static_cast<std::size_t>(joint.b)], unit(from_middle)};
+  }
+  return arms;
+}
+
+// Complementary energy ½ ∫ (M + F s)²/EI ds of each arm, F across it at its end, s from there. The root of an
+// inverse is the inverse of a root.
+Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
+  const Root rigid = k.cwiseSqrt().asDiagonal();
+  Matrix3d flexibility = k.cwiseInverse().asDiagonal();
+  bool bends = false;
+  for (const Arm& arm : arms) {
+    if (arm.length == 0) continue;
+    bends = true;
+    const Vector3d n = across(joint, arm), turn = Vector3d::UnitZ();
+    const double l = arm.length;
+    flexibility += l * l * l / (3 * arm.EI) * n * n.transpose();
+    flexibility += l * l / (2 * arm.EI) * (n * turn.transpose() + turn * n.transpose());
+    if (joint.a < 0) flexibility += l / arm.EI * turn * turn.transpose();  // a joint's k_M has it
+  }
+  if (!bends) return rigid;
+  std::vector<int> rows;
+  for (int row = 0; row < 3; ++row)
+    if (k[row] > 0) rows.push_back(row);
+  const Eigen::MatrixXd own = flexibility(rows, rows), lower = own.llt().matrixL();
+  const Eigen::MatrixXd inverse = lower.inverse();
+  Root root = Root::Zero();
+  root(rows, rows) = inverse;
+  return root;
+}
+
+// ∫ w'² ds of the cubic whose ends' slopes are α and β against its chord's, ψ = (ℓ_a θ_a + v + ℓ_b θ_b)/ℓ,
+//   ℓ ψ² + ℓ (4 α² − 2 α β + 4 β²)/30,
+// less that of two straight halves with the joint's slip between them, ℓ_a θ_a² + ℓ_b θ_b² + 2 φ v.
+Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::array<double, 2> follow) {
+  const double a = arms[0].length, b = arms[1].length, length = a + b;
+  if (length == 0 || joint.a < 0 || is_free(joint, axial) || is_free(joint, shear) ||
+      is_free(joint, rotation))
+    return Matrix3d::Zero();
+  const Vector3d slip = Vector3d::UnitZ(), turn(follow[0], follow[1], 0), chord = Vector3d(a, b, 1) / length;
+  const Vector3d alpha = Vector3d::UnitX() - chord, beta = Vector3d::UnitY() - chord;
+  Matrix3d form = length * chord * chord.transpose();
+  form += length / 30 * (4 * alpha * alpha.transpose() + 4 * beta * beta.transpose());
+  form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());
+  form -= turn * slip.transpose() + slip * turn.transpose();
+  form.diagonal() -= Vector3d(a, b, 0);
+  return form;
+}
+
+// A load at s from the middle bends the arm there by m(σ) = M + F (s − σ): its end, at ℓ, moves across by
+// ∫ m (ℓ − σ)/EI dσ and turns by ∫ m/EI dσ over 0 … s.
+Eigen::VectorXd held_forces(const Plan& plan, const Equilibrium& statics, double time) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(statics.B.rows());
+  const std::vector<Root> roots = statics.roots();
+  for (const Plan::Load& load : plan.loads) {
+    if (load.def.from > time || load.def.to <= time ||
+        plan.pieces[static_cast<std::size_t>(load.piece)].part_of >= 0)
+      continue;
+    const Point middle = plan.carrier(load.piece).center, from_middle = load.at - middle;
+    std::size_t joint = plan.joints.size();
+    bool of_b = false;
+    Arm arm;
+    double best = 0.9 * length(from_middle);  // along the arm, or nearly
+    for (std::size_t i = 0; i < plan.joints.size(); ++i)
+      for (const bool b : {false, true}) {
+        if ((b ? plan.joints[i].b : plan.joints[i].a) != load.piece) continue;
+        const Arm& own = statics.arms()[i][b];
+        if (own.length == 0 || !(dot(from_middle, own.along) > best)) continue;
+        best = dot(from_middle, own.along);
+        joint = i, of_b = b, arm = own;
+      }
+    if (joint == plan.joints.size() || best == 0) continue;
+    const double l = arm.length, s = std::min(best, l);
+    const double F = dot(load.def.force, left(arm.along));
+    const double M = load.def.moment + cross(load.at - middle - s * arm.along, load.def.force);
+    const double turn = (M * s + F * s * s / 2) / arm.EI;
+    const double moved = l * turn - (M * s * s / 2 + F * s * s * s / 6) / arm.EI;
+    Vector3d strain = moved * across(plan.joints[joint], arm) + turn * Vector3d::UnitZ();
+    if (!of_b) strain = -strain;
+    forces.segment<3>(3 * static_cast<Index>(joint)) += roots[joint].transpose() * (roots[joint] * strain);
+  }
+  return forces;
+}
+
+}  // namespace ductile

@@ -1,0 +1,32 @@
+// Bars that bend between the middles of pieces, as beam theory has them.
+//
+// A joint lumps the bending of a bar, from the middle of one piece to the middle of the other, where the
+// pieces touch (EI/ℓ); between a support and the middle of its piece nothing bends at all. With n
+// pieces sags and buckling loads are wrong by some 1/n² and 1/n. What lacks is known in closed form: a moment
+// that grows with the distance from the joint, so that shear bends the bar, too; loads in between; and an
+// axial force on a curved line. With it, nodes in the middles of pieces carry beam elements, which are exact
+// without axial force and within n⁻⁴ of the buckling load.
+#pragma once
+
+#include "equilibrium.h"
+
+namespace ductile {
+
+/// Bars of a plan: by joints, on the side of a and of b, as cantilevers from the middle of the piece. A joint
+/// stands for bars where its bending stiffness is that of its sections over half of each piece; a support's
+/// is as stiff as the piece's other bars. Length 0: none.
+std::vector<std::array<Arm, 2>> arms_of(const Plan& plan);
+
+/// Of a joint of stiffness k = (k_N, k_Q, k_M; 0 in free rows), with the arms of both sides.
+Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Eigen::Vector3d& k);
+
+/// What the bars add to the geometric stiffness of rigid pieces: times N, in (θ_a, θ_b, v). `follow`: the
+/// shares of both turns that the joint's axis follows. 0 where the joint stands for no bar, or a row is free.
+Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms,
+                       std::array<double, 2> follow);
+
+/// The forces that the plan's loads of that time bring into joints, were no piece to move: those of the arms
+/// that they bend. `statics`: with elastic bars.
+Eigen::VectorXd held_forces(const Plan& plan, const Equilibrium& statics, double time);
+
+}  // namespace ductile

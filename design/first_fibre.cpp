@@ -1,0 +1,81 @@
+// The joint whose section's first fibre yields first.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "ductile/design.h"
+#include "elastic_path.h"
+#include "plane.h"
+
+namespace ductile {
+namespace {
+
+// Of one side of a joint: how much of the yield stress a unit of N and of M bring to each corner.
+class Fibres {
+ public:
+  Fibres(const Plan& plan, const PlannedJoint& joint) {
+    for (const int piece : {joint.a, joint.b}) {
+      if (piece < 0) continue;
+      if (const std::optional<Section> section = section_at(plan, joint, piece)) add(*section);
+    }
+  }
+  double usage(double N, double M) const {
+    double most = 0;
+    for (const Corner& c : corners_) {
+      const double share = c.N * N + c.M * M;
+      most = std::max(most, share > 0 ? share : -share * c.reverse);
+    }
+    return most;
+  }
+
+ private:
+  struct Corner {
+    double N, M, reverse;  // per f_y; f_y / f_yc
+  };
+  // M > 0 puts the right of the axis, −y of the section, in tension; N acts at the anchor, y = 0, and bends
+  // about the elastic centroid by N y_c.
+  void add(const Section& section) {
+    const Elastic e = section.elastic({0, -1});
+    for (const Region& region : section.regions()) {
+      const Material& m = region.material;
+      const double f = m.yield_stress, fc = m.yield_stress_compression > 0 ? m.yield_stress_compression : f;
+      const bool known = e.EA > 0;
+      const double per_N = known ? m.youngs_modulus / e.EA : 1 / section.area();
+      const double per_M = known ? m.youngs_modulus / e.EI : 1 / e.I;
+      for (const Point& p : region.outline.outer) {
+        const double bent = per_M * (e.centroid.y - p.y);
+        corners_.push_back({(per_N + bent * e.centroid.y) / f, bent / f, f / fc});
+      }
+    }
+  }
+  std::vector<Corner> corners_;
+};
+
+}  // namespace
+
+Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order) {
+  std::vector<Fibres> fibres;
+  for (const PlannedJoint& joint : plan.joints) fibres.emplace_back(plan, joint);
+  const Between between = order == Order::first ? Between::rigid_pieces : Between::elastic_bars;
+  const Equilibrium statics(plan, between);
+  Reached least;
+  for (const LoadCase& load_case : statics.cases()) {
+    if (load_case.time != check.time) continue;
+    const auto usage = [&](std::size_t i, const Eigen::Vector3d& R) {
+      return statics.held[i] ? fibres[i].usage(R[0], R[2]) : 0;
+    };
+    std::vector<double> reached;
+    if (order == Order::second) {
+      reached = ElasticPath(plan, statics, load_case).reached(usage);
+    } else {
+      const Eigen::VectorXd forces = statics.forces(statics.balanced(load_case.gravity + load_case.loads));
+      for (std::size_t i = 0; i < fibres.size(); ++i)
+        reached.push_back(1 / usage(i, forces.segment<3>(3 * static_cast<Eigen::Index>(i))));
+    }
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      if (reached[i] < least.factor) least = {static_cast<int>(i), reached[i]};
+  }
+  return least;
+}
+
+}  // namespace ductile

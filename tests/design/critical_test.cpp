@@ -1,0 +1,255 @@
+// Critical loads and beam-columns of 20 pieces a member against closed forms, to 1e-3.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "ductile/design.h"
+#include "frames.h"
+
+namespace {
+using namespace ductile;
+
+constexpr double L = 20, EI = 210e9 / 12, pi = std::numbers::pi;
+constexpr int n = 20;
+constexpr double within = 1e-3;
+
+// Euler's bars neither shear nor shorten.
+Plan slender(const SceneDef& scene) {
+  Plan plan = calibrate(scene);
+  for (PlannedJoint& joint : plan.joints) joint.stiffness.N = joint.stiffness.Q = unlimited;
+  return plan;
+}
+double critical(const SceneDef& scene) { return critical_load(slender(scene)).factor; }
+
+// The lowest root of f between a and b.
+double root(double a, double b, const std::function<double(double)>& f) {
+  for (int i = 0; i < 200; ++i) {
+    const double m = (a + b) / 2;
+    ((f(m) > 0) == (f(a) > 0) ? a : b) = m;
+  }
+  return a;
+}
+
+SceneDef fixed_pinned() {
+  SceneDef scene = cantilever(n, 0);
+  scene.supports = {{.body = "beam", .at = {L, 0}, .fix_y = true}};
+  scene.loads[0].force = {-1, 0};
+  return scene;
+}
+SceneDef on_two_pins() {
+  SceneDef scene = simply_supported(n, 0);
+  scene.loads[0] = {.body = "beam", .at = {L, 0}, .force = {-1, 0}};
+  return scene;
+}
+
+TEST(CriticalLoad, EulersFourColumns) {
+  SceneDef free = cantilever(n, 0);
+  free.loads[0].force = {-1, 0};
+  EXPECT_NEAR(critical(free) / (pi * pi * EI / (4 * L * L)), 1, within);
+  EXPECT_NEAR(critical(on_two_pins()) / (pi * pi * EI / (L * L)), 1, within);
+  const double kl = root(4, 4.6, [](double x) { return std::sin(x) - x * std::cos(x); });  // tan x = x
+  EXPECT_NEAR(critical(fixed_pinned()) / (kl * kl * EI / (L * L)), 1, within);
+  SceneDef clamped = fixed_fixed(n, 0);
+  clamped.loads[0] = {.body = "beam", .at = {L, 0}, .force = {-1, 0}};
+  EXPECT_NEAR(critical(clamped) / (4 * pi * pi * EI / (L * L)), 1, within);
+}
+
+// A support clamps as a wall does.
+TEST(CriticalLoad, AColumnClampedByItsSupport) {
+  SceneDef free = cantilever(n, 0);
+  free.bodies.erase(free.bodies.begin());
+  free.joints.clear();
+  free.supports = {{.body = "beam", .at = {0, 0}, .fix_x = true, .fix_y = true, .fix_angle = true}};
+  free.loads[0].force = {-1, 0};
+  EXPECT_NEAR(critical(free) / (pi * pi * EI / (4 * L * L)), 1, within);
+}
+
+// A stepped column, fixed at its foot: stiff over the lower half. k₁ tan(k₁ L/2) = k₂ cot(k₂ L/2).
+TEST(CriticalLoad, ASteppedColumn) {
+  SceneDef scene = cantilever(n / 2, 0);
+  scene.bodies[1] = beam(n / 2, L / 2);
+  BodyDef upper = beam(n / 2, L / 2, 0.7);
+  upper.name = "upper";
+  upper.at = {L / 2, 0};
+  scene.bodies.push_back(upper);
+  scene.joints.push_back({.a = "beam", .b = "upper"});
+  scene.loads = {{.body = "upper", .at = {L, 0}, .force = {-1, 0}}};
+  const double EI2 = EI * 0.7 * 0.7 * 0.7;
+  const double P = root(0.01 * EI / (L * L), pi * pi * EI2 / (L * L), [&](double P) {
+    const double k1 = std::sqrt(P / EI), k2 = std::sqrt(P / EI2);
+    return std::tan(k1 * L / 2) * std::tan(k2 * L / 2) - k2 / k1;
+  });
+  EXPECT_NEAR(critical(scene) / P, 1, within);
+}
+
+// Columns of kh = φ with the girder's end stiffness: sway 6 EI/l, symmetric 2 EI/l. (Timoshenko and Gere,
+// Theory of Elastic Stability, 2.4; slope-deflection with stability functions.)
+TEST(CriticalLoad, SwayAndBracedPortals) {
+  const Frame f;
+  const double r = f.h / f.l, unit = f.stiffness() / (f.h * f.h);
+  // Pinned feet, sway: φ tan φ = 6 r.
+  double phi = root(0.1, pi / 2 - 1e-9, [&](double x) { return x * std::tan(x) - 6 * r; });
+  EXPECT_NEAR(critical(f.scene(false, 1)) / (phi * phi * unit), 1, within);
+  // Fixed feet, sway: φ / tan φ = −6 r.
+  phi = root(pi / 2 + 1e-9, pi - 1e-9, [&](double x) { return x / std::tan(x) + 6 * r; });
+  EXPECT_NEAR(critical(f.scene(true, 1)) / (phi * phi * unit), 1, within);
+  // Pinned feet, braced, symmetric: M = 2 r EI/h at θ: φ² tan φ/(tan φ − φ) = −2 r.
+  phi = root(pi + 1e-9, 4.4934 - 1e-9,
+             [&](double x) { return x * x * std::tan(x) / (std::tan(x) - x) + 2 * r; });
+  EXPECT_NEAR(critical(f.braced(f.scene(false, 1))) / (phi * phi * unit), 1, within);
+  // Fixed feet, braced, symmetric: stability function s = φ (sin φ − φ cos φ)/(2 − 2 cos φ − φ sin φ) = −2 r.
+  phi = root(4.4934, 2 * pi - 1e-6, [&](double x) {
+    return x * (std::sin(x) - x * std::cos(x)) / (2 - 2 * std::cos(x) - x * std::sin(x)) + 2 * r;
+  });
+  EXPECT_NEAR(critical(f.braced(f.scene(true, 1))) / (phi * phi * unit), 1, within);
+}
+
+// A column on pins that carries a P leans on a mast that carries P: with k² = P/EI and φ = k h,
+// y'' + k² y = k² δ + a k² δ (h − x)/h, so tan φ = φ (1 + 1/a).
+TEST(CriticalLoad, ALeaningColumn) {
+  const Frame f;
+  const double top = f.h - f.t / 2, t = f.t, l = f.l;
+  for (const double a : {1.0, 3.0}) {
+    SceneDef s = bending_only();
+    s.bodies = {
+        {.name = "floor", .type = BodyType::static_body, .outline = {rectangle(-2, -1, l + 2, 0), {}}},
+        f.member("mast", rectangle(-t / 2, 0, t / 2, f.h), {0, 0}, {0, f.h}),
+        f.member("prop", rectangle(l - t / 2, 0, l + t / 2, f.h), {l, 0}, {l, f.h}),
+        f.member("tie", rectangle(t / 2, f.h - t, l - t / 2, f.h), {t / 2, top}, {l - t / 2, top})};
+    const JointOverrides pin{.moment = 0};
+    s.joints = {{.a = "floor", .b = "mast"},
+                {.a = "floor", .b = "prop", .overrides = pin},
+                {.a = "mast", .b = "tie", .overrides = pin},
+                {.a = "tie", .b = "prop", .overrides = pin}};
+    s.loads = {{.body = "mast", .at = {0, top}, .force = {0, -1}},
+               {.body = "prop", .at = {l, top}, .force = {0, -a}}};
+    const double phi = root(0.1, pi / 2 - 1e-9, [&](double x) { return std::tan(x) - x * (1 + 1 / a); });
+    EXPECT_NEAR(critical(s) / (phi * phi * f.stiffness() / (top * top)), 1, within) << a;
+  }
+}
+
+TEST(CriticalLoad, TheModeIsTheDisplacementOfThePieces) {
+  const CriticalLoad load = critical_load(slender(on_two_pins()));
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) / n, sine = std::sin(pi * x);
+    const Motion &m = load.mode[static_cast<std::size_t>(i)], &middle = load.mode[n / 2];
+    EXPECT_NEAR(m.along.y / middle.along.y, sine / std::sin(pi * (0.5 + 0.5 / n)), 2e-3);
+    EXPECT_NEAR(m.along.x, 0, 1e-6);
+  }
+}
+
+TEST(CriticalLoad, NoneInTension) {
+  SceneDef bar = cantilever(10, 0);
+  bar.loads[0].force = {1e6, 0};
+  EXPECT_GT(critical(bar), 1e6);
+}
+
+// The loads that act at one time belong together, and the worst time counts.
+TEST(CriticalLoad, LoadsThatEnd) {
+  SceneDef scene = on_two_pins();
+  scene.loads[0].to = 1;
+  scene.loads.push_back(scene.loads[0]);
+  scene.loads[1].force.x *= 2;
+  scene.loads[1].from = 2;
+  scene.loads[1].to = 3;
+  const CriticalLoad load = critical_load(slender(scene));
+  EXPECT_EQ(load.time, 2);
+  EXPECT_NEAR(load.factor * 2 / (pi * pi * EI / (L * L)), 1, within);
+}
+
+// --- beam-columns: P = u² · 4 EI/L², the moment in the middle ---
+
+StaticCheck second(const SceneDef& scene) { return static_check(slender(scene), Order::second); }
+double at(const SceneDef& scene, const std::string& joint) {
+  return second(scene).joints[static_cast<std::size_t>(joint_named(slender(scene), joint))].M;
+}
+
+TEST(SecondOrder, AnEccentricLoadGrowsByTheSecant) {
+  for (const double u : {0.5, 1.0, 1.3, 1.5}) {
+    const double P = 4 * u * u * EI / (L * L), moment = 1e4;
+    SceneDef scene = on_two_pins();
+    scene.loads = {{.body = "beam", .at = {L, 0}, .force = {-P, 0}, .moment = moment},
+                   {.body = "beam", .at = {0, 0}, .moment = -moment}};
+    EXPECT_NEAR(std::abs(at(scene, "beam/9-beam/10")) / (moment / std::cos(u)), 1, within) << u;
+  }
+}
+
+TEST(SecondOrder, ALoadInTheMiddleGrowsByTheTangent) {
+  for (const double u : {0.5, 1.0, 1.3, 1.5}) {
+    const double P = 4 * u * u * EI / (L * L), W = 1e4;
+    SceneDef scene = on_two_pins();
+    scene.loads[0].force = {-P, 0};
+    scene.loads.push_back({.body = "beam", .at = {L / 2, 0}, .force = {0, -W}});
+    EXPECT_NEAR(std::abs(at(scene, "beam/9-beam/10")) / (W * L / 4 * std::tan(u) / u), 1, within) << u;
+  }
+}
+
+// A mast with a load across its top: W h tan φ/φ at its foot, and the deflection W h³/3EI · 3 (tan φ − φ)/φ³.
+TEST(SecondOrder, AMast) {
+  for (const double phi : {0.4, 0.8, 1.2, 1.45}) {
+    const double P = phi * phi * EI / (L * L), W = 1e4;
+    SceneDef scene = cantilever(n, W);
+    scene.loads[0].force.x = -P;
+    const StaticCheck check = second(scene);
+    const Plan plan = slender(scene);
+    EXPECT_NEAR(check.joints[static_cast<std::size_t>(joint_named(plan, "wall-beam/0"))].M /
+                    (-W * L * std::tan(phi) / phi),
+                1, within)
+        << phi;
+    // of the top: half a piece above the last one's centre
+    const double top = check.displacement.back().y + check.turn.back() * L / n / 2;
+    EXPECT_NEAR(top / (-W * L / P * (std::tan(phi) / phi - 1)), 1, within) << phi;
+  }
+}
+
+// What the bar bears at all: N/N_p does not count in bending_only(), so M_p = moment · sec u at the reserve.
+TEST(SecondOrder, TheReserveOfAnEccentricLoad) {
+  const double P = 4 * EI / (L * L), moment = 1e7;  // u = 1 at factor 1
+  SceneDef scene = on_two_pins();
+  scene.loads = {{.body = "beam", .at = {L, 0}, .force = {-P, 0}, .moment = moment},
+                 {.body = "beam", .at = {0, 0}, .moment = -moment}};
+  const double factor = root(0.01, pi * pi / 4 - 1e-9,
+                             [&](double f) { return plastic_moment - f * moment / std::cos(std::sqrt(f)); });
+  const StaticCheck check = second(scene);
+  EXPECT_NEAR(check.reserve / factor, 1, within);
+  EXPECT_GT(static_check(slender(scene)).reserve, 3 * factor) << "of first order";
+}
+
+// Tension straightens: tanh φ/φ.
+TEST(SecondOrder, TensionRelieves) {
+  const double phi = 1.2, T = phi * phi * EI / (L * L), W = 1e6;
+  SceneDef scene = cantilever(n, W);
+  scene.loads[0].force.x = T;
+  const double root_moment = at(scene, "wall-beam/0");
+  EXPECT_NEAR(root_moment / (-W * L * std::tanh(phi) / phi), 1, within);
+  EXPECT_GT(second(scene).reserve, static_check(slender(scene)).reserve);
+}
+
+TEST(SecondOrder, BeyondTheCriticalLoadThereIsNoState) {
+  SceneDef scene = on_two_pins();
+  scene.loads[0].force = {-2 * pi * pi * EI / (L * L), 0};
+  const StaticCheck check = second(scene);
+  EXPECT_NEAR(check.reserve, 0.5, within);
+  EXPECT_TRUE(std::isnan(check.joints[0].M));
+  EXPECT_TRUE(std::isnan(check.displacement[3].y));
+}
+
+// --- the first fibre ---
+
+TEST(FirstFibre, OfABeamAndOfAColumn) {
+  const SceneDef beam = cantilever(n, 1e6);
+  const Plan plan = calibrate(beam);
+  const Reached bent = first_fibre(plan, static_check(plan));
+  EXPECT_EQ(plan.joints[static_cast<std::size_t>(bent.joint)].name, "wall-beam/0");
+  EXPECT_NEAR(bent.factor / (plastic_moment / 1.5 / (1e6 * L)), 1, 1e-9);
+
+  SceneDef column = cantilever(n, 1e5);
+  column.loads[0].force.x = -50e6;
+  const Plan both = calibrate(column);
+  const Reached pressed = first_fibre(both, static_check(both));
+  EXPECT_NEAR(pressed.factor * (50e6 / 350e6 + 1e5 * L * 6 / 350e6), 1, 1e-9);
+}
+
+}  // namespace
