@@ -10,7 +10,6 @@
 namespace ductile {
 namespace {
 
-using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -33,6 +32,25 @@ Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
   return EI > 0 ? Arm{reach, EI, -outward} : Arm{};
 }
 
+bool is_inside(const Plan& plan, const PlannedJoint& joint) {
+  return joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
+                             plan.pieces[static_cast<std::size_t>(joint.b)].body;
+}
+
+// EI of the cuts across a joint's piece, along the joint's axis; 0 where there are none.
+double next_cut(const Plan& plan, const std::vector<std::array<Arm, 2>>& arms, std::size_t joint, bool of_b) {
+  const PlannedJoint& own = plan.joints[joint];
+  const int piece = of_b ? own.b : own.a;
+  double most = 0;
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const PlannedJoint& other = plan.joints[i];
+    if ((other.a == piece || other.b == piece) && is_inside(plan, other) &&
+        std::abs(dot(other.axis, own.axis)) > 0.9)
+      most = std::max(most, arms[i][other.b == piece].EI);
+  }
+  return most;
+}
+
 }  // namespace
 
 std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
@@ -52,6 +70,11 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
         most = std::max(most, own[b].EI);
       }
   }
+  // A body that meets a slighter one is as stiff up to there as its next cut is.
+  for (std::size_t i = 0; i < arms.size(); ++i)
+    for (const bool b : {false, true})
+      if (arms[i][b].length > 0 && !is_inside(plan, plan.joints[i]))
+        arms[i][b].EI = std::max(arms[i][b].EI, next_cut(plan, arms, i, b));
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const PlannedJoint& joint = plan.joints[i];
     if (joint.a >= 0 || stiffest[static_cast<std::size_t>(joint.b)] == 0) continue;
@@ -67,6 +90,8 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
 Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
   const Root rigid = k.cwiseSqrt().asDiagonal();
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
+  if (joint.a >= 0 && arms[0].length + arms[1].length > 0)
+    flexibility(rotation, rotation) = 0;  // is the arms'
   bool bends = false;
   for (const Arm& arm : arms) {
     if (arm.length == 0) continue;
@@ -75,7 +100,7 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
     const double l = arm.length;
     flexibility += l * l * l / (3 * arm.EI) * n * n.transpose();
     flexibility += l * l / (2 * arm.EI) * (n * turn.transpose() + turn * n.transpose());
-    if (joint.a < 0) flexibility += l / arm.EI * turn * turn.transpose();  // a joint's k_M has it
+    flexibility += l / arm.EI * turn * turn.transpose();
   }
   if (!bends) return rigid;
   std::vector<int> rows;
@@ -104,41 +129,6 @@ Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::
   form -= turn * slip.transpose() + slip * turn.transpose();
   form.diagonal() -= Vector3d(a, b, 0);
   return form;
-}
-
-// A load at s from the middle bends the arm there by m(σ) = M + F (s − σ): its end, at ℓ, moves across by
-// ∫ m (ℓ − σ)/EI dσ and turns by ∫ m/EI dσ over 0 … s.
-Eigen::VectorXd held_forces(const Plan& plan, const Equilibrium& statics, double time) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(statics.B.rows());
-  const std::vector<Root> roots = statics.roots();
-  for (const Plan::Load& load : plan.loads) {
-    if (load.def.from > time || load.def.to <= time ||
-        plan.pieces[static_cast<std::size_t>(load.piece)].part_of >= 0)
-      continue;
-    const Point middle = plan.carrier(load.piece).center, from_middle = load.at - middle;
-    std::size_t joint = plan.joints.size();
-    bool of_b = false;
-    Arm arm;
-    double best = 0.9 * length(from_middle);  // along the arm, or nearly
-    for (std::size_t i = 0; i < plan.joints.size(); ++i)
-      for (const bool b : {false, true}) {
-        if ((b ? plan.joints[i].b : plan.joints[i].a) != load.piece) continue;
-        const Arm& own = statics.arms()[i][b];
-        if (own.length == 0 || !(dot(from_middle, own.along) > best)) continue;
-        best = dot(from_middle, own.along);
-        joint = i, of_b = b, arm = own;
-      }
-    if (joint == plan.joints.size() || best == 0) continue;
-    const double l = arm.length, s = std::min(best, l);
-    const double F = dot(load.def.force, left(arm.along));
-    const double M = load.def.moment + cross(load.at - middle - s * arm.along, load.def.force);
-    const double turn = (M * s + F * s * s / 2) / arm.EI;
-    const double moved = l * turn - (M * s * s / 2 + F * s * s * s / 6) / arm.EI;
-    Vector3d strain = moved * across(plan.joints[joint], arm) + turn * Vector3d::UnitZ();
-    if (!of_b) strain = -strain;
-    forces.segment<3>(3 * static_cast<Index>(joint)) += roots[joint].transpose() * (roots[joint] * strain);
-  }
-  return forces;
 }
 
 }  // namespace ductile

@@ -3,8 +3,8 @@
 // A joint lumps the bending of a bar, from the middle of one piece to the middle of the other, where the
 // pieces touch (EI/ℓ); between a support and the middle of its piece nothing bends at all. With n
 // pieces sags and buckling loads are wrong by some 1/n² and 1/n. What lacks is known in closed form: a moment
-// that grows with the distance from the joint, so that shear bends the bar, too; loads in between; and an
-// axial force on a curved line. With it, nodes in the middles of pieces carry beam elements, which are exact
+// that grows with the distance from the joint, so that shear bends the bar, too, and an axial force on a curved
+// line. With it, nodes in the middles of pieces carry beam elements, which are exact
 // without axial force and within n⁻⁴ of the buckling load.
 #pragma once
 
@@ -24,9 +24,5 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
 /// shares of both turns that the joint's axis follows. 0 where the joint stands for no bar, or a row is free.
 Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms,
                        std::array<double, 2> follow);
-
-/// The forces that the plan's loads of that time bring into joints, were no piece to move: those of the arms
-/// that they bend. `statics`: with elastic bars.
-Eigen::VectorXd held_forces(const Plan& plan, const Equilibrium& statics, double time);
 
 }  // namespace ductile

@@ -40,25 +40,16 @@ std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const Eigen::S
   return x;
 }
 
-VectorXd forces_under(const Equilibrium& statics, const Growth& growth, const VectorXd& loads, double by) {
-  if (growth.held.size() == 0) return statics.forces(loads);
-  const VectorXd held = by * growth.held;
-  return held + statics.forces(loads - statics.B.transpose() * held);
-}
-
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor) {
-  const double by = factor - from.factor;
   Deformed now{factor, from.x, from.forces,
-               from.primary + forces_under(statics, growth, by * growth.growing, by)};
+               from.primary + statics.forces((factor - from.factor) * growth.growing)};
   const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan, statics, growth, now);
   const VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * from.x;
-  const std::optional<VectorXd> step = solve_tangent(
-      statics, K_g,
-      growth.held.size() == 0 ? rest : VectorXd(rest - by * (statics.B.transpose() * growth.held)));
+  const std::optional<VectorXd> step = solve_tangent(statics, K_g, rest);
   if (!step) return std::nullopt;
   now.x += *step;
-  now.forces += forces_under(statics, growth, rest - K_g * *step, by);
+  now.forces += statics.forces(rest - K_g * *step);
   return now;
 }
 

@@ -16,7 +16,6 @@ struct Growth {
   Eigen::VectorXd fixed, growing;
   double time = 0;         ///< s: the plan's loads that act then turn with their pieces
   bool loads_grow = true;  ///< or do not act at all
-  Eigen::VectorXd held;    ///< times the factor: forces in joints were no piece to move (bars.h); empty: none
   Eigen::VectorXd at(double factor) const { return fixed + factor * growing; }
 };
 
@@ -25,10 +24,6 @@ struct Deformed {
   Eigen::VectorXd x, forces;  ///< motions, and (N, Q, M) of the joints
   Eigen::VectorXd primary;    ///< the forces that loads alone have added, stage by stage: those of K_g
 };
-
-/// The joints' forces of first order under loads of which `by` times the growing ones are new.
-Eigen::VectorXd forces_under(const Equilibrium& statics, const Growth& growth, const Eigen::VectorXd& loads,
-                             double by);
 
 /// K_g of a state.
 Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,

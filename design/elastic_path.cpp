@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bars.h"
 #include "buckling.h"
 
 namespace ductile {
@@ -13,11 +12,8 @@ using Eigen::Index;
 ElasticPath::ElasticPath(const Plan& plan, const Equilibrium& statics, const LoadCase& load_case)
     : plan_(plan), statics_(statics) {
   const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
-  growth_ = {.fixed = Eigen::VectorXd::Zero(f.size()),
-             .growing = f,
-             .time = load_case.time,
-             .held = held_forces(plan, statics, load_case.time)};
-  const Eigen::VectorXd first = forces_under(statics, growth_, f, 1);
+  growth_ = {Eigen::VectorXd::Zero(f.size()), f, load_case.time};
+  const Eigen::VectorXd first = statics.forces(f);
   first_ = {1, {}, first, first};
   const Buckle buckle =
       buckling(statics, geometric_stiffness(plan, statics, growth_, first_), any_motion(statics));
