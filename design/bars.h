@@ -3,9 +3,9 @@
 // A joint lumps the bending of a bar, from the middle of one piece to the middle of the other, where the
 // pieces touch (EI/ℓ); between a support and the middle of its piece nothing bends at all. With n
 // pieces sags and buckling loads are wrong by some 1/n² and 1/n. What lacks is known in closed form: a moment
-// that grows with the distance from the joint, so that shear bends the bar, too, and an axial force on a curved
-// line. With it, nodes in the middles of pieces carry beam elements, which are exact
-// without axial force and within n⁻⁴ of the buckling load.
+// that grows with the distance from the joint, so that shear bends the bar, too, and an axial force on a
+// curved line. With it, nodes in the middles of pieces carry beam elements, which are exact without axial
+// force and within n⁻⁴ of the buckling load.
 #pragma once
 
 #include "equilibrium.h"
