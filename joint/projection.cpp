@@ -106,19 +106,20 @@ void Projection::displace_all(System& system, double t) const {
 // fall. What must fall is the step that comes next. A factor of other poses is good as long as it shortens
 // that; where it does not, what its J and the present one differ by comes out multiplied by κ.
 bool Projection::push_far(Work& work) {
-  auto& [system, hessian, goal, rounding, enough] = work;
+  System& system = work.system;
+  Hessian& hessian = work.hessian;
   const auto move = [&](double t) {
     for (std::size_t i = 0; i < system.free; ++i) {
       put(system.places[i], poses_[i]);
       displace(system.places[i], t * d_[i]);
     }
-    pull(system, goal);
+    pull(system, work.goal);
     strain(system);
   };
   move(0);
   double size = correction(system, hessian, d_);
   bool fresh = false;  // d_ is of a factor of its own poses
-  for (int round = 0; !(size <= enough); ++round) {
+  for (int round = 0; !(size <= work.enough); ++round) {
     if (round == 20) return false;
     for (std::size_t i = 0; i < system.free; ++i) poses_[i] = system.places[i].pose;
     const double whole = 1 / largest_turn(system);
