@@ -185,7 +185,7 @@ void Component::solve(const b2SolverData& data) {
   ++report->solves;
   report->rounds += solved.rounds;
   report->factorisations += solved.factorisations;
-  report->bounds_hit += solved.bound_hit ? 1 : 0;
+  report->bounds_hit += solved.unsolved ? 1 : 0;
   report->residual = std::max(report->residual, solved.residual);
 }
 

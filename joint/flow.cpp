@@ -1,12 +1,14 @@
 #include "flow.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ductile::dynamics {
 
 void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const Motion& motion) {
   const double h = laws.step();
-  // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
+  // On a yield surface single rows may give back, all three together never; but by rounding, at its apex, or
+  // where the solve did not end.
   double rate = 0;
   for (unsigned i = 0; i < 3 && j.regime == on_surface; ++i) {
     if (j.G[i] > 0) rate += j.impulse[i] * (r.x[i] - j.impulse[i] / j.G[i]);
@@ -23,7 +25,8 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
     if (rate >= 0) r.dissipated[i] += s / h * increment;
     if (r.material.hardening[i] > 0) {
       // Isotropic: the cap reached is the cap from now on, in both directions.
-      const double growth = std::abs(s) / h - (s > 0 ? r.material.cap : r.material.cap_reverse)[i];
+      const double cap = (s > 0 ? r.material.cap : r.material.cap_reverse)[i];
+      const double growth = std::max(0.0, std::abs(s) / h - cap);
       r.material.cap[i] += growth;
       r.material.cap_reverse[i] += growth;
       laws.set_law(j, r);
@@ -31,13 +34,9 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
   }
 }
 
-void follow_gap(Joint& j, const JointRecord& r, const Rows& gap, const Motion& motion) {
+void follow_gap(Joint& j, const Rows& gap) {
   for (unsigned i = 0; i < 3; ++i) {
-    if (j.G[i] == 0) {
-      j.neutral[i] = gap[i];
-    } else if (motion.abandoned) {
-      j.neutral[i] += gap[i] - r.gap[i];
-    }
+    if (j.G[i] == 0) j.neutral[i] = gap[i];
   }
 }
 

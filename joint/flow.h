@@ -12,17 +12,15 @@ namespace ductile::dynamics {
 
 /// How a step's velocities came about, and what became of them.
 struct Motion {
-  double share = 1;        // of the solution that the bodies move with
-  bool abandoned = false;  // the structure exerted nothing
-  bool swept = false;      // by Sweep: of rows that flow, x is but the direction
+  double share = 1;    // of the solution that the bodies move with
+  bool swept = false;  // by Sweep: of rows that flow, x is but the direction
 };
 
 /// Books the plastic flow of a joint whose gap is now `gap`.
 void flow(Joint& joint, JointRecord& record, const Rows& gap, const StepLaws& laws, const Motion& motion);
 
-/// Rows that hold nothing have their neutral position where they are; all rows of an abandoned step take what
-/// their gap did meanwhile as neutral, so that no energy is stored or given.
-void follow_gap(Joint& joint, const JointRecord& record, const Rows& gap, const Motion& motion);
+/// Rows that hold nothing have their neutral position where they are.
+void follow_gap(Joint& joint, const Rows& gap);
 
 /// The bodies went less far than was solved for, and so did a spring that has a damper beside it. What other
 /// rows are strained by, StepLaws::begin() reads from their gaps.

@@ -64,15 +64,14 @@ void Hessian::factor_tangents(System& system, bool secants) {
   factored_ = secants ? Factored::secants : Factored::tangents;
 }
 
-void Hessian::factor_holding(System& system, int changed, bool softened) {
+void Hessian::factor_holding(System& system, int changed) {
   bool holds_already = factored_ == Factored::holding || (factored_ != Factored::nothing && changed == 0);
   for (const Joint& j : system.joints) {
     JointRecord& r = system.record(j);
     Rows stiff;
     for (unsigned i = 0; i < 3; ++i) {
       const bool holds = j.G[i] > 0 && !flows(j.regime, i);
-      const bool stiffest = is_rigid(r, i) && !softened;
-      stiff[i] = !holds ? 0 : stiffest ? j.G[i] : rigid_ratio * r.m_eff[i];
+      stiff[i] = !holds ? 0 : is_rigid(r, i) ? j.G[i] : rigid_ratio * r.m_eff[i];
     }
     holds_already &= r.tangent.nn == stiff[0] && r.tangent.qq == stiff[1] && r.tangent.mm == stiff[2] &&
                      j.regime != on_surface;
@@ -92,12 +91,13 @@ void Hessian::refactor(const System& system) {
     d[8] = b.inertia > 0 ? b.inertia : 1;
   }
   for (const Joint& j : system.joints) {
-    const Coupling& D = system.record(j).tangent;
+    const JointRecord& r = system.record(j);
+    const Coupling& D = r.tangent;
     const JacobianRows a = of_body(rows_of_a(j.J), system.bodies[z(j.a)]);
     const JacobianRows b = of_body(rows_of_b(j.J), system.bodies[z(j.b)]);
-    const auto scaled = [&j, &D](const JacobianRows& rows) {
+    const auto scaled = [&r, &D](const JacobianRows& rows) {
       JacobianRows d{D.nn * rows.u, D.qq * rows.v, D.mm * rows.w};
-      if (j.regime == on_surface) {
+      if (r.law.surface != nullptr) {
         d.u += D.nq * rows.v + D.nm * rows.w;
         d.v += D.nq * rows.u + D.qm * rows.w;
         d.w += D.nm * rows.u + D.qm * rows.v;

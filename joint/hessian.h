@@ -32,10 +32,15 @@ class Hessian {
   void factor_tangents(System& system, bool secants);
   /// Factors H for pushes: whatever holds is as stiff as κ allows, so that a push moves the bodies as one
   /// that does not give. With their own stiffness in it, rows took up a share of every push, and a block on a
-  /// beam was catapulted. `softened`: rigid rows are not at κ.
-  void factor_holding(System& system, int changed, bool softened);
+  /// beam was catapulted.
+  void factor_holding(System& system, int changed);
   /// Factors the records' tangents as they are, at the present poses.
   void refactor(const System& system);
+  /// Likewise; afterwards they count as those of an earlier step.
+  void factor_given(const System& system) {
+    refactor(system);
+    factored_ = Factored::earlier;
+  }
 
   /// x ← H⁻¹ x; or its halves: see BlockLdlt.
   void solve(std::span<Vec3> x) const { ldlt_.solve(x); }

@@ -2,192 +2,436 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "objective.h"
+#include <limits>
 
 namespace ductile::dynamics {
 
-int interior_point(System& system, Hessian& hessian, double work, std::span<BarrierRows> barrier,
-                   std::span<Vec3> g, std::span<Vec3> d) {
-  constexpr double boundary = 0.995;  // share of the way to a bound that a step may go
-  // Of the work: rows that slip a hundred-millionth of what others do are told apart from those that hold.
-  // What is left undecided makes the Newton rounds that follow cycle: at 1e-11 in a struck beam at 6000 Hz,
-  // at 1e-15 in a spinning chain whose pieces weigh 1e4 times as much as their neighbours and which stretches
-  // everywhere at once.
-  constexpr double accuracy = 1e-19;
+namespace {
 
-  // Start well inside, with slips of the size of the velocities at hand.
-  std::vector<Joint>& joints = system.joints;
-  std::vector<JointRecord>& records = system.records;
-  const auto velocity = [&](const Joint& j) {
-    return relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
-  };
-  // d ← −H⁻¹g
-  const auto solve_for_step = [&] {
-    for (std::size_t i = 0; i < system.free; ++i) {
-      if (system.bodies[i].inertia == 0) g[i].w = 0;
-      d[i] = -1.0 * g[i];
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double energy_of(const Body& b, const Vec3& v) { return dot(v, momentum(b, v)); }
+
+// The rows of a joint at the present velocities.
+Rows x_of(const System& system, const Joint& j) {
+  return biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
+}
+
+double positive(double x) { return x > 0 ? x : 0; }
+
+}  // namespace
+
+void InteriorPoint::form(const System& system) {
+  std::size_t bounds = 0, most = 0;
+  for (const JointRecord& r : system.records) {
+    const YieldSurface* surface = r.material.surface;
+    const std::size_t own = std::max<std::size_t>(6, surface != nullptr ? surface->facets().size() + 1 : 0);
+    bounds += own;
+    most = std::max(most, own);
+  }
+  locals_.assign(system.joints.size(), {});
+  best_.assign(system.joints.size(), {});
+  bounds_.reserve(bounds);
+  d_.assign(system.bodies.size(), {});
+  rows_.assign(most + 4, {});
+  order_.assign(most + 4, 0);
+}
+
+// v = v* − M⁻¹ Jᵀ s; |v − v*|²_M + |v|²_M. What s lacks is thus always a lack of compatibility, never of
+// balance: whatever iterate the rounds end with gives velocities that conserve momentum.
+template <class Impulse>
+double InteriorPoint::balance(System& system, const Impulse& impulse) {
+  std::fill(d_.begin(), d_.end(), Vec3{});
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    add_transposed(j, impulse(k), d_[z(j.a)], d_[z(j.b)]);
+  }
+  double scale = 0;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    Body& b = system.bodies[i];
+    const Vec3 change{b.inverse_mass * d_[i].x, b.inverse_mass * d_[i].y, b.inverse_inertia * d_[i].w};
+    b.v = b.v_free - change;
+    scale += energy_of(b, change) + energy_of(b, b.v);
+  }
+  return scale;
+}
+
+// The impulses of the last step, drawn within their caps.
+void InteriorPoint::enter_caps(const Joint& j, const JointRecord& r, double energy, Local& l) {
+  const double outside = 1 - tunables.inside;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!(j.G[i] > 0)) continue;
+    const std::array<double, 2> cap{r.law.cap[i], r.law.cap_reverse[i]};
+    // A row that takes one sign only starts with an impulse of the size that may be asked for.
+    const double size = std::min(cap[0] + cap[1], std::abs(l.x[i]) + std::sqrt(r.m_eff[i] * energy));
+    const auto margin = [&](double c) { return outside * std::max(std::min(c, size), size / 2); };
+    l.x[i] = std::max(std::min(l.x[i], cap[0] - margin(cap[0])), margin(cap[1]) - cap[1]);
+    // s = F + ηz is the law's share α of G beyond the cap where α G = η/(1 + η/G).
+    const double alpha = r.law.after_yield[i];
+    for (const double side : {1.0, -1.0}) {
+      const double c = cap[side > 0 ? 0 : 1];
+      if (std::isinf(c)) continue;
+      Bound& b = bounds_.emplace_back();
+      b.a[i] = side;
+      b.p = c - side * l.x[i];
+      b.hardening = alpha * j.G[i] / (1 - alpha);
     }
-    hessian.solve(d.first(system.free));
-  };
-  find_x(system);
-  double slip = 0;
-  int bounds = 0;
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    const Joint& j = joints[k];
-    const Rows& x = records[k].x;
+  }
+}
+
+// Likewise within a yield surface. Rows that are free carry nothing: they leave the facets.
+void InteriorPoint::enter_surface(const Joint& j, const RowLaw& law, Local& l) {
+  const YieldSurface& surface = *law.surface;
+  const double h = law.h, usage = surface.usage({l.x[0] / h, l.x[1] / h, l.x[2] / h});
+  for (unsigned i = 0; i < 3; ++i) l.x[i] *= std::min(1.0, tunables.inside / usage);
+  if (std::isfinite(surface.shear()) && j.G[1] > 0) l.shear = h * surface.shear();
+  double share = 0;
+  for (const auto& [n, m] : surface.facets()) {
+    const Row4 a{j.G[0] > 0 ? n / h : 0, 0, j.G[2] > 0 ? m / h : 0, l.shear > 0 ? -1.0 : 0.0};
+    if (a[0] == 0 && a[2] == 0) continue;
+    const double used = a[0] * l.x[0] + a[2] * l.x[2];
+    share = std::max(share, used);
+    Bound& b = bounds_.emplace_back();
+    b.a = a;
+    b.p = 1 - used;
+  }
+  if (l.shear == 0) return;
+  const double q = l.x[1] / l.shear, left = (1 - share * share - q * q) / 2;
+  l.x[3] = std::sqrt(share * share + left);
+  for (std::size_t k = l.first; k < bounds_.size(); ++k) bounds_[k].p -= 1 - l.x[3];
+  bounds_.emplace_back().p = left / 2;
+}
+
+void InteriorPoint::start(const System& system) {
+  double energy = 0;  // what impulses may have to answer to
+  for (std::size_t i = 0; i < system.free; ++i)
+    energy += energy_of(system.bodies[i], system.bodies[i].v_free);
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Rows &bias = system.joints[k].bias, &m_eff = system.records[k].m_eff;
+    for (unsigned i = 0; i < 3; ++i) energy += m_eff[i] * bias[i] * bias[i];
+  }
+  bounds_.clear();
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const JointRecord& r = system.records[k];
+    Local& l = locals_[k];
+    l = {};
+    l.first = bounds_.size();
+    for (unsigned i = 0; i < 3; ++i) l.x[i] = j.G[i] > 0 ? j.impulse[i] : 0;
+    if (r.law.surface != nullptr) {
+      enter_surface(j, r.law, l);
+    } else {
+      enter_caps(j, r, energy, l);
+    }
+    l.last = bounds_.size();
+  }
+}
+
+// Multipliers of a cone and its facets that do not agree: either what they differ by is multiplied with t ≤
+// 1, or the ones or the others are scaled to agree, and the flow changes. A cone that is not kept: s gives up
+// that share of itself, which moves its rows.
+double InteriorPoint::cone_lack(const Joint& j, const Rows& m_eff, const Local& l) const {
+  const Bound& cone = bounds_[l.last - 1];
+  double sum = 0, N = 0, M = 0;
+  for (std::size_t k = l.first; k + 1 < l.last; ++k) {
+    const Bound& b = bounds_[k];
+    sum += b.z;
+    N += b.z * b.a[0];
+    M += b.z * b.a[2];
+  }
+  const auto by = [&](unsigned i, double change) { return j.G[i] * change * (l.lack[i] + change / 2); };
+  const double q = l.x[1] / (l.shear * l.shear), off = l.lack[3] / sum;
+  double lack =
+      std::min({std::abs(l.lack[3]), by(1, -l.lack[3] / l.x[3] * q), by(0, off * N) + by(2, off * M)});
+  lack += cone.z * std::abs(cone.missing);
+  for (unsigned i = 0; i < 3; ++i) {
+    const double give = m_eff[i] > 0 ? positive(-cone.missing) * l.x[i] / m_eff[i] : 0;
+    lack += j.G[i] * give * give / 2;
+  }
+  return lack;
+}
+
+// f − min f is at most Σ z p + ½ Σ G lack² (Fenchel's inequality, joint by joint).
+InteriorPoint::Distance InteriorPoint::measure(const System& system) {
+  Distance d;
+  for (const Bound& b : bounds_) d.products += b.z * b.p;
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const Rows& m_eff = system.records[k].m_eff;
+    Local& l = locals_[k];
+    const Rows x = x_of(system, j);
+    for (unsigned i = 0; i < 3; ++i) l.lack[i] = j.G[i] > 0 ? x[i] - l.x[i] / j.G[i] : 0;
+    l.lack[3] = 0;
+    if (l.shear > 0) bounds_[l.last - 1].a = {0, l.x[1] / (l.shear * l.shear), 0, l.x[3]};
+    for (std::size_t c = l.first; c < l.last; ++c) {
+      for (std::size_t i = 0; i < 4; ++i) l.lack[i] -= bounds_[c].z * bounds_[c].a[i];
+    }
     for (unsigned i = 0; i < 3; ++i) {
-      Barrier& w = barrier[k][i];
-      w = {};
-      if (!(j.G[i] > 0)) continue;
-      const double cap[2] = {records[k].law.cap[i], records[k].law.cap_reverse[i]};
-      if (std::isinf(cap[0]) && std::isinf(cap[1])) {
-        w.s = j.G[i] * x[i];
-        continue;
-      }
-      const double inside =
-          0.05 * std::min(cap[0] + cap[1], std::abs(j.G[i] * x[i]) + std::min(cap[0], cap[1]));
-      w.s = std::clamp(j.G[i] * x[i], inside - cap[1], cap[0] - inside);
-      for (int side = 0; side < 2; ++side) {
-        w.p[side] = side == 0 ? cap[0] - w.s : cap[1] + w.s;
-        w.bounded[side] = std::isfinite(cap[side]) && w.p[side] > 0;
-        if (!w.bounded[side]) continue;
-        slip += std::abs(x[i]);
-        ++bounds;
-      }
+      d.lack += j.G[i] * l.lack[i] * l.lack[i] / 2;
+      // The last bits of s move its row by ε s/m_eff, which the row answers by G.
+      const double m = m_eff[i], moved = m > 0 ? epsilon * l.x[i] / m : 0;
+      d.rounding += 16 * std::max(j.G[i], m) * moved * moved;
     }
+    if (l.shear > 0) d.lack += cone_lack(j, m_eff, l);
   }
-  if (bounds == 0) return 0;
-  slip /= bounds;
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    for (unsigned i = 0; i < 3; ++i) {
-      Barrier& w = barrier[k][i];
-      const double x = records[k].x[i];
-      w.z[0] = std::max(x, 0.0) + slip / 10;
-      w.z[1] = std::max(-x, 0.0) + slip / 10;
-      // s = F⁺ + ηz is the law's share a of G beyond the cap where a G = η/(1 + η/G).
-      const double a = records[k].law.after_yield[i];
-      w.hardening = a * joints[k].G[i] / (1 - a);
-      for (int side = 0; side < 2; ++side) w.p[side] += w.hardening * w.z[side];
-    }
-  }
+  return d;
+}
 
-  const auto each_bound = [&](auto&& visit) {
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      for (unsigned i = 0; i < 3; ++i) {
-        for (int side = 0; side < 2; ++side) {
-          if (barrier[k][i].bounded[side]) visit(barrier[k][i], side);
-        }
-      }
-    }
+// The curvature of a joint is C = BᵀB, with a row of B for each unknown, 1/√G, and for each bound, √(z/p) a.
+// With B = QR the solution of C x = y and what it means for the bounds, B x, come of Q alone, and as
+// accurately for rows of any weight: B x = Q Q₀ᵀ root⁻¹ y, Q₀ the rows of the unknowns.
+void InteriorPoint::eliminate(const Joint& j, Local& l) {
+  for (unsigned i = 0; i < 3; ++i) l.root[i] = j.G[i] > 0 ? 1 / std::sqrt(j.G[i]) : 1;
+  l.root[3] = 1;
+  const std::size_t n = 4 + l.last - l.first;
+  for (std::size_t k = l.first; k < l.last; ++k) {
+    Bound& b = bounds_[k];
+    b.weight = std::sqrt(b.z / (b.p + b.hardening * b.z));
+  }
+  if (l.shear > 0) {
+    const Bound& cone = bounds_[l.last - 1];  // whose own curvature is z diag(1/(hQ)², 1) on (s_Q, t)
+    l.root[1] = std::sqrt(1 / j.G[1] + cone.z / (l.shear * l.shear));
+    l.root[3] = std::sqrt(cone.z);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    rows_[i] = {};
+    rows_[i][i] = l.root[i];
+  }
+  for (std::size_t k = 4; k < n; ++k) {
+    const Bound& b = bounds_[l.first + k - 4];
+    for (std::size_t i = 0; i < 4; ++i) rows_[k][i] = b.weight * b.a[i];
+  }
+  orthogonalise({rows_.data(), n}, {order_.data(), n});
+  for (std::size_t i = 0; i < 4; ++i) l.q[i] = rows_[i];
+  for (std::size_t k = 4; k < n; ++k) bounds_[l.first + k - 4].q = rows_[k];
+}
+
+// H = M + Jᵀ D J with D the part of C⁻¹ on s.
+void InteriorPoint::factor(System& system, Hessian& hessian) {
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    Local& l = locals_[k];
+    eliminate(j, l);
+    const auto D = [&](unsigned a, unsigned b) {
+      return j.G[a] > 0 && j.G[b] > 0 ? dot(l.q[a], l.q[b]) / (l.root[a] * l.root[b]) : 0;
+    };
+    system.records[k].tangent = {
+        .nn = D(0, 0), .qq = D(1, 1), .mm = D(2, 2), .nq = D(0, 1), .nm = D(0, 2), .qm = D(1, 2)};
+  }
+  hessian.factor_given(system);
+}
+
+// Qᵀ (root⁻¹ y, aims of the bounds)
+Row4 InteriorPoint::project(const Local& l, const Row4& y) const {
+  Row4 c{};
+  const auto add = [&c](const Row4& q, double by) {
+    for (std::size_t k = 0; k < 4; ++k) c[k] += by * q[k];
   };
+  for (std::size_t i = 0; i < 4; ++i) add(l.q[i], y[i] / l.root[i]);
+  for (std::size_t k = l.first; k < l.last; ++k) add(bounds_[k].q, bounds_[k].aim);
+  return c;
+}
 
-  int factorisations = 0;
-  for (int round = 0; round < 40; ++round) {
-    double gap = 0;  // Σ z p
-    each_bound([&](const Barrier& w, int side) { gap += w.z[side] * w.p[side]; });
-    if (!(gap > accuracy * work)) break;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      const Joint& j = joints[k];
-      for (unsigned i = 0; i < 3; ++i) {
-        Barrier& w = barrier[k][i];
-        double compliance = 1 / j.G[i];
-        for (int side = 0; side < 2; ++side) {
-          if (w.bounded[side]) compliance += w.z[side] / (w.p[side] + w.hardening * w.z[side]);
-        }
-        w.slope = j.G[i] > 0 ? 1 / compliance : 0;
-      }
-      Coupling& D = records[k].tangent;
-      D.nn = barrier[k][0].slope, D.qq = barrier[k][1].slope, D.mm = barrier[k][2].slope;
+// Newton's step for z p = μ, with so much of the second-order term Δz Δp of the last direction. Unknowns are
+// written as what they change by, never as what they become: a rigid row multiplies by κ what rounding
+// leaves.
+void InteriorPoint::find_direction(const System& system, const Hessian& hessian, double mu,
+                                   double second_order) {
+  std::fill(d_.begin(), d_.end(), Vec3{});
+  const auto impulse = [](const Joint& j, const Local& l, const Row4& c, unsigned i) {
+    return j.G[i] > 0 ? dot(l.q[i], c) / l.root[i] : 0;
+  };
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const Local& l = locals_[k];
+    for (std::size_t c = l.first; c < l.last; ++c) {
+      Bound& b = bounds_[c];
+      const double left = b.z * (b.p + b.missing) + second_order * b.dp * b.dz - mu;
+      b.aim = left / std::sqrt(b.z * (b.p + b.hardening * b.z));
     }
-    hessian.refactor(system);
-    ++factorisations;
+    const Row4 c = project(l, l.lack);
+    add_transposed(j, {-impulse(j, l, c, 0), -impulse(j, l, c, 1), -impulse(j, l, c, 2)}, d_[z(j.a)],
+                   d_[z(j.b)]);
+  }
+  for (std::size_t i = 0; i < d_.size(); ++i) {
+    if (i >= system.free) d_[i] = {};
+    if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
+  }
+  hessian.solve({d_.data(), system.free});
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    Local& l = locals_[k];
+    const Rows change = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
+    Row4 y = l.lack;
+    for (unsigned i = 0; i < 3; ++i) y[i] = j.G[i] > 0 ? y[i] + change[i] : 0;
+    const Row4 c = project(l, y);
+    for (std::size_t i = 0; i < 4; ++i) l.dx[i] = dot(l.q[i], c) / l.root[i];
+    for (std::size_t n = l.first; n < l.last; ++n) {
+      Bound& b = bounds_[n];
+      const double u = dot(b.q, c);
+      b.dz = b.weight * (u - b.aim);
+      b.dp = b.missing - u / b.weight + b.hardening * b.dz;
+    }
+  }
+}
 
-    // Predictor (μ = 0), then a corrector with the centring and the second-order terms that the predictor
-    // calls for.
-    double mu = 0, step = 1;
-    for (const bool corrector : {false, true}) {
-      inertial_gradient(system, g);
-      for (std::size_t k = 0; k < joints.size(); ++k) {
-        const Joint& j = joints[k];
-        const Rows v = velocity(j);
-        Rows s{};
-        for (unsigned i = 0; i < 3; ++i) {
-          if (!(j.G[i] > 0)) continue;
-          Barrier& w = barrier[k][i];
-          w.r = v[i] + j.bias[i] - w.s / j.G[i];
-          for (int side = 0; side < 2; ++side) {
-            if (!w.bounded[side]) continue;
-            w.second[side] = corrector ? w.dp[side] * w.dz[side] : 0;
-            const double over = w.z[side], after = w.hardening * over;
-            w.r -= (side == 0 ? 1 : -1) * (mu - w.second[side] + after * over) / (w.p[side] + after);
-          }
-          s[i] = w.s + w.slope * w.r;
-        }
-        add_transposed(j, s, g[z(j.a)], g[z(j.b)]);
-      }
-      solve_for_step();
-      for (std::size_t k = 0; k < joints.size(); ++k) {
-        const Joint& j = joints[k];
-        const Rows y = relative_velocity(j, d[z(j.a)], d[z(j.b)]);
-        for (unsigned i = 0; i < 3; ++i) {
-          Barrier& w = barrier[k][i];
-          w.ds = w.slope * (y[i] + w.r);
-          for (int side = 0; side < 2; ++side) {
-            if (!w.bounded[side]) continue;
-            const double over = w.z[side], ds = side == 0 ? w.ds : -w.ds;
-            w.dz[side] = (mu - w.second[side] - over * (w.p[side] - ds)) / (w.p[side] + w.hardening * over);
-            w.dp[side] = w.hardening * w.dz[side] - ds;
-          }
-        }
-      }
-      step = 1;
-      each_bound([&](const Barrier& w, int side) {
-        if (w.dp[side] < 0) step = std::min(step, -boundary * w.p[side] / w.dp[side]);
-        if (w.dz[side] < 0) step = std::min(step, -boundary * w.z[side] / w.dz[side]);
-      });
-      if (corrector) break;
-      double after = 0;
-      each_bound([&](const Barrier& w, int side) {
-        after += (w.z[side] + step * w.dz[side]) * (w.p[side] + step * w.dp[side]);
-      });
-      mu = std::pow(std::clamp(after / gap, 0.0, 1.0), 3) * gap / bounds;
-    }
-    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v += step * d[i];
-    for (auto& rows : barrier) {
-      for (Barrier& w : rows) w.s += step * w.ds;
-    }
-    each_bound([&](Barrier& w, int side) {
-      w.p[side] += step * w.dp[side];
-      w.z[side] += step * w.dz[side];
-    });
+// The largest step, up to 1, that goes no more than `reach` of the way to a bound.
+double InteriorPoint::step_within(double reach) const {
+  double step = 1;
+  for (const Bound& b : bounds_) {
+    if (b.dp < 0) step = std::min(step, -reach * b.p / b.dp);
+    if (b.dz < 0) step = std::min(step, -reach * b.z / b.dz);
+  }
+  return step;
+}
+
+void InteriorPoint::move(double step) {
+  for (Bound& b : bounds_) {
+    b.p += step * b.dp;
+    b.z += step * b.dz;
+  }
+  for (Local& l : locals_) {
+    for (std::size_t i = 0; i < 4; ++i) l.x[i] += step * l.dx[i];
+    if (l.shear == 0) continue;
+    const double dq = l.dx[1] / l.shear, dt = l.dx[3];
+    double& missing = bounds_[l.last - 1].missing;
+    missing = (1 - step) * missing - step * step * (dt * dt + dq * dq) / 2;
+  }
+}
+
+InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Evaluation& at) {
+  Outcome outcome;
+  const auto current = [this](std::size_t k) { return locals_[k].impulse(); };
+  start(system);
+  double scale = balance(system, current), work = 0, moving = 0;
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Rows x = x_of(system, system.joints[k]);
+    for (unsigned i = 0; i < 3; ++i) work += std::abs(locals_[k].x[i] * x[i]);
+  }
+  for (std::size_t i = 0; i < system.free; ++i) moving += energy_of(system.bodies[i], system.bodies[i].v);
+  const double count = std::max(1.0, static_cast<double>(bounds_.size()));
+  for (Bound& b : bounds_) {
+    // z p = μ with p = p₀ + ηz
+    const double mu = 0.5 * std::max(work, moving) / count;
+    b.z = 2 * mu / (b.p + std::sqrt(b.p * b.p + 4 * b.hardening * mu));
+    b.p += b.hardening * b.z;
   }
 
-  // The rows that flow are known now. Velocities are not yet good enough to tell by: a rigid row multiplies
-  // what they lack by κ. So the law is taken in those regimes, whatever x says, and solved there.
-  for (std::size_t k = 0; k < joints.size(); ++k) {
+  outcome.gap = infinity;
+  std::array<double, 2> earlier{infinity, infinity};  // Σ z p two rounds ago and in the last
+  for (int round = 0, idle = 0, careful = 0;; ++round) {
+    const Distance now = measure(system);
+    // Rounding is what gains nothing any more where lack is all that there is left.
+    idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
+    if (now.gap() < outcome.gap) {
+      outcome.gap = now.gap();
+      for (std::size_t k = 0; k < best_.size(); ++k) best_[k] = current(k);
+    }
+    outcome.tolerance = tunables.tolerance * scale + now.rounding;
+    if (outcome.gap <= tunables.goal * scale + now.rounding || !std::isfinite(now.gap())) break;
+    if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
+
+    factor(system, hessian);
+    ++outcome.factorisations;
+    // Predictor (μ = 0), then a corrector with the centring that its success calls for and with its
+    // second-order terms (Mehrotra 1992), by the square of the step that it could go. Where two rounds have
+    // gained nothing, these are left out for five, and centring is no less than half: else one structure in
+    // 3000 goes round in circles.
+    if (now.products > 0.8 * earlier[0]) careful = 5;
+    const bool stalls = careful-- > 0;
+    earlier = {earlier[1], now.products};
+    const double reach = 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
+    find_direction(system, hessian, 0, 0);
+    const double affine = step_within(reach);
+    double left = 0;  // share of Σ z p that the predictor leaves
+    for (const Bound& b : bounds_) left += (b.z + affine * b.dz) * (b.p + affine * b.dp) / now.products;
+    const double centring =
+        std::max(std::pow(std::max(std::min(left, 1.0), 1 - affine), 3), stalls ? 0.5 : 0);
+    find_direction(system, hessian, centring * now.products / count, stalls ? 0 : affine * affine);
+    move(step_within(reach));
+    scale = balance(system, current);
+  }
+  outcome.reached = outcome.gap <= outcome.tolerance;
+  finish(system, outcome.reached, at);
+  return outcome;
+}
+
+// With impulses τ s the step adds −Σ τ s·(x − τ s/G) − ½ |v − v*|²_M at most to kinetic and elastic energy.
+double InteriorPoint::share_without_gain(System& system) {
+  double given = 0, taken = 0;  // s·(J v* + b) and ½ |v − v*|²_M + sᵀ G⁻¹ s
+  for (const Joint& j : system.joints) {
+    const Rows x = x_of(system, j);
+    for (unsigned i = 0; i < 3; ++i) {
+      given += j.impulse[i] * x[i];
+      if (j.G[i] > 0) taken += j.impulse[i] * j.impulse[i] / j.G[i];
+    }
+  }
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    const double change = energy_of(b, b.v - b.v_free);
+    given += change;
+    taken += change / 2;
+  }
+  return given > 0 ? std::min(1.0, given / taken) : 0;
+}
+
+void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
+  at = {};
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    Joint& j = system.joints[k];
+    JointRecord& r = system.records[k];
+    const Local& l = locals_[k];
+    j.impulse = best_[k];
+    if (r.law.surface != nullptr) {
+      const double h = r.law.h,
+                   usage = r.law.surface->usage({j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h});
+      for (double& s : j.impulse) s /= std::max(1.0, usage);
+    } else {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (!(r.law.after_yield[i] > 0))
+          j.impulse[i] = std::clamp(j.impulse[i], -r.law.cap_reverse[i], r.law.cap[i]);
+      }
+    }
+    // A row flows where its slip is more than what is left to the cap would strain it.
     unsigned regime = 0;
-    for (unsigned i = 0; i < 3; ++i) {
-      for (unsigned side = 0; side < 2; ++side) {
-        const Barrier& w = barrier[k][i];
-        if (w.bounded[side] && w.z[side] * joints[k].G[i] > w.p[side]) regime |= 1u << (i + 3 * side);
-      }
+    for (std::size_t c = l.first; c < l.last; ++c) {
+      const Bound& b = bounds_[c];
+      double stiffness = 0;
+      for (unsigned i = 0; i < 3; ++i) stiffness += b.a[i] * b.a[i] * j.G[i];
+      if (!(b.z * stiffness > b.p)) continue;
+      for (unsigned i = 0; i < 3; ++i) regime |= b.a[i] > 0 ? 1u << i : b.a[i] < 0 ? 8u << i : 0u;
     }
-    joints[k].regime = static_cast<std::uint8_t>(regime);
+    j.regime = static_cast<std::uint8_t>(r.law.surface != nullptr && regime != 0 ? on_surface : regime);
+    j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
+    at.flows |= j.regime != 0;
+    at.curved |= j.regime == on_surface;
   }
-  hessian.factor_tangents(system, false);
-  ++factorisations;
-  for (int refinement = 0; refinement < 2; ++refinement) {
-    inertial_gradient(system, g);
-    for (const Joint& j : joints) {
-      Rows x = velocity(j);
-      for (unsigned i = 0; i < 3; ++i) x[i] += j.bias[i];
-      add_transposed(j, respond_in(system.record(j).law, j.regime, x), g[z(j.a)], g[z(j.b)]);
+  const auto impulse = [&](std::size_t k) { return system.joints[k].impulse; };
+  balance(system, impulse);
+  if (!reached) {
+    const double share = share_without_gain(system);
+    for (Joint& j : system.joints) {
+      for (double& s : j.impulse) s = std::isfinite(s) ? share * s : 0;
+      j.regime = on_surface;  // whatever each row gives way by is booked
+      j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
     }
-    solve_for_step();
-    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v += d[i];
+    at.flows = true;
+    balance(system, impulse);
   }
-  return factorisations;
+  for (std::size_t k = 0; k < system.joints.size(); ++k) system.records[k].x = x_of(system, system.joints[k]);
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    at.see(b);
+    at.impulse2 += energy_of(b, b.v - b.v_free);
+    at.speed2 += energy_of(b, b.v);
+  }
+}
+
+std::size_t InteriorPoint::bytes() const {
+  return locals_.capacity() * sizeof(Local) + bounds_.capacity() * sizeof(Bound) +
+         best_.capacity() * sizeof(Rows) + d_.capacity() * sizeof(Vec3) + rows_.capacity() * sizeof(Row4) +
+         order_.capacity() * sizeof(std::size_t);
 }
 
 }  // namespace ductile::dynamics

@@ -23,7 +23,7 @@ void Ledger::form(const System& system) {
 void Ledger::open(System& system, std::span<const Vec3> before, const Motion& motion) {
   joints_ = system.joints;
   // Implicit Euler counts with velocities as solved, before they were scaled.
-  if (!motion.abandoned) find_x(system, 1 / motion.share);
+  find_x(system, 1 / motion.share);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
@@ -61,7 +61,11 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
     r.stored[i] = k * after * after / 2;
     energies.damping += r.law.damping[i] * change * change / h;
     energies.numerical += k * change * change / 2 + held - k * strain[i] * strain[i] / 2;
-    if (not_all) energies.numerical += R * (h * v - change) - (r.dissipated[i] - booked[i]);
+    if (not_all) {
+      energies.numerical += R * (h * v - change) - (r.dissipated[i] - booked[i]);
+    } else {
+      energies.numerical += (R - k * after) * change;  // of impulses that are carried, not made of the strain
+    }
   }
 }
 

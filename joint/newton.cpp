@@ -23,7 +23,7 @@ struct Newton::Round {
 
 void Newton::form(const System& system) {
   for (auto* v : {&g_, &d_, &z_}) v->assign(system.bodies.size(), {});
-  barrier_.assign(system.joints.size(), {});
+  interior_point.form(system);
   pushed_.assign(system.free, 0);
 }
 
@@ -152,10 +152,22 @@ void Newton::start_from_lower(System& system, Evaluation& at) {
   at = evaluate(system, g_);
 }
 
-Solution Newton::solve(System& system, Hessian& hessian, StepLaws& laws, const Evaluation& last,
-                       bool last_abandoned, const LinearPrediction* prediction, SolveReport& report) {
+// Its result is taken as it is: evaluating f there would only find what a rigid row makes of rounding.
+Evaluation Newton::solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report) {
+  Evaluation at;
+  const InteriorPoint::Outcome outcome = interior_point.solve(system, hessian, at);
+  report.factorisations += outcome.factorisations;
+  report.unsolved |= !outcome.reached;
+  if (!outcome.reached) hessian.forget();
+  gradient_known_ = outcome.reached;
+  std::fill_n(g_.begin(), system.free, Vec3{});  // M (v − v*) + Jᵀ s is 0 for any s
+  return at;
+}
+
+Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
+                       const LinearPrediction* prediction, SolveReport& report) {
   Round round;
-  round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0 && !last_abandoned;
+  round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0;
   if (prediction != nullptr) prediction->next({z_.data(), system.free});
   Evaluation at = last;
   if (round.pushed_only) {
@@ -173,30 +185,16 @@ Solution Newton::solve(System& system, Hessian& hessian, StepLaws& laws, const E
   }
   if (at.gradient2 > target(at) && at.flows && !round.pushed_only) start_from_lower(system, at);
 
-  bool by_interior_point = false;
   double best2 = at.gradient2;
   round.first2 = at.gradient2;
-  int idle = 0;  // rounds that gained nothing
+  int idle = 0;          // rounds that gained nothing
+  bool settled = false;  // rounding leaves no more to gain
   // A predicted start always takes one round, even within tolerance: that removes the prediction's bias.
   for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
          round.number < tunables.round_bound;
        ++round.number) {
+    if (round.number >= tunables.flow_rounds && (at.flows || round.crossed)) break;
     bool refactor = worth_refactoring(system, hessian, at, round);
-    if (round.number >= tunables.newton_rounds && (at.flows || round.crossed) && !by_interior_point) {
-      const int factorisations = interior_point(system, hessian, at.impulse2 + at.speed2, barrier_, g_, d_);
-      report.factorisations += factorisations;
-      if (factorisations > 0) round.short_step = false;
-      at = evaluate(system, g_);
-      best2 = at.gradient2;
-      by_interior_point = true;
-      round.crossed = round.conjugate = false;
-    }
-    if (round.number == tunables.soften_round && at.curved && !laws.softened()) {
-      laws.soften(system);
-      hessian.forget();
-      at = evaluate(system, g_);
-      best2 = at.gradient2;
-    }
     refactor |= hessian.factored() == Factored::nothing || hessian.factored() == Factored::holding ||
                 round.crossed || at.curved;
     if (refactor) {
@@ -224,6 +222,7 @@ Solution Newton::solve(System& system, Hessian& hessian, StepLaws& laws, const E
     // where the step came from much faster velocities.
     if (exact && !at.crossed && !(at.gradient2 > target(at) && at.gradient2 <= 1e-4 * before2)) {
       ++round.number;
+      settled = true;
       break;
     }
     if (at.gradient2 > target(at)) {
@@ -236,32 +235,26 @@ Solution Newton::solve(System& system, Hessian& hessian, StepLaws& laws, const E
     // against each other is the last bits of their impulses.
     const bool gains = at.gradient2 <= 0.999 * best2;
     best2 = std::min(best2, at.gradient2);
-    if (!gains && at.gradient2 <= rounding_of_impulses(system)) break;
     idle = !gains && at.gradient2 <= 1e-10 * at.impulse2 + 1e-8 * at.speed2 ? idle + 1 : 0;
-    if (idle == 5) break;
+    settled = (!gains && at.gradient2 <= rounding_of_impulses(system)) || idle == 5;
+    if (settled) break;
     if (!tangents && !round.crossed && round.first2 > target(at)) {
       const double by = round.first2 / at.gradient2;
       contraction_ = std::clamp(round.used == 1 ? by : std::pow(by, 1.0 / round.used), 1.2, 1e17);
     }
   }
-  // Across gaps of 100 km all that H holds is what it gains from rigid rows, and what rounding makes of a
-  // turn there is as fast as anything else.
-  const double norm2 = at.gradient2;
-  const bool lost =
-      !std::isfinite(norm2) || !(norm2 <= target(at) || norm2 <= 1e-4 * (at.impulse2 + at.speed2) ||
-                                 norm2 <= 1e4 * rounding_of_impulses(system));
-  if (lost) hessian.forget();
+  if (!(at.gradient2 <= target(at) || settled)) at = solve_by_interior_point(system, hessian, report);
   report.rounds += round.number;
-  report.residual = norm2 > 0 ? tunables.tolerance * std::sqrt(norm2 / target(at)) : 0;
-  left2_ = norm2;
+  report.residual = at.gradient2 > 0 ? tunables.tolerance * std::sqrt(at.gradient2 / target(at)) : 0;
+  left2_ = at.gradient2;
   pushed2_ = 0;
   pushes_ = 0;
-  return {at, round.number > 0, lost || round.number == tunables.round_bound};
+  return {at, round.number > 0};
 }
 
 std::size_t Newton::bytes() const {
   return (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
-         pushed_.capacity() * sizeof(std::size_t) + barrier_.capacity() * sizeof(barrier_[0]);
+         pushed_.capacity() * sizeof(std::size_t) + interior_point.bytes();
 }
 
 }  // namespace ductile::dynamics

@@ -11,7 +11,6 @@
 #include "hessian.h"
 #include "interior_point.h"
 #include "objective.h"
-#include "step_laws.h"
 #include "warm_start.h"
 
 namespace ductile::dynamics {
@@ -19,33 +18,31 @@ namespace ductile::dynamics {
 struct SolveReport {
   int rounds = 0;  // directions computed
   int factorisations = 0;
-  double residual = 0;  // |∇f| in the norm of M⁻¹ as a share of its target, times `tolerance`
-  bool bound_hit = false;
+  double residual = 0;    // |∇f| in the norm of M⁻¹ as a share of its target, times `tolerance`
+  bool unsolved = false;  // the tolerance was not reached
 };
 
 /// What is chosen, with its reason.
 struct NewtonTunables {
   /// Relative residual at which a solve ends: root moments good to 1e-8.
   double tolerance = 1e-8;
-  /// Rounds after which a solve is abandoned. The worst impact known needs 30.
-  int round_bound = 100;
   /// Rounds after which a solve in which rows flow is handed to the interior point method: many rows change
   /// their regime against each other, and each round finds out about few of them.
-  int newton_rounds = 5;
-  /// Rounds after which joints with yield surfaces are softened (StepLaws::soften).
-  int soften_round = 20;
+  int flow_rounds = 5;
+  /// Likewise, of one in which none flows.
+  int round_bound = 100;
 };
 
 /// How a solve ended.
 struct Solution {
   Evaluation at;
-  bool moved = false;      // any round was needed
-  bool abandoned = false;  // the impulses are not those of the minimum
+  bool moved = false;  // any round was needed
 };
 
 class Newton {
  public:
   NewtonTunables tunables;
+  InteriorPoint interior_point;
 
   void form(const System& system);
 
@@ -56,9 +53,9 @@ class Newton {
   void forget();
 
   /// From the bodies' v, or from where `prediction` says; `last` is the evaluation that the last solve ended
-  /// with, which it also was if it was abandoned.
-  Solution solve(System& system, Hessian& hessian, StepLaws& laws, const Evaluation& last,
-                 bool last_abandoned, const LinearPrediction* prediction, SolveReport& report);
+  /// with.
+  Solution solve(System& system, Hessian& hessian, const Evaluation& last, const LinearPrediction* prediction,
+                 SolveReport& report);
   std::size_t bytes() const;
 
   /// One momentum per body, the gradient's own, for who needs it while that is not known.
@@ -73,10 +70,10 @@ class Newton {
                                Round& round);
   bool search(System& system, const Evaluation& at_one, double slope0, double slope1, bool& short_step);
   void start_from_lower(System& system, Evaluation& at);
+  Evaluation solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report);
 
-  std::vector<Vec3> g_;               // ∇f at the bodies' v, from a solve to the pushes after it
-  std::vector<Vec3> d_, z_;           // 0 for bodies whose velocities are prescribed
-  std::vector<BarrierRows> barrier_;  // interior_point()'s
+  std::vector<Vec3> g_;      // ∇f at the bodies' v, from a solve to the pushes after it
+  std::vector<Vec3> d_, z_;  // 0 for bodies whose velocities are prescribed
   // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
   std::vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;

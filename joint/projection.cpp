@@ -185,8 +185,8 @@ void Projection::take_neutral(System& system, bool kept, double trifle, double r
 }
 
 bool Projection::project(System& system, Hessian& hessian, const Evaluation& last_solve, double h,
-                         bool softened, std::span<const Pose> goal, bool try_goal) {
-  hessian.factor_holding(system, last_solve.changed, softened);
+                         std::span<const Pose> goal, bool try_goal) {
+  hessian.factor_holding(system, last_solve.changed);
   double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
   // It gives way by less than a thousandth: the structure holds it.
   const auto holds = [&] {

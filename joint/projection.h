@@ -20,9 +20,9 @@ class Projection {
   void form(const System& system);
   /// Moves the bodies toward `goal`. With `try_goal` the goal itself is tried first: right where all of it
   /// may have been moved alike. False where gaps could not be kept: then the bodies stay where they were
-  /// pushed to. `last` and h are those of the last solve, `softened` that of StepLaws.
-  bool project(System& system, Hessian& hessian, const Evaluation& last, double h, bool softened,
-               std::span<const Pose> goal, bool try_goal);
+  /// pushed to. `last` and h are those of the last solve.
+  bool project(System& system, Hessian& hessian, const Evaluation& last, double h, std::span<const Pose> goal,
+               bool try_goal);
   std::size_t bytes() const;
 
  private:

@@ -12,7 +12,7 @@ Rows RowLaw::elastic_range() const {
   return range;
 }
 
-RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Rigidity& rigidity) {
+RowLaw make_law(const Material& material, const Rows& m_eff, double h, double rigid_from) {
   RowLaw law;
   law.surface = material.surface;
   law.h = h;
@@ -22,10 +22,10 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Rig
         (material.cap[i] <= 0 && material.cap_reverse[i] <= 0))
       continue;
     double k = material.stiffness[i], c = 0;
-    if (h * h * k < rigidity.from * m_eff[i]) {
+    if (h * h * k < rigid_from * m_eff[i]) {
       c = std::min(2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]), (limit - h * h * k) / h);
     } else {
-      k = (material.surface != nullptr ? rigidity.with_surface * m_eff[i] : limit) / (h * h);
+      k = limit / (h * h);
     }
     const double G = h * h * k + h * c;
     law.spring[i] = k;

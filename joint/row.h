@@ -46,16 +46,12 @@ struct RowLaw {
   Rows elastic_range() const;
 };
 
-/// Where a law takes springs as rigid, and what they are then; both as multiples of m_eff/h².
-struct Rigidity {
-  double from = rigid_ratio;
-  double with_surface = rigid_ratio;  // of joints that have a yield surface
-};
+/// The law of rows of effective masses m_eff in a step of h seconds. Springs stiffer than `rigid_from` times
+/// m_eff/h² are taken as rigid.
+RowLaw make_law(const Material& material, const Rows& m_eff, double h, double rigid_from = rigid_ratio);
 
-/// The law of rows of effective masses m_eff in a step of h seconds.
-RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Rigidity& rigidity);
-
-/// Says that a joint flows on its yield surface.
+/// Says that all rows of a joint flow together: on its yield surface; or, of any joint, as the solve did not
+/// end.
 inline constexpr unsigned on_surface = 64;
 
 struct Response {

@@ -28,20 +28,14 @@ void Solver::form(std::size_t free_bodies) {
 void Solver::begin(double h) {
   hessian_.begin_step();
   motion_.share = 1;
-  if (laws_.softened() && !last_.flows) laws_.harden_again();
   if (h != step()) prediction_.forget();
   if (laws_.begin(*this, h)) hessian_.forget();
 }
 
 bool Solver::solve(SolveReport& report) {
   const bool predicted = std::exchange(predicted_, false) && !last_.flows;
-  const Solution solution = newton_.solve(*this, hessian_, laws_, last_, motion_.abandoned,
-                                          predicted ? &prediction_ : nullptr, report);
+  const Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
   last_ = solution.at;
-  motion_.abandoned = solution.abandoned;
-  // The safe way out of a solve that did not end: the structure exerts nothing for a step.
-  if (solution.abandoned) drop_impulses(*this, last_);
-  report.bound_hit |= solution.abandoned;
   return solution.moved;
 }
 
@@ -57,9 +51,8 @@ void Solver::scale(double share) {
 void Solver::advance() {
   newton_.forget();
   if (keeps_ledger) ledger_.open(*this, before, motion_);
-  if (motion_.abandoned) find_gaps();
   // The next begin() asks for the gaps of what is peculiar.
-  gaps_known = laws_.peculiar() || motion_.abandoned;
+  gaps_known = laws_.peculiar();
   predicted_ = !motion_.swept;
   const double h = step(), rate = 1 / h;
   const std::span<Vec3> newest = predicted_ ? prediction_.newest() : std::span<Vec3>{};
@@ -75,15 +68,13 @@ void Solver::advance() {
     StepLaws::set_equal_bias(j, gap, rate);
   }
   biases_known = true;
-  motion_.abandoned = false;
 }
 
 // What a joint's rows do in a step beyond being strained.
 void Solver::book(Joint& j, const Rows& gap) {
   JointRecord& r = record(j);
-  follow_gap(j, r, gap, motion_);
+  follow_gap(j, gap);
   if (gaps_known) r.gap = gap;
-  if (motion_.abandoned) return;
   const Rows booked = r.dissipated;
   if (j.regime != 0) flow(j, r, gap, laws_, motion_);
   if (keeps_ledger) ledger_.account(j, index(j), r, booked);
@@ -94,7 +85,7 @@ void Solver::book(Joint& j, const Rows& gap) {
 }
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
-  return projection_.project(*this, hessian_, last_, step(), laws_.softened(), goal, try_goal);
+  return projection_.project(*this, hessian_, last_, step(), goal, try_goal);
 }
 
 bool Solver::at_rest() {

@@ -77,6 +77,7 @@ class Solver : public System {
   double& drift_time() { return laws_.drift_time; }
   double drift_time() const { return laws_.drift_time; }
   NewtonTunables& tunables() { return newton_.tunables; }
+  InteriorPointTunables& interior_point_tunables() { return newton_.interior_point.tunables; }
 
   /// Asks for a ledger: then `before` are the velocities at the step's very start, in own frames.
   bool keeps_ledger = false;

@@ -10,7 +10,7 @@
 namespace ductile::dynamics {
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law = make_law(r.material, r.m_eff, h_, {elastic_ratio, softened_ ? soft_ratio : rigid_ratio});
+  r.law = make_law(r.material, r.m_eff, h_, elastic_ratio);
   j.G = r.law.G;
   j.elastic_range = r.law.elastic_range();
   j.free = j.G[0] == 0 || j.G[1] == 0 || j.G[2] == 0;
@@ -100,23 +100,6 @@ bool StepLaws::begin(System& system, double h) {
     }
   }
   return changed;
-}
-
-void StepLaws::soften(System& system) {
-  softened_ = true;
-  for (Joint& j : system.joints) {
-    JointRecord& r = system.record(j);
-    if (r.material.surface == nullptr) continue;
-    const Rows spring = r.law.spring;
-    set_law(j, r);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!(r.law.spring[i] < spring[i])) continue;
-      const double more = r.strain[i] * (std::sqrt(spring[i] / r.law.spring[i]) - 1);
-      j.neutral[i] -= more;
-      j.bias[i] += r.law.relaxation[i] * more;
-      r.strain[i] += more;
-    }
-  }
 }
 
 }  // namespace ductile::dynamics

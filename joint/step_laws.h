@@ -34,22 +34,13 @@ class StepLaws {
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
 
-  /// The facet of a yield surface that a joint flows on is a needle of width 1/κ among the directions of
-  /// flow. Where the solver cannot find it, soften() makes it wide enough: rigid rows of joints with a yield
-  /// surface keep their energy, and lose stiffness until nothing flows any more.
-  void soften(System& system);
-  void harden_again() { softened_ = known_ = false; }
-  bool softened() const { return softened_; }
-
  private:
-  static constexpr double soft_ratio = 1e5;  // of m_eff/h²: wide enough to be found in a few iterations
   double deferred_share(System& system, double h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double h) const;
 
   double h_ = 0;
   bool known_ = false;  // the laws are those of h_, caps and stiffness
   bool damped_ = false, surfaces_ = false;
-  bool softened_ = false;
 };
 
 }  // namespace ductile::dynamics

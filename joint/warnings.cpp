@@ -59,11 +59,11 @@ std::vector<std::string> Structure::warnings() const {
              "most 2 m and 90 degrees a step; use a smaller step",
              100 * worst.slowed));
   }
-  if (worst.bounds_hit > worst.parted) {
+  if (const int unsolved = worst.bounds_hit - worst.parted; unsolved > 0) {
     all.push_back(
-        text("%d solves did not end in time, and the structure held nothing for that step; use a "
-             "smaller step or more moderate stiffness",
-             worst.bounds_hit - worst.parted));
+        text("%d solves did not reach their tolerance: the structure gave way in those steps; use a smaller "
+             "step or masses that differ less",
+             unsolved));
   }
   if (worst.parted > 0) {
     all.push_back(

@@ -42,10 +42,13 @@ class YieldSurface {
 
   double shear() const { return shear_; }
 
- private:
+  /// A facet is n·N + m·M ≤ 1; they follow each other counter-clockwise in (N, M).
   struct Facet {
     double n, m;
   };
+  std::span<const Facet> facets() const { return facets_; }
+
+ private:
   struct Point {
     Rows s;
     double mu;    // multiplier of ½(w² + q² − 1)

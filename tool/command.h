@@ -24,6 +24,11 @@ void add_limit(CLI::App& app, std::string& output);
 void add_report(CLI::App& app, std::string& output);
 void add_view(CLI::App& app, std::string& output);
 
+/// Thrown by a command whose output is printed all the same, but does not hold what was asked for: exit 1.
+struct Unsolved : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The file that a command works on.
 struct SceneFile {
   std::string name;

@@ -40,11 +40,17 @@ int run(int argc, char** argv) {
     add(app, output);
   }
   try {
-    app.parse(argc, argv);
+    Exit exit = done;
+    try {
+      app.parse(argc, argv);
+    } catch (const tool::Unsolved& what) {
+      std::cerr << "ductile: " << what.what() << '\n';
+      exit = failed;
+    }
     if (std::fwrite(output.data(), 1, output.size(), stdout) != output.size() || std::fflush(stdout) != 0) {
       throw std::runtime_error("stdout cannot be written");
     }
-    return done;
+    return exit;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::cerr << "command line:" << one_line(error.get_name()) << ": " << one_line(error.what())

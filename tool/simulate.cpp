@@ -185,7 +185,12 @@ std::string table(const Simulation& simulation, const std::string& scene) {
   return text + "\n";
 }
 
-std::string run(const Options& options) {
+struct Result {
+  std::string text;
+  int unsolved = 0;  // solves that did not reach their tolerance
+};
+
+Result run(const Options& options) {
   const double steps = std::round(options.time / options.stepping.dt);
   if (!(steps <= most_steps)) {
     throw InvalidInput({{"command line:--time", fmt::format("asks for {:.3g} steps", steps),
@@ -216,10 +221,14 @@ std::string run(const Options& options) {
   }
   Pictures pictures(options);
   pictures.look(*simulation);
+  int unsolved = 0;
   {
     Progress progress;
     while (static_cast<double>(simulation->steps()) < steps) {
       simulation->step();
+      if (const Structure* structure = simulation->structure()) {
+        unsolved += structure->report().bounds_hit - structure->report().parted;
+      }
       if (history) history->row(*simulation);
       if (replay_file) replay.take(*simulation);
       pictures.look(*simulation);
@@ -236,12 +245,13 @@ std::string run(const Options& options) {
   if (const Structure* structure = simulation->structure()) {
     for (const std::string& warning : structure->warnings()) fmt::print(stderr, "warning: {}\n", warning);
   }
-  if (!options.json) return table(*simulation, options.scene);
+  if (!options.json) return {table(*simulation, options.scene), unsolved};
   const Json result{{"time_per_step_us", number(simulation->time_per_step_us())},
                     {"joints", joints_json(*simulation)},
                     {"pieces", pieces_json(*simulation)},
-                    {"energy", energy_json(*simulation)}};
-  return result.dump() + "\n";
+                    {"energy", energy_json(*simulation)},
+                    {"unsolved", unsolved}};
+  return {result.dump() + "\n", unsolved};
 }
 
 }  // namespace
@@ -278,7 +288,14 @@ void add_simulate(CLI::App& app, std::string& output) {
   command->add_option("--replay", options->replay,
                       "write this HTML page, which plays the run back in any browser");
   command->add_flag("--json", options->json, "one JSON object");
-  command->callback([options, &output] { output = run(*options); });
+  command->callback([options, &output] {
+    const Result result = run(*options);
+    output = result.text;
+    if (result.unsolved > 0) {
+      throw Unsolved(fmt::format(
+          "{} solves did not reach their tolerance; what is printed is not the solution", result.unsolved));
+    }
+  });
 }
 
 }  // namespace ductile::tool

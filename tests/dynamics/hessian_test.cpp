@@ -113,7 +113,7 @@ TEST(Hessian, HoldsWithAllItsStrength) {
     hessian.analyse(r.system);
     std::vector<Vec3> g(r.system.bodies.size());
     const Evaluation e = evaluate(r.system, g);
-    hessian.factor_holding(r.system, e.changed, false);
+    hessian.factor_holding(r.system, e.changed);
     EXPECT_EQ(hessian.factored(), Factored::holding);
     for (const Joint& j : r.system.joints) {
       const Coupling& D = r.system.record(j).tangent;

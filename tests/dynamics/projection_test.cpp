@@ -40,7 +40,7 @@ struct Chain {
     return all;
   }
   bool project(const std::vector<Pose>& goal) {
-    return projection.project(system, hessian, {}, 1.0 / 60, false, goal, false);
+    return projection.project(system, hessian, {}, 1.0 / 60, goal, false);
   }
   double distance2(const std::vector<Pose>& goal) const {
     double sum = 0;
@@ -113,7 +113,7 @@ TEST(Projection, LetsGoOfWhatCannotBeKept) {
   std::vector<Pose> goal = chain.poses();
   goal[2].x += 0.5;
   const Rows neutral = chain.system.joints[1].neutral;
-  chain.projection.project(chain.system, chain.hessian, {}, 1.0 / 60, false, goal, true);
+  chain.projection.project(chain.system, chain.hessian, {}, 1.0 / 60, goal, true);
   EXPECT_GT(std::abs(chain.system.joints[1].neutral[0] - neutral[0]), 0.3);
   for (const Joint& j : chain.system.joints) {
     for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(chain.system.record(j).gap[i], j.neutral[i], 1e-9);

@@ -59,6 +59,12 @@ struct Line {
       EXPECT_NEAR(solver.record(j).stored[axial], 1e6 * strain * strain / 2, 1e-9);
     }
   }
+  // Bounds the rounds of the interior point method, and leaves all of the work to it.
+  void cut_off(int rounds) {
+    solver.tunables().flow_rounds = rounds < 100 ? 0 : 5;
+    solver.tunables().round_bound = rounds < 100 ? 1 : 100;
+    solver.interior_point_tunables().round_bound = rounds;
+  }
   SolveReport step(double h) {
     SolveReport report;
     for (std::size_t i = 0; i < solver.bodies.size(); ++i) {
@@ -82,19 +88,19 @@ TEST(Solver, ACutOffSolveAddsNoEnergyAndIsCounted) {
   for (const Body& b : line.solver.bodies) momentum += b.mass * b.v.x;
   for (int i = 0; i < 2000; ++i) {
     const bool cut = random() % 3 == 0;
-    line.solver.tunables().round_bound = cut ? static_cast<int>(random() % 2) : 100;
+    line.cut_off(cut ? static_cast<int>(random() % 8) : 100);
     const SolveReport report = line.step(1.0 / 240);
-    EXPECT_TRUE(cut || !report.bound_hit);
-    hits += report.bound_hit;
+    EXPECT_TRUE(cut || !report.unsolved);
+    hits += report.unsolved;
     const double now = line.energy();
     EXPECT_LE(now, energy * (1 + 1e-12)) << i;
-    EXPECT_NEAR(line.booked(), start, 1e-9 * start) << i;
+    EXPECT_NEAR(line.booked(), start, 1e-8 * start) << i;  // impulses are balanced to 1e-8
     line.expect_stored();
     energy = now;
   }
-  EXPECT_GT(hits, 20);
+  EXPECT_GT(hits, 10);
   for (const Body& b : line.solver.bodies) momentum -= b.mass * b.v.x;
-  EXPECT_NEAR(momentum, 0, 1e-6);
+  EXPECT_NEAR(momentum, 0, 1e-5);  // of 2000 N s
 }
 
 // The solution does not depend on how many times the step is solved.
@@ -105,10 +111,10 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
     l->solver.begin(1.0 / 240);
     SolveReport report;
     if (l == &line) {
-      l->solver.tunables().round_bound = 0;
+      l->cut_off(3);
       l->solver.solve(report);
-      EXPECT_TRUE(report.bound_hit);
-      l->solver.tunables().round_bound = 100;
+      EXPECT_TRUE(report.unsolved);
+      l->cut_off(100);
     }
     l->solver.solve(report);
     l->solver.advance();
@@ -129,7 +135,7 @@ TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
     for (Body& b : line.solver.bodies) b.v_free = {1, 0, 0};
     SolveReport report;
     line.solver.solve(report);
-    EXPECT_FALSE(report.bound_hit) << i;
+    EXPECT_FALSE(report.unsolved) << i;
     for (const Body& b : line.solver.bodies) EXPECT_NEAR(b.v.x, 1, 1e-9) << i;
     if (i == 2) line.solver.bodies[1].v = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     line.solver.advance();
