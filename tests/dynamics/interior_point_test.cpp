@@ -325,7 +325,9 @@ Problem random_structure(unsigned seed, Laws laws) {
   return problem;
 }
 
-// DUCTILE_SOLVES=100000 tests/dynamics_tests --gtest_filter='InteriorPoint.Solves*' for all that is promised.
+// DUCTILE_SOLVES=100000 tests/dynamics_tests --gtest_filter='InteriorPoint.Solves*' takes more of them, of
+// which 16 still fail: three do not end, and the relative gap of the others is up to 5e-11 where 1e-12 is
+// asked for.
 TEST(InteriorPoint, SolvesRandomStructures) {
   const char* asked = std::getenv("DUCTILE_SOLVES");
   const int count = asked != nullptr ? std::atoi(asked) : 1500;
