@@ -43,6 +43,7 @@ void check(const ElasticPlasticJointDef& def) {
             name + "stiffness is " + std::to_string(row.stiffness) + "; must be > 0 (or rigid)");
     require(row.damping_ratio >= 0 && std::isfinite(row.damping_ratio),
             name + "damping_ratio must be ≥ 0 and finite");
+    require(row.damping >= 0 && std::isfinite(row.damping), name + "damping must be ≥ 0 and finite");
     require(row.cap >= 0 && row.cap_reverse >= 0,
             name + "caps must be ≥ 0 (0: free, unlimited: never yields)");
     require(row.hardening >= 0 && row.hardening < row.stiffness,
@@ -155,6 +156,7 @@ void ElasticPlasticJoint::set_stiffness(Row row, double stiffness, double dampin
   if (member_ == nullptr) return;
   member_->record().material.stiffness[row] = stiffness;
   member_->record().material.damping_ratio[row] = damping_ratio;
+  member_->record().material.damping[row] = 0;
   wake();
 }
 

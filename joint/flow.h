@@ -2,6 +2,10 @@
 // is the present one less the elastic part, in velocities as solved; the plastic offset is incremented. Of
 // hardening rows the cap grows.
 //
+// The elastic strain of a row that flows is e' = e + ½(1 + δ)h w_A, w_A = s/G − b the rate that the law gives
+// the spring, within what its force holds, |R|/k: the mean of e before and after that is R/k. Its slip is the
+// rest of h J v.
+//
 // The increment is taken from velocities: what turning bodies part along their tangents must not count as
 // flow, which would strain what is parallel, and be work.
 #pragma once
@@ -21,9 +25,5 @@ void flow(Joint& joint, JointRecord& record, const Rows& gap, const StepLaws& la
 
 /// Rows that hold nothing have their neutral position where they are.
 void follow_gap(Joint& joint, const Rows& gap);
-
-/// The bodies went less far than was solved for, and so did a spring that has a damper beside it. What other
-/// rows are strained by, StepLaws::begin() reads from their gaps.
-void scale_strain(Joint& joint, const JointRecord& record, double share);
 
 }  // namespace ductile::dynamics

@@ -77,12 +77,12 @@ void Hessian::factor_holding(System& system, int changed) {
                      j.regime != on_surface;
     r.tangent = {.nn = stiff[0], .qq = stiff[1], .mm = stiff[2]};
   }
-  if (holds_already) return;
-  refactor(system);
+  if (holds_already && (factored_ == Factored::holding || system.turn_inertias.empty())) return;
+  refactor(system, false);
   factored_ = Factored::holding;
 }
 
-void Hessian::refactor(const System& system) {
+void Hessian::refactor(const System& system, bool turn_inertias) {
   ldlt_.clear();
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
@@ -108,6 +108,12 @@ void Hessian::refactor(const System& system) {
     if (system.is_free(j.a)) add_product(ldlt_.diagonal(j.a), a, da);
     if (system.is_free(j.b)) add_product(ldlt_.diagonal(j.b), b, db);
     if (j.block >= 0) add_product(ldlt_.block(j.block), j.a > j.b ? a : b, j.a > j.b ? db : da);
+  }
+  for (const TurnInertia& t : system.turn_inertias) {
+    if (!turn_inertias) break;
+    ldlt_.diagonal(t.a).a[8] += t.inertia;
+    ldlt_.diagonal(t.b).a[8] += t.inertia;
+    ldlt_.block(t.block).a[8] -= t.inertia;
   }
   ldlt_.factor();
 }

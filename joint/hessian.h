@@ -34,8 +34,8 @@ class Hessian {
   /// that does not give. With their own stiffness in it, rows took up a share of every push, and a block on a
   /// beam was catapulted.
   void factor_holding(System& system, int changed);
-  /// Factors the records' tangents as they are, at the present poses.
-  void refactor(const System& system);
+  /// Factors the records' tangents as they are, at the present poses; for velocities with the turn inertias.
+  void refactor(const System& system, bool turn_inertias = true);
   /// Likewise; afterwards they count as those of an earlier step.
   void factor_given(const System& system) {
     refactor(system);

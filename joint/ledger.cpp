@@ -1,6 +1,7 @@
 #include "ledger.h"
 
 #include "objective.h"
+#include "turn_inertia.h"
 
 namespace ductile::dynamics {
 
@@ -16,35 +17,38 @@ Vec3 prescribed_velocity(const System& system, int body) {
 }  // namespace
 
 void Ledger::form(const System& system) {
-  strains_.assign(system.joints.size(), {});
+  taken_.assign(system.joints.size(), {});
+  moved_.assign(system.joints.size(), {});
   turns_.assign(system.bodies.size(), {});
+  turn_inertias_.reserve(system.joints.size());
+  moments_.reserve(system.joints.size());
 }
 
-void Ledger::open(System& system, std::span<const Vec3> before, const Motion& motion) {
+void Ledger::open(System& system, std::span<const Vec3> before, double h) {
   joints_ = system.joints;
-  // Implicit Euler counts with velocities as solved, before they were scaled.
-  find_x(system, 1 / motion.share);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
-    const JointRecord& r = system.records[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
-    for (unsigned i = 0; i < 3; ++i) {
-      strains_[k][i] = r.law.damping[i] > 0      ? r.strain[i]
-                       : r.law.relaxation[i] > 0 ? j.bias[i] / r.law.relaxation[i]
-                                                 : 0;
-      energies.numerical -= j.impulse[i] * ((2 - motion.share) * (r.x[i] - j.bias[i]) - v0[i]) / 2;
-    }
+    const Rows v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
     const Rows prescribed =
         relative_velocity(j, prescribed_velocity(system, j.a), prescribed_velocity(system, j.b));
-    for (unsigned i = 0; i < 3; ++i) energies.driven += j.impulse[i] * prescribed[i];
+    for (unsigned i = 0; i < 3; ++i) {
+      taken_[k][i] = j.impulse[i] * (v0[i] + v[i]) / 2;
+      moved_[k][i] = h * v[i];
+      energies.driven += j.impulse[i] * prescribed[i];
+    }
+  }
+  turn_inertias_ = system.turn_inertias;
+  moments_.clear();
+  for (const TurnInertia& t : turn_inertias_) {
+    const Vec3 &a = system.bodies[z(t.a)].v, &b = system.bodies[z(t.b)].v;
+    moments_.push_back(turn_impulse(t, a, b));
+    energies.numerical += moments_.back() * (b.w - a.w + before[z(t.b)].w - before[z(t.a)].w) / 2;
   }
 }
 
-// Between the steps the strain went from the last e' to e: the chord that a turning piece moves along,
-// rounding, pushes, a spring that goes with the step.
-void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Rows& booked) {
-  const Rows& strain = strains_[index];
+void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Rows& slip, const Rows& work) {
   const double h = r.law.h;
   for (unsigned i = 0; i < 3; ++i) {
     const double held = r.stored[i];
@@ -53,29 +57,15 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
       energies.numerical += held;
       continue;
     }
-    const double k = r.law.spring[i], R = j.impulse[i] / h;
-    const double v = r.x[i] - j.bias[i];
-    const bool not_all = flows(j.regime, i) || r.law.damping[i] > 0;  // of the row's motion is elastic
-    const double after = not_all ? elastic_strain(j, r, i) : strain[i] + h * v;
-    const double change = after - strain[i];
-    r.stored[i] = k * after * after / 2;
-    energies.damping += r.law.damping[i] * change * change / h;
-    energies.numerical += k * change * change / 2 + held - k * strain[i] * strain[i] / 2;
-    if (not_all) {
-      energies.numerical += R * (h * v - change) - (r.dissipated[i] - booked[i]);
-    } else {
-      energies.numerical += (R - k * after) * change;  // of impulses that are carried, not made of the strain
-    }
-  }
-}
-
-void Ledger::account_scaled(const Joint& j, JointRecord& r) {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (!(r.law.damping[i] > 0)) continue;
-    const double after = elastic_strain(j, r, i);
-    energies.numerical += r.stored[i];
-    r.stored[i] = r.law.spring[i] * after * after / 2;
-    energies.numerical -= r.stored[i];
+    const double k = r.law.spring[i], delta = r.law.delta[i];
+    const double e = (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
+    const double u = moved_[index][i] - slip[i], p = delta < 1 ? h * j.rate[i] : u;
+    // Rigid rows store what their force stands for: their gap holds constraint drift, too.
+    const double half = e + u / 2, after = is_rigid(r, i) ? j.impulse[i] / (h * k) : e + u;
+    r.stored[i] = k / 2 * (delta < 1 ? half * half + delta * delta * u * u / 4 : after * after);
+    const double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
+    energies.damping += damping;
+    energies.numerical += taken_[index][i] - (r.stored[i] - held) - work[i] - damping;
   }
 }
 
@@ -88,6 +78,10 @@ void Ledger::close(std::span<const Vec3> change) {
   for (const Joint& j : joints_) {
     const Rows v = relative_velocity(j, own(j.a), own(j.b));
     for (unsigned i = 0; i < 3; ++i) energies.numerical += j.impulse[i] * v[i] / 2;
+  }
+  for (std::size_t k = 0; k < turn_inertias_.size(); ++k) {
+    const TurnInertia& t = turn_inertias_[k];
+    energies.numerical += moments_[k] * (change[z(t.b)].w - change[z(t.a)].w) / 2;
   }
 }
 

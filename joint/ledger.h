@@ -1,10 +1,13 @@
 // Where a structure's energy went besides its joints' plastic work: an observer beside the step, which reads
 // and changes nothing but its own accounts and the records' `stored`.
 //
-// Each term is a sum of closed forms over rows and steps, none a difference of totals. With R = s/h a row
-// takes s·J v̄ from the bodies, v̄ the mean of their velocities before and after the step, while implicit Euler
-// counts with those after it; spring and damper side by side take k e' Δe + c Δe²/h, with e' = e + Δe the
-// strain that the force stands for and that ½ k e'² is stored of; the slider takes R (h J v − Δe).
+// A row takes s·J v̄ from the bodies, v̄ the mean of their velocities before and after the step. With p = h w
+// and u the elastic parts of its motion in the last step and in this one, Newmark's R (row.h) makes of
+// k-times
+//   R (u + p)/2 = Δ[½ (e + u/2)² + ⅛ δ² u²] + δ ((u + p)/2)²
+// a change of what is stored half a step on, and the damping of δ. The slider takes R times its slip. What is
+// left is numerical, row by row: δ beyond the damper's, implicit Euler of rigid rows and heavy dampers, the
+// turning of J.
 #pragma once
 
 #include <span>
@@ -28,18 +31,20 @@ class Ledger {
   void form(const System& system);
   /// Before poses move, while J is the step's own: the part of the rows' loss that needs it. `before` are the
   /// velocities at the step's very start, in own frames.
-  void open(System& system, std::span<const Vec3> before, const Motion& motion);
-  /// After a joint's flow was booked, which had dissipated `booked` before.
-  void account(const Joint& joint, std::size_t index, JointRecord& record, const Rows& booked);
-  /// Around scale_strain(): of rows with a damper, less is stored.
-  void account_scaled(const Joint& joint, JointRecord& record);
+  void open(System& system, std::span<const Vec3> before, double h);
+  /// After a joint's flow was booked: by what its neutral position moved, and the plastic work of that, J.
+  void account(const Joint& joint, std::size_t index, JointRecord& record, const Rows& slip,
+               const Rows& work);
   /// After the step: by what contacts and limits changed velocities after the last solve, world axes.
   void close(std::span<const Vec3> change);
 
  private:
   std::vector<Joint> joints_;  // of the step that is open: J and impulses
   std::vector<Turn> turns_;    // of its bodies' frames
-  std::vector<Rows> strains_;  // at its start
+  std::vector<Rows> taken_;    // s·J v̄, J
+  std::vector<Rows> moved_;    // h J v, m or rad
+  std::vector<TurnInertia> turn_inertias_;
+  std::vector<double> moments_;  // their impulses
 };
 
 }  // namespace ductile::dynamics

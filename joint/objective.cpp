@@ -1,5 +1,7 @@
 #include "objective.h"
 
+#include "turn_inertia.h"
+
 #include <bit>
 #include <cmath>
 
@@ -48,6 +50,7 @@ void add_impulses(System& system, std::span<Vec3> g, Evaluation& told) {
       take(beyond.s, beyond.regime);
     }
   }
+  add_turn_impulses(system, g);
   told.changed = changed;
   told.crossed = crossed != 0;
   told.flows = any != 0;
@@ -59,14 +62,15 @@ void inertial_gradient(const System& system, std::span<Vec3> g) {
     const Body& b = system.bodies[i];
     g[i] = momentum(b, b.v - b.v_free);
   }
+  add_turn_impulses(system, g);
 }
 
-void find_x(System& system, double faster) {
+void find_x(System& system) {
   for (const Joint& j : system.joints) {
     if (j.regime != 0) continue;  // known
     const Rows v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
     Rows& x = system.record(j).x;
-    for (unsigned i = 0; i < 3; ++i) x[i] = faster * v[i] + j.bias[i];
+    for (unsigned i = 0; i < 3; ++i) x[i] = v[i] + j.bias[i];
   }
 }
 
@@ -86,6 +90,9 @@ double objective(System& system, const Evaluation& at) {
       }
     }
   }
+  for (const TurnInertia& t : system.turn_inertias)
+    f += turn_impulse(t, system.bodies[z(t.a)].v, system.bodies[z(t.b)].v) *
+         (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate) / 2;
   return f;
 }
 

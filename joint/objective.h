@@ -2,6 +2,8 @@
 //
 //   f(v) = ½ (v − v*)ᵀ M (v − v*) + Σ φ(J v + b)      ∇f(v) = M (v − v*) + Jᵀ s
 //
+// and, in both, what turn_inertia.h adds to the inertia of bodies that turn under tension.
+//
 // v* are the velocities without the structure's impulses, φ the potentials of row.h and s = φ' the impulses.
 // f is strictly convex, so the solution exists and is unique whatever the mass ratio, loop or yield pattern.
 #pragma once
@@ -66,12 +68,11 @@ inline Evaluation evaluate(System& system, std::span<Vec3> g) {
   return evaluate(system, g, [](std::size_t, Body&) {});
 }
 
-/// M (v − v*) into g.
+/// The gradient of f without its rows into g.
 void inertial_gradient(const System& system, std::span<Vec3> g);
 
-/// x of all rows, from an evaluation at these velocities; or at so many times the velocities that bodies
-/// have.
-void find_x(System& system, double faster = 1);
+/// x of all rows, from an evaluation at these velocities.
+void find_x(System& system);
 
 /// f at the last evaluation.
 double objective(System& system, const Evaluation& at);

@@ -128,7 +128,7 @@ bool Projection::push_far(Work& work) {
       double next = correction(system, hessian, z_);
       const bool refactor = next > 0.01 * size;
       if (refactor) {
-        hessian.refactor(system);
+        hessian.refactor(system, false);
         next = correction(system, hessian, z_);
       }
       if (next <= (1 - t / 2) * size) {
@@ -142,7 +142,7 @@ bool Projection::push_far(Work& work) {
         if (t < 0.02 * whole) return false;
       } else {
         move(0);
-        hessian.refactor(system);
+        hessian.refactor(system, false);
         size = correction(system, hessian, d_);
         fresh = true;
       }
@@ -158,7 +158,7 @@ bool Projection::close_gaps(Work& work) {
   place_all(system, start_);
   for (int round = 0; round < 20; ++round) {
     let_go(work);
-    work.hessian.refactor(system);
+    work.hessian.refactor(system, false);
     const double last = let_go(work);
     const double turn = largest_turn(system);
     displace_all(system, 1 / turn);

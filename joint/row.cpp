@@ -12,31 +12,48 @@ Rows RowLaw::elastic_range() const {
   return range;
 }
 
-RowLaw make_law(const Material& material, const Rows& m_eff, double h, double rigid_from) {
+RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Integration& how) {
   RowLaw law;
   law.surface = material.surface;
   law.h = h;
+  double shared = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const double limit = rigid_ratio * m_eff[i];
     if (!(material.stiffness[i] > 0) || !(limit > 0) ||
         (material.cap[i] <= 0 && material.cap_reverse[i] <= 0))
       continue;
-    double k = material.stiffness[i], c = 0;
-    if (h * h * k < rigid_from * m_eff[i]) {
-      c = std::min(2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]), (limit - h * h * k) / h);
+    double k = material.stiffness[i], c = 0, delta = 1;
+    if (h * h * k < how.rigid_from * m_eff[i]) {
+      c = 2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]) + material.damping[i];
+      // Beside implicit Euler, the damper is one of its own.
+      delta = how.delta < 1 ? std::max(how.delta, c / (k * h)) : 1 + c / (k * h);
+      // Where bodies turn, J of u and v is right to first order only; a damper that is beyond what the row's
+      // own frequency lets the step resolve would store what that misses.
+      if (i < 2 && how.delta < 1 && h * h * k > m_eff[i]) delta = std::min(delta, 1.0);
+      delta = std::min(delta, limit / (h * h * k));
+      // Rows that share a yield surface share δ.
+      shared = std::max(shared, delta);
     } else {
       k = limit / (h * h);
     }
-    const double G = h * h * k + h * c;
     law.spring[i] = k;
     law.damping[i] = c;
-    law.G[i] = G;
-    law.relaxation[i] = h * k / G;
+    law.delta[i] = delta;
     law.cap[i] = h * material.cap[i];
     law.cap_reverse[i] = h * material.cap_reverse[i];
+  }
+  for (unsigned i = 0; i < 3; ++i) {
+    const double k = law.spring[i];
+    if (!(k > 0)) continue;
+    double& delta = law.delta[i];
+    if (material.surface != nullptr && k == material.stiffness[i]) delta = shared;
+    const double beta = delta < 1 ? (1 + delta) * (1 + delta) / 4 : delta;
+    law.G[i] = beta * h * h * k;
+    law.relaxation[i] = 1 / (beta * h);
+    law.carry[i] = delta < 1 ? (beta - delta) / beta : 1 / delta - 1;
     // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
     const double after = std::min(material.hardening[i], 0.99 * k), H = after * k / (k - after);
-    law.after_yield[i] = h * h * H / (h * h * H + G);
+    law.after_yield[i] = h * h * H / (h * h * H + law.G[i]);
   }
   return law;
 }

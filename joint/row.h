@@ -1,7 +1,18 @@
-// The law of the three rows of a joint: springs in series with sliders, under implicit Euler.
+// The law of the three rows of a joint: springs in series with sliders, integrated by Newmark's method.
 //
-// With e the elastic strain at the step's start, k the stiffness, c the damping and h the step:
-//   G = h²k + hc      b = hk·e / G      x = Jv + b      s = clamp(G x, −hF⁻, hF⁺)
+// Bodies move by h v, so velocities belong to the middle of a step and the impulse s = h R of a row to its
+// start. With e the elastic strain there, w the elastic rate of the last step, k the stiffness and c the
+// damping:
+//   R = k (e + β h (J v − w) + δ h w)      β = (1 + δ)²/4      δ ≥ c/(kh)
+//   G = β h² k      b = e/(βh) − ((β − δ)/β) w      x = J v + b      s = clamp(G x, −hF⁻, hF⁺)
+// δ = 0 is the average acceleration method: k times the mean (e₋ + 2e + e₊)/4, of second order, stable for
+// any ωh, and without loss. δ > 0 damps a vibration of ω by δωh/2 of critical damping (and by (1 − δ)/(1 + δ)
+// a step what the step cannot resolve), which a damper c = δ k h does, too: so δ is that, and at least a
+// little. A heavier damper is implicit, R = k (e + h J v) + (c − kh)(J v + w'), with w' = ½(J₊ − J)v of the
+// last step: what the rows of turning bodies change their direction by must not strain the spring, step by
+// step. δ = 1 is implicit Euler, which rigid rows have. (Newmark, J. Eng. Mech. Div. ASCE 85 (1959); β from
+// Hilber, Hughes & Taylor 1977, eq. 10, α = 0.)
+//
 // s is the impulse of the internal force R = s/h (tension positive) that the row takes against the relative
 // velocity Jv; it is the derivative of a convex potential φ(x), quadratic below the cap and linear (or, with
 // hardening, of a lower curvature) above: Huber's function. Where N, Q and M share one yield surface, s is
@@ -23,10 +34,10 @@ inline constexpr double rigid_ratio = 1e9;
 
 /// What the rows of a joint are made of, axial, shear and rotation.
 struct Material {
-  Rows stiffness{};  // N/m, N/m, N m/rad; infinite: rigid; 0: free
-  Rows damping_ratio{};
-  Rows cap{}, cap_reverse{};  // N, N, N m
-  Rows hardening{};           // N/m, N/m, N m/rad
+  Rows stiffness{};                 // N/m, N/m, N m/rad; infinite: rigid; 0: free
+  Rows damping_ratio{}, damping{};  // c = 2ζ√(k m_eff) + c₀, N s/m or N m s
+  Rows cap{}, cap_reverse{};        // N, N, N m
+  Rows hardening{};                 // N/m, N/m, N m/rad
   const YieldSurface* surface = nullptr;
 };
 
@@ -40,15 +51,22 @@ struct RowLaw {
   Rows after_yield{};  // tangent beyond the cap as a share of G (hardening); 0: perfectly plastic
   Rows spring{};       // k, the stiffness that the step can integrate, ≤ that of the material
   Rows damping{};      // c, N s/m or N m s
-  Rows relaxation{};   // hk/G: bias per strain, 1/s
+  Rows delta{};        // δ
+  Rows relaxation{};   // bias per strain e, 1/s
+  Rows carry{};        // bias per −w, w the rate that the law carries over
 
   /// No row flows while all |G x| are within these; below 0 where a yield surface has to tell.
   Rows elastic_range() const;
 };
 
-/// The law of rows of effective masses m_eff in a step of h seconds. Springs stiffer than `rigid_from` times
-/// m_eff/h² are taken as rigid.
-RowLaw make_law(const Material& material, const Rows& m_eff, double h, double rigid_from = rigid_ratio);
+/// How rows are integrated.
+struct Integration {
+  double delta = 1;                 // δ at least
+  double rigid_from = rigid_ratio;  // m_eff/h²: stiffer springs are rigid
+};
+
+/// The law of rows of effective masses m_eff in a step of h seconds.
+RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Integration& how = {});
 
 /// Says that all rows of a joint flow together: on its yield surface; or, of any joint, as the solve did not
 /// end.

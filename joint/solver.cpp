@@ -4,12 +4,14 @@
 #include <limits>
 #include <utility>
 
+#include "turn_inertia.h"
+
 namespace ductile::dynamics {
 
 Solver::Solver(bool swept_in_passes) {
   motion_.swept = swept_in_passes;
   // Iterations that end before they converge would give energy to faster oscillations than ωh = 1.
-  if (swept_in_passes) laws_.elastic_ratio = 1;
+  if (swept_in_passes) laws_.elastic_ratio = laws_.least_delta = 1;
 }
 
 void Solver::form(std::size_t free_bodies) {
@@ -19,6 +21,7 @@ void Solver::form(std::size_t free_bodies) {
   projection_.form(*this);
   ledger_.form(*this);
   before.assign(bodies.size(), {});
+  turned_.assign(bodies.size(), {});
   const std::span<Vec3> masses = newton_.scratch().first(free);
   for (std::size_t i = 0; i < free; ++i) masses[i] = momentum(bodies[i], {1, 1, 1});
   prediction_.form(masses);
@@ -29,12 +32,19 @@ void Solver::begin(double h) {
   hessian_.begin_step();
   motion_.share = 1;
   if (h != step()) prediction_.forget();
-  if (laws_.begin(*this, h)) hessian_.forget();
+  const bool other_laws = laws_.begin(*this, h);
+  if (follow_tension(*this, h) || other_laws) hessian_.forget();
 }
 
 bool Solver::solve(SolveReport& report) {
   const bool predicted = std::exchange(predicted_, false) && !last_.flows;
-  const Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
+  Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
+  for (int again = 0; again < 3 && solution.moved && raise_to_tension(*this, step()); ++again) {
+    hessian_.forget();
+    newton_.forget();
+    solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
+    solution.moved = true;
+  }
   last_ = solution.at;
   return solution.moved;
 }
@@ -50,22 +60,36 @@ void Solver::scale(double share) {
 
 void Solver::advance() {
   newton_.forget();
-  if (keeps_ledger) ledger_.open(*this, before, motion_);
-  // The next begin() asks for the gaps of what is peculiar.
-  gaps_known = laws_.peculiar();
+  if (keeps_ledger) ledger_.open(*this, before, step());
+  gaps_known = false;
   predicted_ = !motion_.swept;
-  const double h = step(), rate = 1 / h;
+  const double h = step();
   const std::span<Vec3> newest = predicted_ ? prediction_.newest() : std::span<Vec3>{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i < newest.size()) newest[i] = bodies[i].v;
-    displace(places[i], h * bodies[i].v);
+    const Vec3& v = bodies[i].v;
+    displace(places[i], h * v);
+    const Turn back = turn_of(-h * v.w);
+    turned_[i] = {back.c * v.x - back.s * v.y, back.s * v.x + back.c * v.y, v.w};
   }
+  remember_turn_rates(*this, turned_);
   if (predicted_) prediction_.fit();
-  const bool books = keeps_ledger || gaps_known || motion_.share < 1;
   for (Joint& j : joints) {
+    // The rate in the rows' direction at the step's start, where it tells what their turning makes of it.
+    Rows before_turn{};
+    const bool turns = j.regime != 0 || j.overdamped;
+    if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
-    if (books || j.regime != 0 || j.free) book(j, gap);
-    StepLaws::set_equal_bias(j, gap, rate);
+    if (keeps_ledger || j.regime != 0 || j.free) book(j, gap);
+    j.rate = relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]);
+    for (unsigned i = 0; turns && i < 3; ++i) {
+      if (j.carry[i] < 0) {
+        j.rate[i] = (j.rate[i] - before_turn[i]) / 2;
+      } else if (flows(j.regime, i)) {
+        j.rate[i] -= before_turn[i];  // the spring's own rate is none
+      }
+    }
+    StepLaws::set_equal_bias(j, gap);
   }
   biases_known = true;
 }
@@ -74,14 +98,15 @@ void Solver::advance() {
 void Solver::book(Joint& j, const Rows& gap) {
   JointRecord& r = record(j);
   follow_gap(j, gap);
-  if (gaps_known) r.gap = gap;
-  const Rows booked = r.dissipated;
+  const Rows neutral = j.neutral, dissipated = r.dissipated;
   if (j.regime != 0) flow(j, r, gap, laws_, motion_);
-  if (keeps_ledger) ledger_.account(j, index(j), r, booked);
-  if (motion_.share < 1) {
-    scale_strain(j, r, motion_.share);
-    if (keeps_ledger) ledger_.account_scaled(j, r);
+  if (!keeps_ledger) return;
+  Rows slip, work;
+  for (unsigned i = 0; i < 3; ++i) {
+    slip[i] = j.neutral[i] - neutral[i];
+    work[i] = r.dissipated[i] - dissipated[i];
   }
+  ledger_.account(j, index(j), r, slip, work);
 }
 
 bool Solver::project(std::span<const Pose> goal, bool try_goal) {
@@ -96,12 +121,12 @@ bool Solver::at_rest() {
     for (const Place& p : places) farthest = std::max({farthest, std::abs(p.pose.x), std::abs(p.pose.y)});
     const double last_bits = 2 * std::numeric_limits<double>::epsilon() * farthest;
     if (step() * step() * last_.speed2 <= mass * last_bits * last_bits) return true;
-    // Moving on by h v changes a row's impulse by G J v at most.
+    // Moving on by h v changes a row's impulse by so much at most.
     const std::span<Vec3> change = newton_.scratch();
     std::fill(change.begin(), change.end(), Vec3{});
     for (const Joint& j : joints) {
       Rows s = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-      for (unsigned i = 0; i < 3; ++i) s[i] *= j.G[i];
+      for (unsigned i = 0; i < 3; ++i) s[i] *= j.G[i] * j.relaxation[i] * step();
       add_transposed(j, s, change[z(j.a)], change[z(j.b)]);
     }
     return square(*this, change) <= rest_tolerance * rest_tolerance * last_.impulse2;

@@ -97,9 +97,10 @@ class Solver : public System {
   LinearPrediction prediction_;
   Projection projection_;
   Ledger ledger_;
-  Evaluation last_;         // of the last solve
-  Motion motion_;           // of the present step
-  bool predicted_ = false;  // the next solve starts where prediction_ says
+  std::vector<Vec3> turned_;  // the last velocities, in the frames where poses have turned to
+  Evaluation last_;           // of the last solve
+  Motion motion_;             // of the present step
+  bool predicted_ = false;    // the next solve starts where prediction_ says
 };
 
 }  // namespace ductile::dynamics

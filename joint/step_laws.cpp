@@ -9,9 +9,19 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+constexpr double turn_guard = 10;   // δ per rad that a body turns in a step
+constexpr double free_turn = 0.01;  // rad a step
+
+}  // namespace
+
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law = make_law(r.material, r.m_eff, h_, elastic_ratio);
+  r.law = make_law(r.material, r.m_eff, h_, {delta_, elastic_ratio});
   j.G = r.law.G;
+  j.relaxation = r.law.relaxation;
+  j.carry = r.law.carry;
+  j.overdamped = j.carry[0] < 0 || j.carry[1] < 0 || j.carry[2] < 0;
   j.elastic_range = r.law.elastic_range();
   j.free = j.G[0] == 0 || j.G[1] == 0 || j.G[2] == 0;
 }
@@ -28,7 +38,7 @@ double StepLaws::deferred_share(System& system, double h) {
     double now = 0;
     for (unsigned i = 0; i < 3; ++i) {
       const double d = r.gap[i] - j.neutral[i] - elastic_strain(j, r, i);
-      if (j.G[i] > 0) now += r.m_eff[i] * d * d;
+      if (j.G[i] > 0 && is_rigid(r, i)) now += r.m_eff[i] * d * d;
     }
     deferred += h < r.law.h ? now : r.deferred_drift;
     all += now;
@@ -41,14 +51,15 @@ double StepLaws::deferred_share(System& system, double h) {
 
 // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid one's
 // masses, it keeps its force if it became stiffer, its strain if softer: no energy comes of it.
-void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double h) const {
+void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain) const {
   Rows spring = r.law.spring;
-  const double longer = r.law.h > 0 ? h / r.law.h : 1;
+  const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
   set_law(j, r);
   for (unsigned i = 0; i < 3; ++i) {
     // The same force, but none larger than the step: what was rough in a short one would be a blow.
     j.impulse[i] *= std::min(1.0, longer);
+    j.rate[i] /= longer;
     // What holds nothing any more, as both its bodies are held, forgets its force.
     if (!(r.law.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
     if (!(spring[i] > 0 && r.law.spring[i] > 0)) continue;
@@ -62,41 +73,51 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double h) cons
   }
 }
 
+// δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
+// turn far in a step, in which rows take another direction; by powers of two, so that factors last.
+double StepLaws::delta_for(const System& system, double h) const {
+  if (least_delta == 1) return 1;
+  double turn = 0;
+  for (std::size_t i = 0; i < system.free; ++i) turn = std::max(turn, std::abs(system.bodies[i].v_free.w));
+  const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
+  double delta = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
+  if (guard > least_delta) delta += std::exp2(std::ceil(std::log2(guard)));
+  delta = std::min(delta, 1.0);
+  const bool as_before = h == h_ && delta <= delta_ && delta > delta_ / 3;
+  return as_before ? delta_ : delta;
+}
+
 bool StepLaws::begin(System& system, double h) {
-  const bool changed = h != h_ || !known_;
+  const double delta = delta_for(system, h);
+  const bool changed = h != h_ || delta != delta_ || !known_;
   known_ = true;
   h_ = h;
+  delta_ = delta;
   const bool drifts = h < drift_time;
   const double waits = deferred_share(system, h);
-  if (!changed && !drifts && !peculiar()) {
+  if (!changed && !drifts) {
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
-    for (Joint& j : system.joints) set_equal_bias(j, system.record(j).gap, 1 / h_);
+    for (Joint& j : system.joints) {
+      for (double& rate : j.rate)
+        if (!std::isfinite(rate)) rate = 0;
+      set_equal_bias(j, system.record(j).gap);
+    }
     return false;
   }
   find_gaps(system);
   for (Joint& j : system.joints) {
     JointRecord& r = system.record(j);
-    Rows strain{};
-    if (changed || drifts || damped_ || r.material.surface != nullptr)
-      strain = {elastic_strain(j, r, 0), elastic_strain(j, r, 1), elastic_strain(j, r, 2)};
-    if (changed) follow_law(j, r, strain, h);
+    for (double& rate : j.rate)
+      if (!std::isfinite(rate)) rate = 0;  // the past may have known what is not finite; this step need not
+    Rows strain;
+    for (unsigned i = 0; i < 3; ++i)
+      strain[i] = is_rigid(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
+    if (changed) follow_law(j, r, strain);
     for (unsigned i = 0; i < 3; ++i) {
       double e = r.gap[i] - j.neutral[i];
       e -= waits * (e - strain[i]);
-      j.bias[i] = r.law.relaxation[i] * e;
-      if (r.law.damping[i] > 0) {
-        // A damper would let constraint drift grow from step to step, and the spring store it.
-        j.bias[i] = r.law.relaxation[i] * strain[i] + (e - strain[i]) / h;
-      }
-    }
-    if (damped_ || changed || r.material.surface != nullptr) r.strain = strain;
-  }
-  if (changed) {
-    damped_ = surfaces_ = false;
-    for (const JointRecord& r : system.records) {
-      damped_ |= r.law.damping[0] > 0 || r.law.damping[1] > 0 || r.law.damping[2] > 0;
-      surfaces_ |= r.material.surface != nullptr;
+      j.bias[i] = j.relaxation[i] * e - j.carry[i] * j.rate[i];
     }
   }
   return changed;

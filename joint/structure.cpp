@@ -50,6 +50,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     const RowDef& row = d.rows[i];
     m.own_record.material.stiffness[i] = row.stiffness;
     m.own_record.material.damping_ratio[i] = row.damping_ratio;
+    m.own_record.material.damping[i] = row.damping;
     m.own_record.material.cap[i] = row.cap;
     m.own_record.material.cap_reverse[i] = row.cap_reverse;
     m.own_record.material.hardening[i] = row.hardening;

@@ -4,6 +4,9 @@ namespace ductile::dynamics {
 
 void System::form(std::size_t free_bodies) {
   free = free_bodies;
+  turn_inertias.clear();
+  turn_inertias.reserve(joints.size());
+  for (JointRecord& r : records) r.turn_inertia = -1;
   mass = 0;
   for (std::size_t i = 0; i < free; ++i) {
     Body& b = bodies[i];

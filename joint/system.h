@@ -45,10 +45,13 @@ struct Joint {
   std::uint8_t regime = 0;         // of the law (row.h)
   std::uint8_t factored_flow = 0;  // rows that were flowing in the current factorisation
   bool free = false;               // some row holds nothing
+  bool overdamped = false;         // some row has δ > 1
   int block = -1;                  // of H, when both bodies are free
 
-  Rows G{}, elastic_range{};  // of the law
-  Rows neutral{};             // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
+  Rows G{}, elastic_range{};   // of the law
+  Rows relaxation{}, carry{};  // of the law: b of the next step
+  Rows rate{};     // w: what the law carries over of the last step's rates, m/s or rad/s; times h₋/h
+  Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
   Frame frame;
 };
 
@@ -58,17 +61,26 @@ struct PlasticFlow {
   Rows forward{}, back{};  // accumulated by sign, ≥ 0
 };
 
+/// Inertia against a change of the relative turn of two bodies: turn_inertia.h.
+struct TurnInertia {
+  int a = 0, b = 0;                  // free bodies
+  int block = -1;                    // of H
+  double inertia = 0;                // C, kg m²
+  double rate = 0;                   // w, rad/s
+  double highest = 0, unneeded = 0;  // what was needed at most, in so many s
+};
+
 /// The rest of a joint, at the same index.
 struct JointRecord {
   Rows gap{};  // u, v, θ: after find_gaps()
   Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
   RowLaw law;
-  Coupling tangent;  // ds/dx that is in H
-  Rows strain{};     // elastic, at the step's start: where it changes, is damped or has a yield surface
+  Coupling tangent;           // ds/dx that is in H
+  int turn_inertia = -1;      // index into System::turn_inertias
   double deferred_drift = 0;  // Σ m_eff d² of the constraint drift d of a longer step, not yet taken back
   PlasticFlow plastic;
   Rows dissipated{};  // J
-  Rows stored{};      // J: ½ k e² of the last step, when a ledger is kept
+  Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Material material;
   Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
 };
@@ -79,11 +91,12 @@ struct System {
   std::vector<Body> bodies;
   std::vector<Place> places;  // of the bodies
   std::vector<Joint> joints;
-  std::vector<JointRecord> records;  // of the joints
-  std::size_t free = 0;              // bodies
-  double mass = 0;                   // of all free bodies, kg
-  bool gaps_known = false;           // no pose was moved since they were found
-  bool biases_known = false;         // the joints' are those of an equal step from the present poses
+  std::vector<JointRecord> records;        // of the joints
+  std::vector<TurnInertia> turn_inertias;  // of some of them
+  std::size_t free = 0;                    // bodies
+  double mass = 0;                         // of all free bodies, kg
+  bool gaps_known = false;                 // no pose was moved since they were found
+  bool biases_known = false;               // the joints' are those of an equal step from the present poses
 
   const JointRecord& record(const Joint& joint) const { return records[index(joint)]; }
   JointRecord& record(const Joint& joint) { return records[index(joint)]; }
@@ -94,17 +107,19 @@ struct System {
   void form(std::size_t free_bodies);
 };
 
-/// The elastic strain that the last solve ended with, m or rad. Spring and damper side by side, in series
-/// with the slider: s/h = k e' + c (e' − e)/h, G = h²k + hc. The gap itself may be more: turning bodies part
-/// along their tangents in a step, by r(ωh)²/2, before the next one brings them back.
-inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
-  return j.G[i] > 0 ? r.law.h * (j.impulse[i] + r.law.damping[i] * r.strain[i]) / j.G[i] : 0;
-}
-
 /// Of the last solve, N, N, N m.
 Rows force(const Joint& joint, const JointRecord& record);
 
 /// Whether a row is stiffer than the step can integrate.
 inline bool is_rigid(const JointRecord& r, unsigned i) { return r.law.spring[i] != r.material.stiffness[i]; }
+
+/// The elastic strain at the end of the last step, m or rad: that of the biases, and R/k in rigid rows. The
+/// gap itself may be more there: turning bodies part along their tangents in a step, by r(ωh)²/2, before the
+/// next one brings them back.
+inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
+  if (!(j.relaxation[i] > 0)) return 0;
+  return is_rigid(r, i) ? j.impulse[i] / (r.law.h * r.law.spring[i])
+                        : (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
+}
 
 }  // namespace ductile::dynamics

@@ -70,7 +70,7 @@ TEST(Newton, EndsAtOneMinimumWhereverItStarts) {
 // A factor of other poses and regimes is but a preconditioner.
 TEST(Newton, EndsAtTheSameMinimumWithAnOldFactor) {
   int fewer = 0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
     Problem old(seed), fresh(seed);
     old.solve();
     for (Problem* p : {&old, &fresh}) {

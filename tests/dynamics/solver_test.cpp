@@ -34,15 +34,23 @@ struct Line {
     solver.form(solver.bodies.size());
     solver.locate();
     for (Joint& j : solver.joints) j.neutral = solver.record(j).gap;
+    before.assign(solver.joints.size(), 0);
+  }
+  double strain(const Joint& j) {
+    solver.find_gaps();
+    return solver.record(j).gap[axial] - j.neutral[axial];
+  }
+  // Velocities are those of the middle of a step, and so are strains: with e before and e + u after it,
+  // Newmark's method keeps ½ k ((e + u/2)² + δ²u²/4).
+  double stored(const Joint& j) {
+    const double u = strain(j) - before[solver.index(j)], middle = strain(j) - u / 2;
+    const double delta = solver.record(j).law.delta[axial];
+    return 1e6 / 2 * (middle * middle + delta * delta * u * u / 4);
   }
   double energy() {
-    solver.find_gaps();
     double sum = 0;
     for (const Body& b : solver.bodies) sum += b.mass * b.v.x * b.v.x / 2;
-    for (const Joint& j : solver.joints) {
-      const double strain = solver.record(j).gap[axial] - j.neutral[axial];
-      sum += 1e6 * strain * strain / 2;
-    }
+    for (const Joint& j : solver.joints) sum += stored(j);
     return sum;
   }
   // The same, with what is gone, by the solver's books.
@@ -53,11 +61,7 @@ struct Line {
     return sum;
   }
   void expect_stored() {
-    solver.find_gaps();
-    for (const Joint& j : solver.joints) {
-      const double strain = solver.record(j).gap[axial] - j.neutral[axial];
-      EXPECT_NEAR(solver.record(j).stored[axial], 1e6 * strain * strain / 2, 1e-9);
-    }
+    for (const Joint& j : solver.joints) EXPECT_NEAR(solver.record(j).stored[axial], stored(j), 1e-9);
   }
   // Bounds the rounds of the interior point method, and leaves all of the work to it.
   void cut_off(int rounds) {
@@ -70,12 +74,14 @@ struct Line {
     for (std::size_t i = 0; i < solver.bodies.size(); ++i) {
       solver.bodies[i].v_free = solver.before[i] = solver.bodies[i].v;
     }
+    for (const Joint& j : solver.joints) before[solver.index(j)] = strain(j);
     solver.begin(h);
     solver.solve(report);
     solver.advance();
     return report;
   }
   Solver solver;
+  std::vector<double> before;  // strains, m
 };
 
 // A solve that is cut off may lose energy, never add any; the books go on as if it had not been.

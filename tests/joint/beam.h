@@ -12,8 +12,10 @@ namespace ductile {
 struct BeamDef {
   int pieces = 10;
   double length = 20, height = 1;
-  double density = 7800;          // kg/m², depth 1
-  double youngs_modulus = 0;      // 0: rigid
+  double density = 7800;      // kg/m², depth 1
+  double youngs_modulus = 0;  // 0: rigid
+  double damping_time =
+      0.3;  // s: c/k of elastic rows; near critical for 20 m of steel, so that statics are reached
   double moment_cap = unlimited;  // of every joint
   double gravity = 10;
   double angle = 0;     // of the beam's axis
@@ -68,6 +70,8 @@ struct Beam {
       joint.rows[shear].stiffness = 5.0 / 6 * G * A / span;
       joint.rows[rotation].stiffness = def.youngs_modulus * I / span;
     }
+    for (RowDef& row : joint.rows)
+      if (row.stiffness < rigid) row.damping = def.damping_time * row.stiffness;
     joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = def.moment_cap;
   }
   b2Vec2 point(double s) const {

@@ -197,13 +197,15 @@ TEST(Ledger, AWallThatMovesDrivesTheBeam) {
   }
 }
 
-// A tip of a million times a piece's weight whirls the beam around faster than Box2D lets it.
+// A tip of a million times a piece's weight is thrown faster than Box2D lets it.
 TEST(Ledger, SlowedByTheSpeedLimit) {
-  Beam beam({.pieces = 6, .length = 6, .height = 0.5, .density = 1000, .youngs_modulus = 210e9});
+  Beam beam(
+      {.pieces = 6, .length = 6, .height = 0.5, .density = 1000, .youngs_modulus = 210e9, .damping_time = 0});
   beam.pieces.push_back(add_box(beam.world, {.x = 6.5, .height = 0.5, .mass = 5e8}));
   ElasticPlasticJointDef weld;
   weld.Initialize(beam.pieces[5], beam.pieces[6], {6, 0}, {1, 0});
   beam.structure.create_joint(weld);
+  beam.pieces[6]->SetLinearVelocity({0, 300});
   expect_balanced(beam, 5, 1.0 / 60, "slowed");
   EXPECT_GT(beam.structure.energy().clamped, 1e9);
 }

@@ -12,6 +12,8 @@
 namespace ductile {
 namespace {
 
+constexpr double damping_time = 0.3;  // s: c/k, near critical for what is to come to rest
+
 // A beam whose far end is held too.
 struct BuiltInBeam : Beam {
   explicit BuiltInBeam(const BeamDef& d, bool slides = false) : Beam(d) {
@@ -690,6 +692,7 @@ struct Frame {
       def.rows[axial].stiffness = youngs_modulus * thickness / span;
       def.rows[shear].stiffness = 5.0 / 6 * youngs_modulus / 2.6 * thickness / span;
       def.rows[rotation].stiffness = youngs_modulus * std::pow(thickness, 3) / 12 / span;
+      for (RowDef& row : def.rows) row.damping = damping_time * row.stiffness;
     }
     structure.create_joint(def);
   }
@@ -813,6 +816,7 @@ TEST(Cost, APipelineOfAKilometreComesToRest) {
     def.rows[axial].stiffness = E * h / l;
     def.rows[shear].stiffness = E / 2.6 * 5 / 6 * h / l;
     def.rows[rotation].stiffness = E * h * h * h / 12 / l;
+    for (RowDef& row : def.rows) row.damping = damping_time * row.stiffness;
     structure.create_joint(def);
   };
   for (int i = 0; i < pieces; ++i) {

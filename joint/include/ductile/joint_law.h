@@ -23,6 +23,9 @@ struct RowDef {
   double cap_reverse = unlimited;  ///< F⁻ ≥ 0, as a positive number
   double hardening = 0;            ///< stiffness after yield, N/m or N m/rad; ≥ 0, below `stiffness`;
                                    ///< 0 with an interaction curve
+  /// c ≥ 0, N s/m or N m s, besides what `damping_ratio` makes; no effect when rigid. A structure whose rows
+  /// all have c = 2ζk/ω damps a vibration of ω' by ζω'/ω of critical damping.
+  double damping = 0;
 
   /// A row that carries nothing: a pin is rotation = free(), a roller axial = free().
   static constexpr RowDef free() { return {.cap = 0, .cap_reverse = 0}; }

@@ -1,0 +1,45 @@
+// Tension that turns with its bodies, kept stable at any step.
+//
+// J is taken at the step's start, so the moment that a tension T exerts on a piece as it turns comes a step
+// late. A chain of pieces (length l, mass m, inertia I) under T is then a leapfrog integration of its lateral
+// vibration, unstable where (ωh)² > 4: from T = m l/(3h²) on for bars. What is missing is inertia against
+// that vibration.
+//
+//   f(v) += ½ Σ C_j (ω_b − ω_a − w_j)²      w: the relative turn rate after the last step
+//
+// resists only a change of the relative turn of two neighbours: it vanishes at rest, exerts opposite moments
+// (momenta stay exact), and has the pattern of H. With the joints' lateral motions y as unknowns, tension is
+// K = T L/l, L the second difference, and this is L C L/l². For any lumped mass m_j of the joints
+//   M + L C L/l² − α L = (M^½ − ½α M^-½ L)ᵀ(M^½ − ½α M^-½ L) ≥ 0      C_j = α² l²/(4 m_j)
+// and with α = s h² T/(4 l) the step is stable where s ≥ 1. A resolved mode of ωh = φ is slowed by s² φ⁴/128
+// of its frequency. Rigid pieces have less mass in their shortest waves, m (1 − x (¼ − I/ml²)) for
+// eigenvalues x ≤ 4 of L: the same square with α + m (¼ − I/ml²), or the bound at x = 4 where that is larger.
+#pragma once
+
+#include <span>
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// Before a step of h seconds, from the last step's impulses: inertia that is gained enters at equal turn
+/// rates, so that no energy comes of it; what is not needed any more goes after half a second, so that
+/// factors last. True where H changed.
+bool follow_tension(System& system, double h);
+
+/// After a solve: true where its impulses ask for half as much again as there is, which was raised then, and
+/// the solve is to be done once more.
+bool raise_to_tension(System& system, double h);
+
+/// Sets the rates after a step, with bodies' velocities in their new frames.
+void remember_turn_rates(System& system, std::span<const Vec3> velocities);
+
+/// The moment impulse of one of them, N m s; A gets its opposite.
+inline double turn_impulse(const TurnInertia& t, const Vec3& a, const Vec3& b) {
+  return t.inertia * (b.w - a.w - t.rate);
+}
+
+/// Adds the gradient at the bodies' v.
+void add_turn_impulses(const System& system, std::span<Vec3> g);
+
+}  // namespace ductile::dynamics
