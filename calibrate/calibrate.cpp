@@ -14,6 +14,7 @@
 #include "automatic.h"
 #include "caps.h"
 #include "ductile/fields.h"
+#include "fundamental.h"
 #include "moments.h"
 #include "plane.h"
 #include "split.h"
@@ -253,6 +254,7 @@ class Planner {
     for (const WheelDef& wheel : scene_.wheels)
       plan_.wheels.push_back({nearest_piece(wheel.chassis, wheel.at), pieces_of(wheel.wheel).first, wheel});
     refuse_problems();
+    find_damping_frequencies(plan_);
     return std::move(plan_);
   }
 

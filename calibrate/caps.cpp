@@ -134,10 +134,12 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
         joint.stiffness = {unlimited, unlimited, unlimited};
         break;
       case Elasticity::frequency:
+        joint.damping_frequency = elastic->frequency;
         joint.stiffness.M = by_frequency > 0 ? by_frequency : unlimited;
         break;
       case Elasticity::elastic_rotation:
         if (elastic->frequency > 0 && by_frequency > 0) {
+          joint.damping_frequency = elastic->frequency;
           joint.stiffness.M = by_frequency;
           v.value[M] = v.value[M_reverse] = by_frequency * elastic->elastic_rotation;
           v.source[M] = v.source[M_reverse] = user + elastic_level;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "convex.h"
 #include "ductile/box2d.h"
@@ -22,7 +23,6 @@ float checked(double value, const std::string& place, const char* name) {
 b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
 Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.carrier(piece).center; }
-double inertia(const Plan& plan, int piece) { return piece < 0 ? 0 : plan.carrier(piece).inertia; }
 
 template <class Def>
 void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {
@@ -82,6 +82,13 @@ std::vector<AxialMoment> clipped(const std::vector<AxialMoment>& polygon, AxialM
   return result;
 }
 
+// c = 2ζk/ω, N s/m or N m s: all rows of a structure in proportion to their stiffness, so that a mode of ω'
+// has ζω'/ω.
+double damping(const PlannedJoint& j, double stiffness) {
+  if (stiffness == unlimited || !(j.damping_frequency > 0)) return 0;
+  return j.damping_ratio * stiffness / (std::numbers::pi * j.damping_frequency);
+}
+
 }  // namespace
 
 // --- joints ---
@@ -92,7 +99,7 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   def.axisAngle = static_cast<float>(std::atan2(j.axis.y, j.axis.x));
   if (j.a < 0) def.axisFollow = 0;  // a support's axis stays with the ground
   const auto row = [&](double k, double cap, double reverse) {
-    return RowDef{.stiffness = k, .damping_ratio = j.damping_ratio, .cap = cap, .cap_reverse = reverse};
+    return RowDef{.stiffness = k, .cap = cap, .cap_reverse = reverse, .damping = damping(j, k)};
   };
   def.rows[axial] = row(j.stiffness.N, j.N, j.Nc);
   def.rows[shear] = row(j.stiffness.Q, j.Q, j.Q);
@@ -109,12 +116,8 @@ b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& j) {
   b2WeldJointDef def;
   place_anchors(def, plan, j);
   if (j.stiffness.M == unlimited) return def;
-  // c = 2ζ√(k·I), with I as in b2AngularStiffness.
-  const double a = inertia(plan, j.a), b = inertia(plan, j.b);
-  const double I = a > 0 && b > 0 ? a * b / (a + b) : std::max(a, b);
   def.stiffness = checked(j.stiffness.M, "joint '" + j.name + "'", "its stiffness");
-  def.damping =
-      checked(2 * j.damping_ratio * std::sqrt(j.stiffness.M * I), "joint '" + j.name + "'", "its damping");
+  def.damping = checked(damping(j, j.stiffness.M), "joint '" + j.name + "'", "its damping");
   return def;
 }
 

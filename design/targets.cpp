@@ -123,13 +123,13 @@ Mode slowest(const Plan& plan, const Equilibrium& statics, int column) {
   }
   x.normalize();
   const Eigen::VectorXd elongation = statics.B * x;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows(statics.B);
   double damping = 0;
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    const double inverse_mass = rows.row(row).squaredNorm(), k = statics.stiffness()[row];
-    if (inverse_mass > 0 && k > 0)
-      damping += 2 * plan.joints[static_cast<std::size_t>(row / 3)].damping_ratio *
-                 std::sqrt(k / inverse_mass) * elongation[row] * elongation[row];
+  for (Eigen::Index row = 0; row < elongation.size(); ++row) {
+    const PlannedJoint& j = plan.joints[static_cast<std::size_t>(row / 3)];
+    const double k = row % 3 == 0 ? j.stiffness.N : row % 3 == 1 ? j.stiffness.Q : j.stiffness.M;
+    if (k < unlimited && j.damping_frequency > 0)
+      damping +=
+          j.damping_ratio * k / (std::numbers::pi * j.damping_frequency) * elongation[row] * elongation[row];
   }
   const double omega = std::sqrt(square);
   return {omega / (2 * std::numbers::pi), damping / (2 * omega)};

@@ -35,7 +35,8 @@ struct JointOverrides {
   std::optional<double> shear;                     ///< N; likewise
   std::optional<Elasticity> elastic;
   double frequency = 0;                 ///< Hz, with `elastic`
-  std::optional<double> damping_ratio;  ///< ζ
+  /// ζ: with `frequency`, of a vibration of that frequency; otherwise of the structure's lowest elastic mode.
+  std::optional<double> damping_ratio;
   double elastic_rotation = 0;          ///< rad, with `elastic`
   std::optional<double> max_rotation;   ///< rad, accumulated; unlimited: never breaks by it
   std::optional<double> max_elongation, max_compression, max_slip;  ///< m, accumulated; likewise
@@ -150,7 +151,10 @@ struct PlannedJoint {
   struct Stiffness {
     double N = 0, Q = 0, M = 0;  ///< N/m, N/m, N m/rad; unlimited: rigid
   } stiffness;
-  double damping_ratio = 0;
+  double damping_ratio = 0;  ///< ζ of a vibration at `damping_frequency`: c = ζ k/(π f) in every elastic row
+  /// Hz: the lowest natural frequency of the joint's structure, as designed, or the frequency that the user
+  /// gave the joint; a vibration of another frequency f' is damped by ζ f'/f. 0 where nothing is elastic.
+  double damping_frequency = 0;
   double max_rotation = unlimited;    ///< rad, accumulated plastic
   double max_elongation = unlimited;  ///< m, likewise
   double max_compression = unlimited, max_slip = unlimited;

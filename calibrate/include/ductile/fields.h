@@ -123,18 +123,20 @@ inline constexpr std::tuple scene{Field{"gravity", &SceneDef::gravity, any_numbe
                                   Field{"interaction", &SceneDef::interaction}};
 
 /// The numbers of a calibrated joint; stiffness and place besides.
-inline constexpr std::tuple calibrated{Field{"N", &PlannedJoint::N, limit, "N"},
-                                       Field{"Nc", &PlannedJoint::Nc, limit, "N"},
-                                       Field{"Q", &PlannedJoint::Q, limit, "N"},
-                                       Field{"M", &PlannedJoint::M, limit, "N m"},
-                                       Field{"M_reverse", &PlannedJoint::M_reverse, limit, "N m"},
-                                       Field{"damping_ratio", &PlannedJoint::damping_ratio, not_negative},
-                                       Field{"max_rotation", &PlannedJoint::max_rotation, limit, "rad"},
-                                       Field{"max_elongation", &PlannedJoint::max_elongation, limit, "m"},
-                                       Field{"max_compression", &PlannedJoint::max_compression, limit, "m"},
-                                       Field{"max_slip", &PlannedJoint::max_slip, limit, "m"},
-                                       Field{"hinge_length", &PlannedJoint::hinge_length, not_negative, "m"},
-                                       Field{"height", &PlannedJoint::height, not_negative, "m"}};
+inline constexpr std::tuple calibrated{
+    Field{"N", &PlannedJoint::N, limit, "N"},
+    Field{"Nc", &PlannedJoint::Nc, limit, "N"},
+    Field{"Q", &PlannedJoint::Q, limit, "N"},
+    Field{"M", &PlannedJoint::M, limit, "N m"},
+    Field{"M_reverse", &PlannedJoint::M_reverse, limit, "N m"},
+    Field{"damping_ratio", &PlannedJoint::damping_ratio, not_negative},
+    Field{"damping_frequency", &PlannedJoint::damping_frequency, not_negative, "Hz"},
+    Field{"max_rotation", &PlannedJoint::max_rotation, limit, "rad"},
+    Field{"max_elongation", &PlannedJoint::max_elongation, limit, "m"},
+    Field{"max_compression", &PlannedJoint::max_compression, limit, "m"},
+    Field{"max_slip", &PlannedJoint::max_slip, limit, "m"},
+    Field{"hinge_length", &PlannedJoint::hinge_length, not_negative, "m"},
+    Field{"height", &PlannedJoint::height, not_negative, "m"}};
 
 inline constexpr std::tuple stiffness{Field{"N", &PlannedJoint::Stiffness::N, limit, "N/m"},
                                       Field{"Q", &PlannedJoint::Stiffness::Q, limit, "N/m"},
