@@ -99,7 +99,11 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   def.axisAngle = static_cast<float>(std::atan2(j.axis.y, j.axis.x));
   if (j.a < 0) def.axisFollow = 0;  // a support's axis stays with the ground
   const auto row = [&](double k, double cap, double reverse) {
-    return RowDef{.stiffness = k, .cap = cap, .cap_reverse = reverse, .damping = damping(j, k)};
+    return RowDef{.stiffness = k,
+                  .damping_ratio = j.damping_frequency > 0 ? 0 : j.damping_ratio,
+                  .cap = cap,
+                  .cap_reverse = reverse,
+                  .damping = damping(j, k)};
   };
   def.rows[axial] = row(j.stiffness.N, j.N, j.Nc);
   def.rows[shear] = row(j.stiffness.Q, j.Q, j.Q);

@@ -48,7 +48,7 @@ std::string shape(const b2Fixture& fixture) {
 
 std::string row(const RowDef& row) {
   return "{" + literal(row.stiffness) + ", " + literal(row.damping_ratio) + ", " + literal(row.cap) + ", " +
-         literal(row.cap_reverse) + "}";
+         literal(row.cap_reverse) + ", " + literal(row.hardening) + ", " + literal(row.damping) + "}";
 }
 
 // What every source begins with: one line per body, fixture and joint then suffices.

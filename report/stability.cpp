@@ -124,23 +124,28 @@ Scene scene_of(const Row& row, const Cell& cell) {
   return scene;
 }
 
-double energy(const Built& b, const Layout& layout, const b2Body* block, double block_mass, double gravity) {
+// In the middle of the last step of h seconds, where the velocities belong: half a step's way back, and the
+// mean of what was stored before and after it, which is no less than what is stored there. `stored` goes on
+// from step to step.
+double energy(const Built& b, const Layout& layout, const b2Body* block, double block_mass, double gravity,
+              double h, double& stored) {
   double sum = 0;
   const auto add = [&](const b2Body* body, double mass, double inertia, double y0) {
     const double vx = body->GetLinearVelocity().x, vy = body->GetLinearVelocity().y,
                  w = body->GetAngularVelocity();
     sum += (mass * (vx * vx + vy * vy) + inertia * w * w) / 2 +
-           mass * gravity * (double{body->GetWorldCenter().y} - y0);
+           mass * gravity * (double{body->GetWorldCenter().y} - h / 2 * vy - y0);
   };
   for (std::size_t i = 0; i < b.pieces.size(); ++i) {
     const Layout::Piece& p = layout.pieces[i];
     add(b.pieces[i], p.mass(), p.inertia(), p.y);
   }
   if (block != nullptr) add(block, block_mass, block_mass / 6, rest);
+  double now = 0;
   if (b.structure) {
-    for (const auto* joint : b.structure->joints()) sum += joint->elastic_energy();
+    for (const auto* joint : b.structure->joints()) now += joint->elastic_energy();
   }
-  return sum;
+  return sum + (std::exchange(stored, now) + now) / 2;
 }
 
 Outcome run(const Row& row, const Cell& cell, Built::Kind kind, double seconds) {
@@ -172,7 +177,8 @@ Outcome run(const Row& row, const Cell& cell, Built::Kind kind, double seconds) 
         std::min(3., std::sqrt(capacity * height / pull));  // 3: below the speed limit at 1/30 s
     b.set_rigid_motion(0, -omega * middle, omega);
   }
-  const double first = energy(b, layout, block, scene.block, scene.gravity);
+  double stored = 0;
+  const double first = energy(b, layout, block, scene.block, scene.gravity, 0, stored);
   const double EI = Steel::E * std::pow(height, 3) / 12,
                sag = Steel::density * height * g * std::pow(length, 4) / (8 * EI);
   double weight = 0;
@@ -185,7 +191,7 @@ Outcome run(const Row& row, const Cell& cell, Built::Kind kind, double seconds) 
   for (int i = 0; i < steps && out.verdict != Outcome::diverges; ++i) {
     b.step(cell.dt);
     out.bounds_hit = b.sum.bounds_hit;
-    last = energy(b, layout, block, scene.block, scene.gravity);
+    last = energy(b, layout, block, scene.block, scene.gravity, cell.dt, stored);
     out.residual = std::max(out.residual, (last - first) / scale);
     if (!std::isfinite(last) || out.residual > 0.01) out.verdict = Outcome::diverges;
     double flowed = 0;

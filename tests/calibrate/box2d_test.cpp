@@ -73,7 +73,10 @@ TEST(Definitions, CarryWhatThePlanSays) {
   EXPECT_EQ(def.rows[axial].cap, j.N);
   EXPECT_EQ(def.rows[shear].cap_reverse, j.Q);
   EXPECT_EQ(def.rows[rotation].stiffness, j.stiffness.M);
-  EXPECT_EQ(def.rows[rotation].damping_ratio, 0.05);
+  // c = 2ζk/ω, of the structure's lowest mode.
+  EXPECT_DOUBLE_EQ(def.rows[rotation].damping,
+                   0.05 * j.stiffness.M / (std::numbers::pi * j.damping_frequency));
+  EXPECT_EQ(def.rows[rotation].damping_ratio, 0);
   EXPECT_EQ(def.max_rotation, j.max_rotation);
   EXPECT_EQ(def.localAnchorA, b2Vec2(5, 0));
   EXPECT_EQ(def.localAnchorB, b2Vec2(-5, 0));

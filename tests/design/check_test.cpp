@@ -87,7 +87,7 @@ TEST(StaticCheck, AgreesWithTheSimulationAtRest) {
     const Plan plan = calibrate(scene);
     const StaticCheck check = static_check(plan);
     Simulation simulation(plan);
-    while (simulation.time() < 3) simulation.step();
+    while (simulation.time() < 10) simulation.step();
     double largest[3] = {}, apart[3] = {};
     for (std::size_t i = 0; i < plan.joints.size(); ++i) {
       const JointReading r = simulation.joint(i);

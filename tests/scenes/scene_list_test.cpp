@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(List, Scenes, testing::ValuesIn(scene_list), [](const a
 
 TEST(Cantilever, RootHoldsTheWeight) {
   Play run("cantilever");
-  run.until(20);  // until it no longer swings
+  run.until(30);  // until it no longer swings
   const double statics = run.moment_of_weight({0, 0.5});
   EXPECT_NEAR(run.joint("wall-beam/0").M, statics, 1e-6 * std::abs(statics));
 }
@@ -233,7 +233,7 @@ TEST(FrameBomb, TakesNoMoreEnergyThanTheBombBrought) {
 
 TEST(Car, CrossesTheDrawbridgeWhichHolds) {
   Play run("car");
-  run.until(13);
+  run.until(16);
   EXPECT_GT(run.piece("chassis").position.x, 110);  // the far end of the road behind the bridge
   const JointReading hinge = run.joint("bridge-road");
   EXPECT_GT(hinge.accumulated_rotation, 0.1);

@@ -49,8 +49,9 @@ TEST(CheckCommand, BucklingFirstFibreAndSecondOrder) {
   EXPECT_NEAR(bent["first_fibre"]["factor"].get<double>(), 10 / 1.5, 1e-9);
   EXPECT_EQ(bent["first_hinge"]["joint"], "wall-beam/0");
   EXPECT_NEAR(bent["first_hinge"]["factor"].get<double>(), 10, 1e-9);
-  EXPECT_EQ(bent["critical_load_factor"], nullptr);
-  EXPECT_NE(run("check " + plain).out.find("first order; does not buckle"), std::string::npos);
+  // Nothing is in compression: all that turning pieces feel is shear, thousands of times below what moves
+  // them.
+  EXPECT_GT(bent["critical_load_factor"].get<double>(), 1000);
 
   // Engesser's bar, which shears: 1/P = 1/P_E + 1/κGA.
   const double EI = 200e9 / 12, euler = 3.14159265358979 * 3.14159265358979 * EI / 400,

@@ -34,11 +34,11 @@ struct JointOverrides {
   std::optional<double> axial, axial_compression;  ///< N; likewise
   std::optional<double> shear;                     ///< N; likewise
   std::optional<Elasticity> elastic;
-  double frequency = 0;                 ///< Hz, with `elastic`
+  double frequency = 0;  ///< Hz, with `elastic`
   /// ζ: with `frequency`, of a vibration of that frequency; otherwise of the structure's lowest elastic mode.
   std::optional<double> damping_ratio;
-  double elastic_rotation = 0;          ///< rad, with `elastic`
-  std::optional<double> max_rotation;   ///< rad, accumulated; unlimited: never breaks by it
+  double elastic_rotation = 0;         ///< rad, with `elastic`
+  std::optional<double> max_rotation;  ///< rad, accumulated; unlimited: never breaks by it
   std::optional<double> max_elongation, max_compression, max_slip;  ///< m, accumulated; likewise
   std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
   /// m, from the joint to where the moment is 0, instead of `hinge_length`: the hinge is as long as hardening
@@ -153,7 +153,7 @@ struct PlannedJoint {
   } stiffness;
   double damping_ratio = 0;  ///< ζ of a vibration at `damping_frequency`: c = ζ k/(π f) in every elastic row
   /// Hz: the lowest natural frequency of the joint's structure, as designed, or the frequency that the user
-  /// gave the joint; a vibration of another frequency f' is damped by ζ f'/f. 0 where nothing is elastic.
+  /// gave the joint; a vibration of another frequency f' is damped by ζ f'/f. 0: of each row by itself.
   double damping_frequency = 0;
   double max_rotation = unlimited;    ///< rad, accumulated plastic
   double max_elongation = unlimited;  ///< m, likewise
