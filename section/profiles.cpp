@@ -1,19 +1,16 @@
 #include "ductile/profiles.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <initializer_list>
+#include <span>
 #include <string>
 
 #include "ductile/curves.h"
 
 namespace ductile::profiles {
 namespace {
-
-constexpr double quarter = std::numbers::pi / 2;
 
 std::string mm(double metres) {
   char text[32];
@@ -36,78 +33,98 @@ void require_positive(const char* profile, std::initializer_list<Requirement> le
 void require(bool holds, const char* profile, const std::string& what, const char* remedy) {
   if (!holds) throw InvalidInput({{profile, what, remedy}});
 }
+void require_radius(const char* profile, const char* name, double radius) {
+  require(radius >= 0 && std::isfinite(radius), profile, std::string(name) + " is " + mm(radius),
+          "it must be finite and not negative");
+}
 
-/// Four quarter arcs, so that the extreme fibres are drawn exactly.
-Ring circle(double radius, double tolerance) {
+/// An arc of n ≥ 2 chords, θ each, between two exact points of a circle. Its inner points lie at k times the
+/// radius such that it encloses with the centre what the sector does, (2k + (n − 2) k²) sin θ = nθ.
+/// Returns the area that lies on the other side of the drawn edge than it should at most, m².
+double add_arc(Ring& ring, Point centre, Point start, double sweep, double tolerance) {
+  const Point a{start.x - centre.x, start.y - centre.y}, b{-a.y, a.x};
+  const double radius = std::hypot(a.x, a.y), two_chords = radius * (1 - std::cos(sweep / 4));
+  const std::size_t before = ring.size();
+  flatten_arc(ring, centre, a, b, 0, sweep, std::min(tolerance, 0.999 * two_chords));
+  const auto n = static_cast<double>(ring.size() - before);
+  const double angle = std::abs(sweep) / n, x = n * angle / std::sin(angle);
+  const double k = x / (1 + std::sqrt(1 + (n - 2) * x));
+  for (std::size_t i = before; i + 1 < ring.size(); ++i)
+    ring[i] = {centre.x + k * (ring[i].x - centre.x), centre.y + k * (ring[i].y - centre.y)};
+  // The chords' segments: θ − sin θ by its series where it cancels.
+  return n * radius * radius / 2 * (angle < 1e-3 ? angle * angle * angle / 6 : angle - std::sin(angle));
+}
+
+/// The modulus that moving an area by no more than an arc's extent √2 r can change: W_plastic by that first
+/// moment, W_elastic = I/reach by twice it.
+double moved(double area, double radius) { return 3 * area * radius; }
+
+struct Corner {
+  Point at;
+  double radius = 0;  // 0: sharp
+};
+
+/// A polygon whose corners are rounded, outward ones and inward ones alike.
+Ring rounded(std::span<const Corner> corners, double tolerance, double& modulus_error) {
   Ring ring;
-  for (int q = 0; q < 4; ++q) {
-    flatten_arc(ring, {0, 0}, {radius, 0}, {0, radius}, q * quarter, quarter, tolerance);
-    ring.back() = {q == 1 ? -radius : q == 3 ? radius : 0, q == 0 ? radius : q == 2 ? -radius : 0};
+  const auto add = [&](Point p) {
+    if (ring.empty() || std::hypot(ring.back().x - p.x, ring.back().y - p.y) > 1e-12) ring.push_back(p);
+  };
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& [p, r] = corners[i];
+    if (r == 0) {
+      add(p);
+      continue;
+    }
+    const auto toward = [&](Point q) {
+      const double length = std::hypot(q.x - p.x, q.y - p.y);
+      return Point{(q.x - p.x) / length, (q.y - p.y) / length};
+    };
+    const Point u = toward(corners[(i + n - 1) % n].at), v = toward(corners[(i + 1) % n].at);
+    const double turn = std::atan2(u.y * v.x - u.x * v.y, -(u.x * v.x + u.y * v.y));  // of the ring's edges
+    const double leg = r * std::tan(std::abs(turn) / 2), side = turn > 0 ? r : -r;
+    const Point start{p.x + leg * u.x, p.y + leg * u.y}, centre{start.x + side * u.y, start.y - side * u.x};
+    add(start);
+    modulus_error += moved(add_arc(ring, centre, start, turn, tolerance), r);
+    ring.back() = {p.x + leg * v.x, p.y + leg * v.y};
   }
+  if (std::hypot(ring.front().x - ring.back().x, ring.front().y - ring.back().y) <= 1e-12) ring.pop_back();
   return ring;
 }
 
-/// The circular segments between a quarter arc of n chords and those chords.
-double segments(double radius, std::size_t n) {
-  const double angle = quarter / static_cast<double>(n);
-  // θ − sin θ by its series where it cancels
-  const double cap = angle < 1e-3 ? angle * angle * angle / 6 : angle - std::sin(angle);
-  return static_cast<double>(n) * radius * radius / 2 * cap;
-}
-
-/// With both axes of symmetry kept and the extreme fibres exact, an area δ that moves in or out at most
-/// `reach` from the axis changes W_plastic by δ·reach at most, and W_elastic = I/reach likewise.
-Profile drawn(Outline outline, double area_error, double reach) {
-  return {std::move(outline), area_error, area_error * reach};
+/// Counter-clockwise in four quarters, so that the extreme fibres are drawn exactly.
+Ring circle(double radius, double tolerance, double& modulus_error) {
+  const Point ends[] = {{radius, 0}, {0, radius}, {-radius, 0}, {0, -radius}, {radius, 0}};
+  Ring ring;
+  for (int q = 0; q < 4; ++q) {
+    modulus_error += moved(add_arc(ring, {0, 0}, ends[q], std::acos(0.0), tolerance), radius);
+    ring.back() = ends[q + 1];
+  }
+  return ring;
 }
 
 Ring centred_rectangle(double b, double h) {
   return {{-b / 2, -h / 2}, {b / 2, -h / 2}, {b / 2, h / 2}, {-b / 2, h / 2}};
 }
 
-// h, b, tw, tf, r in mm.
-constexpr Rolled table[] = {
-    {"IPE 80", 80, 46, 3.8, 5.2, 5},       {"IPE 100", 100, 55, 4.1, 5.7, 7},
-    {"IPE 120", 120, 64, 4.4, 6.3, 7},     {"IPE 140", 140, 73, 4.7, 6.9, 7},
-    {"IPE 160", 160, 82, 5, 7.4, 9},       {"IPE 180", 180, 91, 5.3, 8, 9},
-    {"IPE 200", 200, 100, 5.6, 8.5, 12},   {"IPE 220", 220, 110, 5.9, 9.2, 12},
-    {"IPE 240", 240, 120, 6.2, 9.8, 15},   {"IPE 270", 270, 135, 6.6, 10.2, 15},
-    {"IPE 300", 300, 150, 7.1, 10.7, 15},  {"IPE 330", 330, 160, 7.5, 11.5, 18},
-    {"IPE 360", 360, 170, 8, 12.7, 18},    {"IPE 400", 400, 180, 8.6, 13.5, 21},
-    {"IPE 450", 450, 190, 9.4, 14.6, 21},  {"IPE 500", 500, 200, 10.2, 16, 21},
-    {"IPE 550", 550, 210, 11.1, 17.2, 24}, {"IPE 600", 600, 220, 12, 19, 24},
-    {"HEA 100", 96, 100, 5, 8, 12},        {"HEA 120", 114, 120, 5, 8, 12},
-    {"HEA 140", 133, 140, 5.5, 8.5, 12},   {"HEA 160", 152, 160, 6, 9, 15},
-    {"HEA 180", 171, 180, 6, 9.5, 15},     {"HEA 200", 190, 200, 6.5, 10, 18},
-    {"HEA 220", 210, 220, 7, 11, 18},      {"HEA 240", 230, 240, 7.5, 12, 21},
-    {"HEA 260", 250, 260, 7.5, 12.5, 24},  {"HEA 280", 270, 280, 8, 13, 24},
-    {"HEA 300", 290, 300, 8.5, 14, 27},    {"HEA 320", 310, 300, 9, 15.5, 27},
-    {"HEA 340", 330, 300, 9.5, 16.5, 27},  {"HEA 360", 350, 300, 10, 17.5, 27},
-    {"HEA 400", 390, 300, 11, 19, 27},     {"HEA 450", 440, 300, 11.5, 21, 27},
-    {"HEA 500", 490, 300, 12, 23, 27},     {"HEA 550", 540, 300, 12.5, 24, 27},
-    {"HEA 600", 590, 300, 13, 25, 27},     {"HEA 650", 640, 300, 13.5, 26, 27},
-    {"HEA 700", 690, 300, 14.5, 27, 27},   {"HEA 800", 790, 300, 15, 28, 30},
-    {"HEA 900", 890, 300, 16, 30, 30},     {"HEA 1000", 990, 300, 16.5, 31, 30},
-    {"HEB 100", 100, 100, 6, 10, 12},      {"HEB 120", 120, 120, 6.5, 11, 12},
-    {"HEB 140", 140, 140, 7, 12, 12},      {"HEB 160", 160, 160, 8, 13, 15},
-    {"HEB 180", 180, 180, 8.5, 14, 15},    {"HEB 200", 200, 200, 9, 15, 18},
-    {"HEB 220", 220, 220, 9.5, 16, 18},    {"HEB 240", 240, 240, 10, 17, 21},
-    {"HEB 260", 260, 260, 10, 17.5, 24},   {"HEB 280", 280, 280, 10.5, 18, 24},
-    {"HEB 300", 300, 300, 11, 19, 27},     {"HEB 320", 320, 300, 11.5, 20.5, 27},
-    {"HEB 340", 340, 300, 12, 21.5, 27},   {"HEB 360", 360, 300, 12.5, 22.5, 27},
-    {"HEB 400", 400, 300, 13.5, 24, 27},   {"HEB 450", 450, 300, 14, 26, 27},
-    {"HEB 500", 500, 300, 14.5, 28, 27},   {"HEB 550", 550, 300, 15, 29, 27},
-    {"HEB 600", 600, 300, 15.5, 30, 27},   {"HEB 650", 650, 300, 16, 31, 27},
-    {"HEB 700", 700, 300, 17, 32, 27},     {"HEB 800", 800, 300, 17.5, 33, 30},
-    {"HEB 900", 900, 300, 18.5, 35, 30},   {"HEB 1000", 1000, 300, 19, 36, 30},
-};
+Ring rounded_rectangle(double b, double h, double r, double tolerance, double& modulus_error) {
+  std::vector<Corner> corners;
+  for (const Point p : centred_rectangle(b, h)) corners.push_back({p, r});
+  return rounded(corners, tolerance, modulus_error);
+}
 
-std::string plain(std::string_view name) {
-  std::string letters;
-  for (const char c : name)
-    if (!std::isspace(static_cast<unsigned char>(c)))
-      letters += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return letters;
+void require_flanged(const char* profile, double h, double b, double tw, double tf, double r, int fillets,
+                     double tolerance) {
+  require_positive(
+      profile, {{"height", h}, {"flange width", b}, {"web", tw}, {"flange", tf}, {"tolerance", tolerance}});
+  require_radius(profile, "fillet radius", r);
+  require(tw + fillets * r <= b && tw < b, profile,
+          "web " + mm(tw) + " and fillets of " + mm(r) + " do not fit the flange width " + mm(b),
+          "web and fillets must be no wider than the flange");
+  require(2 * tf + 2 * r <= h && 2 * tf < h, profile,
+          "flanges of " + mm(tf) + " and fillets of " + mm(r) + " do not fit the height " + mm(h),
+          "two flanges and two fillets must be no higher than the section");
 }
 
 }  // namespace
@@ -125,11 +142,28 @@ Profile box(double b, double h, double tw, double tf) {
   return {{centred_rectangle(b, h), {centred_rectangle(b - 2 * tw, h - 2 * tf)}}};
 }
 
+Profile hollow(double b, double h, double t, double outer_radius, double inner_radius, double tolerance) {
+  require_positive("hollow section", {{"width", b}, {"height", h}, {"wall", t}, {"tolerance", tolerance}});
+  require_radius("hollow section", "outer radius", outer_radius);
+  require_radius("hollow section", "inner radius", inner_radius);
+  const double least = std::min(b, h);
+  require(
+      2 * t < least && 2 * outer_radius <= least && 2 * (t + inner_radius) <= least, "hollow section",
+      "walls of " + mm(t) + " and corners of " + mm(outer_radius) + " do not fit " + mm(b) + " by " + mm(h),
+      "two walls and two corners must be no wider than the section");
+  Profile profile;
+  const double fine = std::min(tolerance, t / 4);  // the walls stay apart
+  profile.outline.outer = rounded_rectangle(b, h, outer_radius, fine, profile.modulus_error);
+  profile.outline.holes = {
+      rounded_rectangle(b - 2 * t, h - 2 * t, inner_radius, fine, profile.modulus_error)};
+  return profile;
+}
+
 Profile disc(double diameter, double tolerance) {
   require_positive("disc", {{"diameter", diameter}, {"tolerance", tolerance}});
-  Ring ring = circle(diameter / 2, tolerance);
-  const double error = 4 * segments(diameter / 2, ring.size() / 4);
-  return drawn({std::move(ring)}, error, diameter / 2);
+  Profile profile;
+  profile.outline.outer = circle(diameter / 2, tolerance, profile.modulus_error);
+  return profile;
 }
 
 Profile tube(double diameter, double thickness, double tolerance) {
@@ -137,64 +171,46 @@ Profile tube(double diameter, double thickness, double tolerance) {
   require(2 * thickness < diameter, "tube",
           "a wall of " + mm(thickness) + " fills a diameter of " + mm(diameter),
           "the wall must be thinner than the radius");
-  // The chords of the outer circle must stay clear of the inner one.
-  const double fine = std::min(tolerance, thickness / 2), R = diameter / 2, r = R - thickness;
-  Ring outer = circle(R, fine), inner = circle(r, fine);
-  const double error = std::max(4 * segments(R, outer.size() / 4), 4 * segments(r, inner.size() / 4));
-  return drawn({std::move(outer), {std::move(inner)}}, error, R);
+  Profile profile;
+  const double fine = std::min(tolerance, thickness / 4);  // the circles stay apart
+  profile.outline.outer = circle(diameter / 2, fine, profile.modulus_error);
+  profile.outline.holes = {circle(diameter / 2 - thickness, fine, profile.modulus_error)};
+  return profile;
 }
 
 Profile i_section(double h, double b, double tw, double tf, double r, double tolerance) {
-  require_positive(
-      "I-section",
-      {{"height", h}, {"flange width", b}, {"web", tw}, {"flange", tf}, {"tolerance", tolerance}});
-  require(r >= 0 && std::isfinite(r), "I-section", "fillet radius is " + mm(r),
-          "it must be finite and not negative");
-  require(tw + 2 * r <= b && tw < b, "I-section",
-          "web " + mm(tw) + " and fillets of " + mm(r) + " do not fit the flange width " + mm(b),
-          "web and two fillets must be no wider than the flange");
-  require(2 * tf + 2 * r <= h && 2 * tf < h, "I-section",
-          "flanges of " + mm(tf) + " and fillets of " + mm(r) + " do not fit the height " + mm(h),
-          "two flanges and two fillets must be no higher than the section");
-  // The upper right quarter from the flange's tip to the web, then its images.
-  Ring upper_right{{b / 2, h / 2}, {b / 2, h / 2 - tf}};
-  const double x = tw / 2 + r, y = h / 2 - tf - r;
-  std::size_t chords = 0;
-  if (r > 0) {
-    if (x < b / 2) upper_right.push_back({x, y + r});
-    const std::size_t before = upper_right.size();
-    flatten_arc(upper_right, {x, y}, {r, 0}, {0, r}, quarter, quarter, tolerance);
-    chords = upper_right.size() - before;
-    upper_right.back() = {tw / 2, y};
-  } else {
-    upper_right.push_back({x, y});
-  }
-  Ring ring;
-  const auto image = [&](double sx, double sy, bool backwards) {
-    const std::size_t n = upper_right.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Point p = upper_right[backwards ? n - 1 - i : i], q{sx * p.x, sy * p.y};
-      if (ring.empty() || ring.back() != q) ring.push_back(q);
-    }
-  };
-  image(1, 1, false);
-  image(1, -1, true);
-  image(-1, -1, false);
-  image(-1, 1, true);
-  return drawn({std::move(ring)}, chords > 0 ? 4 * segments(r, chords) : 0, std::max(h, b) / 2);
+  require_flanged("I-section", h, b, tw, tf, r, 2, tolerance);
+  const double H = h / 2, B = b / 2, w = tw / 2, y = h / 2 - tf;
+  const Corner corners[] = {{{B, H}},   {{-B, H}}, {{-B, y}}, {{-w, y}, r}, {{-w, -y}, r}, {{-B, -y}},
+                            {{-B, -H}}, {{B, -H}}, {{B, -y}}, {{w, -y}, r}, {{w, y}, r},   {{B, y}}};
+  Profile profile;
+  profile.outline.outer = rounded(corners, tolerance, profile.modulus_error);
+  return profile;
 }
 
-std::span<const Rolled> rolled() { return table; }
+Profile channel(double h, double b, double tw, double tf, double r, double tolerance) {
+  require_flanged("channel", h, b, tw, tf, r, 1, tolerance);
+  const double H = h / 2, y = h / 2 - tf;
+  const Corner corners[] = {{{0, H}},      {{0, -H}},    {{b, -H}}, {{b, -y}},
+                            {{tw, -y}, r}, {{tw, y}, r}, {{b, y}},  {{b, H}}};
+  Profile profile;
+  profile.outline.outer = rounded(corners, tolerance, profile.modulus_error);
+  return profile;
+}
 
-Profile rolled(std::string_view name, double tolerance) {
-  const std::string wanted = plain(name);
-  const auto* found = std::find_if(std::begin(table), std::end(table),
-                                   [&](const Rolled& row) { return plain(row.name) == wanted; });
-  if (found == std::end(table))
-    throw InvalidInput({{"profile '" + std::string(name) + "'", "is not in the table",
-                         "known are IPE 80 … 600 and HEA, HEB 100 … 1000"}});
-  return i_section(found->h / 1000, found->b / 1000, found->tw / 1000, found->tf / 1000, found->r / 1000,
-                   tolerance);
+Profile angle(double h, double b, double t, double root_radius, double toe_radius, double tolerance) {
+  require_positive("angle", {{"leg", h}, {"other leg", b}, {"thickness", t}, {"tolerance", tolerance}});
+  require_radius("angle", "root radius", root_radius);
+  require_radius("angle", "toe radius", toe_radius);
+  require(t + root_radius + toe_radius <= std::min(h, b) && toe_radius <= t && t < std::min(h, b), "angle",
+          "radii of " + mm(root_radius) + " and " + mm(toe_radius) + " do not fit legs of " + mm(h) +
+              " and " + mm(b) + ", " + mm(t) + " thick",
+          "thickness, root and toe must be no longer than the shorter leg, the toe no thicker than it");
+  const Corner corners[] = {
+      {{0, 0}}, {{b, 0}}, {{b, t}, toe_radius}, {{t, t}, root_radius}, {{t, h}, toe_radius}, {{0, h}}};
+  Profile profile;
+  profile.outline.outer = rounded(corners, tolerance, profile.modulus_error);
+  return profile;
 }
 
 }  // namespace ductile::profiles

@@ -1,12 +1,10 @@
-// Cross-sections that have a name: plates, boxes, discs, tubes, and rolled steel beams.
+// Cross-sections that have a shape's name: plates, boxes, discs, tubes, I-sections, channels, angles.
 //
-// All are symmetric about both axes and drawn about their centre, width along x and height along y; lengths
-// in m. Curves are drawn by points on them; what that changes is returned as a bound. Dimensions that make no
-// profile throw InvalidInput, which names them.
+// Width along x, height along y, m. Plates, boxes, discs, tubes and I-sections are drawn about their centre;
+// a channel has the back of its web on the y axis and its flanges toward +x; an angle has its heel at the
+// origin. Curves are drawn as polylines of exactly their area; what that changes elsewhere is returned as a
+// bound. Dimensions that make no profile throw InvalidInput, which names them.
 #pragma once
-
-#include <span>
-#include <string_view>
 
 #include "ductile/section.h"
 
@@ -14,8 +12,7 @@ namespace ductile {
 
 struct Profile {
   Outline outline;
-  double area_error = 0;     ///< m²: |area as drawn − area| is at most this
-  double modulus_error = 0;  ///< m³: likewise W_elastic and W_plastic about the x and the y axis
+  double modulus_error = 0;  ///< m³: |W as drawn − W| is at most this, elastic and plastic, about x and y
 };
 
 namespace profiles {
@@ -24,24 +21,18 @@ namespace profiles {
 Profile rectangle(double b, double h);
 /// Outer width b and height h; side walls tw thick, top and bottom tf. Sharp corners.
 Profile box(double b, double h, double tw, double tf);
+/// Walls t thick, corners of the given radii (0: sharp).
+Profile hollow(double b, double h, double t, double outer_radius, double inner_radius, double tolerance);
 /// `tolerance`: the farthest that the drawn edge is from the curve, m.
 Profile disc(double diameter, double tolerance);
 /// Outer diameter and wall.
 Profile tube(double diameter, double thickness, double tolerance);
 /// Height h, flange width b, web tw, flanges tf, and root fillets of radius r between them (0: none).
 Profile i_section(double h, double b, double tw, double tf, double r, double tolerance);
-
-/// Dimensions of a rolled section, mm, as its standard gives them.
-struct Rolled {
-  std::string_view name;   ///< "IPE 300"
-  double h, b, tw, tf, r;  ///< mm
-};
-
-/// IPE 80 … 600 (EN 10365; Euronorm 19-57) and HEA, HEB 100 … 1000 (EN 10365; Euronorm 53-62).
-std::span<const Rolled> rolled();
-
-/// By name; blanks and case do not matter ("ipe300"). Throws InvalidInput where there is no such section.
-Profile rolled(std::string_view name, double tolerance = 1e-5);
+/// The same of a channel with parallel flanges; b from the web's back to the flanges' tips.
+Profile channel(double h, double b, double tw, double tf, double r, double tolerance);
+/// Legs h (upright) and b, both t thick, a root fillet and toes rounded on their inner side.
+Profile angle(double h, double b, double t, double root_radius, double toe_radius, double tolerance);
 
 }  // namespace profiles
 }  // namespace ductile
