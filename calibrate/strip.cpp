@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ductile/shear.h"
 #include "moments.h"
 #include "plane.h"
 
@@ -41,7 +42,7 @@ Strength of(const Section& section) {
   const auto [low, high] = section.extent(tension_side);
   return {.N = c.N,
           .Nc = c.Nc,
-          .Q = c.Q,
+          .Q = shear_capacity(section, tension_side),
           .M = c.M,
           .M_reverse = c.M_reverse,
           .EA = e.EA,

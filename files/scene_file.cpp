@@ -1,6 +1,7 @@
 #include <map>
 
 #include "ductile/files.h"
+#include "ductile/rolled.h"
 #include "section_file.h"
 
 namespace ductile {
@@ -22,7 +23,7 @@ class SceneReader {
   BodyDef body(const Value& value);
   void outline(Object& body, const Value& value, BodyDef& def);
   Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
-  std::vector<Region> profile(const Value& value);
+  std::vector<Region> profile(const Value& value, const std::optional<Material>& material);
   /// The text of a file that the scene names; nothing after complaining at the place that names it.
   std::optional<std::string> named_file(const Value& value, const std::string& file) const;
 
@@ -247,9 +248,20 @@ void SceneReader::outline(Object& body, const Value& value, BodyDef& def) {
   }
 }
 
-std::vector<Region> SceneReader::profile(const Value& value) {
+std::vector<Region> SceneReader::profile(const Value& value, const std::optional<Material>& material) {
   if (value.json().is_object()) return read_regions(value);
   const auto file = value.text();
+  if (file && names_a_profile(*file) && !fs::exists(folder_ / *file)) {
+    try {
+      const Outline outline = draw(rolled(*file)).outline;
+      if (material) return {{outline, *material}};
+      value.wrong("is a profile of a body without \"material\"", "give the body the profile's material");
+      return {};
+    } catch (const InvalidInput& error) {
+      value.wrong(error.problems()[0].what, error.problems()[0].remedy);
+      return {};
+    }
+  }
   const auto text = file ? named_file(value, *file) : std::nullopt;
   if (!text) return {};
   try {
@@ -270,7 +282,7 @@ BodyDef SceneReader::body(const Value& value) {
   if (const auto shape = object.require("outline")) outline(object, *shape, def);
   if (const auto name = object.find("material")) def.material = material(*name);
   if (const auto section = object.find("profile")) {
-    def.profile = profile(*section);
+    def.profile = profile(*section, def.material);
     if (value.json().contains("depth")) {
       section->wrong("stands beside \"depth\"", "give one of the two: the profile has its own depth");
     }

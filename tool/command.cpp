@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "ductile/files.h"
 #include "ductile/level.h"
@@ -82,6 +83,12 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value + 0.) : "-";
 }  // no "-0"
+
+double ductility(const Material& material) {
+  return material.youngs_modulus > 0
+             ? material.fracture_strain * material.youngs_modulus / material.yield_stress
+             : std::numeric_limits<double>::infinity();
+}
 
 std::string title_of(const std::string& scene_file) {
   std::string name = std::filesystem::path(scene_file).filename().string();

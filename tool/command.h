@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 /// Adds one command to `app`; when it is the one that was called, parsing runs it and puts what it prints
 /// into `output`, so that nothing is printed of a command that fails.
 void add_section(CLI::App& app, std::string& output);
+void add_materials(CLI::App& app, std::string& output);
 void add_calibrate(CLI::App& app, std::string& output);
 void add_simulate(CLI::App& app, std::string& output);
 void add_check(CLI::App& app, std::string& output);
@@ -61,6 +62,10 @@ std::string buckling_line(bool second_order, double critical_load_factor);
 Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.
 std::string shown(double value);
+
+/// ε_f/ε_y: how many times its yield strain a material bears; infinite where E is not known. A plastic moment
+/// needs several.
+double ductility(const Material& material);
 
 /// What a picture of it is called: "scenes/harbour_crane.scene.json" is "Harbour crane".
 std::string title_of(const std::string& scene_file);

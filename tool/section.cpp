@@ -1,21 +1,29 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 
 #include "command.h"
 #include "ductile/files.h"
 #include "ductile/picture.h"
+#include "ductile/rolled.h"
+#include "ductile/shear.h"
 
 namespace ductile::tool {
 namespace {
 
 struct Options {
-  std::string file;
+  std::string file, material = "S235";
   std::vector<std::string> pictures;
   double angle = 90;
+  std::optional<double> N, Q, M;  // acting
   bool json = false;
 };
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Unit vector of the bending direction; exact along the axes.
 Point direction(double degrees) {
@@ -28,18 +36,149 @@ Point direction(double degrees) {
   return {std::cos(radians), std::sin(radians)};
 }
 
+/// What is asked about: a section of a file, or a profile by its name.
+struct Subject {
+  std::vector<Region> regions;
+  std::optional<Rolled> profile;
+};
+
+Subject read(const Options& options) {
+  if (!names_a_profile(options.file) || std::filesystem::exists(options.file))
+    return {read_section(options.file), std::nullopt};
+  const Material* material = materials::find(options.material);
+  if (!material)
+    throw InvalidInput({{"command line:--material", "'" + options.material + "' is no built-in material",
+                         "ductile materials lists them; a section file takes any"}});
+  Rolled profile = in_file("command line", [&] { return rolled(options.file); });
+  return {{{draw(profile).outline, *material}}, std::move(profile)};
+}
+
+/// A_v, and where it is from. NaN where τ_y differs between regions.
+struct ShearArea {
+  double Q, A_v;
+  const char* source;
+};
+
+ShearArea shear_area(const Subject& subject, const Section& section, Point d) {
+  const double tau = subject.regions.front().material.shear();
+  if (subject.profile && d.x == 0) {
+    if (const double A_v = ductile::shear_area(*subject.profile); A_v > 0)
+      return {A_v * tau, A_v, "EN 1993-1-1 6.2.6 (3)"};
+  }
+  const double Q = shear_capacity(section, d);
+  for (const Region& region : subject.regions)
+    if (region.material.shear() != tau) return {Q, unknown, "shear flow along the outline"};
+  return {Q, Q / tau, "shear flow along the outline"};
+}
+
+/// Second moments about the centroid; NaN where E or f_y differ between regions.
+struct Principal {
+  double angle, I_max, I_min, I_yz;  // degrees from the x axis; m⁴
+  double product(Point d) const {    // of the axes along and across d
+    return (I_max - I_min) / 2 * std::sin(2 * (angle * std::numbers::pi / 180 - std::atan2(d.y, d.x)));
+  }
+};
+
+Principal principal(const Section& section) {
+  const PrincipalAxes axes = section.principal_axes();
+  double angle = std::atan2(axes.strong.y, axes.strong.x) * 180 / std::numbers::pi;
+  if (angle <= -90) angle += 180;
+  if (angle > 90) angle -= 180;
+  Principal p{angle, section.elastic(axes.strong).I, section.elastic(axes.weak).I, 0};
+  p.I_yz = p.product({1, 0});
+  if (std::abs(p.I_yz) < 1e-12 * p.I_max) p.I_yz = 0;  // rounding
+  return p;
+}
+
+/// How much of the section the acting forces use: of each capacity, of all together, and of what it bears
+/// before its first fibre yields.
+struct Utilisation {
+  double N, Q, M, together, elastic;
+};
+
+Utilisation utilisation(const Options& options, const Section& section, Point d, const Capacities& c,
+                        const Elastic& e, double Q_max) {
+  const double N = options.N.value_or(0), Q = options.Q.value_or(0), M = options.M.value_or(0);
+  const Point centroid = section.centroid();
+  const double middle = centroid.x * d.x + centroid.y * d.y;
+  // Shear leaves √(1 − q²) of every stress, so all together is √(g² + q²), with g that of N and M: how far
+  // they are beyond the edge of the N–M curve that they meet.
+  const auto curve = section.interaction(d, middle, 1e-6);
+  double g = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Interaction a = curve[i], b = curve[(i + 1) % curve.size()];
+    g = std::max(g, (N * (b.M - a.M) - M * (b.N - a.N)) / (a.N * b.M - a.M * b.N));
+  }
+  const double q = std::abs(Q) / Q_max;
+  double fibre = unknown;
+  if (std::isfinite(e.I)) {
+    const Material& material = section.regions().front().material;
+    const auto [low, high] = section.extent(d);
+    fibre = 0;
+    for (const double s : {low, high}) {
+      const double stress = N / section.area() + M * (s - middle) / e.I;
+      fibre = std::max({fibre, stress / material.yield_stress, -stress / material.compression()});
+    }
+  }
+  return {N >= 0 ? N / c.N : -N / c.Nc, q, M >= 0 ? M / c.M : -M / c.M_reverse, std::hypot(g, q), fibre};
+}
+
+/// What a reader of the numbers has to know.
+std::vector<std::string> remarks(const Subject& subject, const Section& section, Point d,
+                                 const Principal& axes, std::optional<int> bending_class) {
+  std::vector<std::string> result;
+  const double extent = std::max(section.extent({1, 0}).second - section.extent({1, 0}).first,
+                                 section.extent({0, 1}).second - section.extent({0, 1}).first);
+  if (extent > 20)
+    result.push_back(
+        fmt::format("it is {:g} m across: sections are in metres; drawn in millimetres, it needs 0.001 of "
+                    "every coordinate",
+                    extent));
+  if (std::abs(axes.product(d)) > 1e-6 * axes.I_max)
+    result.push_back(
+        fmt::format("the direction is no principal one ({:.4g} degrees is): M, EI, I and W hold with the "
+                    "section kept from "
+                    "bending sideways",
+                    axes.angle));
+  if (bending_class && *bending_class > 2)
+    result.push_back(fmt::format("class {} in bending: {}", *bending_class,
+                                 *bending_class == 3 ? "it buckles locally before M; design with yield_moment"
+                                                     : "it buckles locally before its first fibre yields"));
+  for (const Region& region : subject.regions) {
+    if (const double strain = ductility(region.material); strain < 5) {
+      result.push_back(
+          fmt::format("a material breaks at {:.2g} times its yield strain: M is not reached; design with "
+                      "yield_moment",
+                      strain));
+      break;
+    }
+  }
+  return result;
+}
+
 std::string run(const Options& options) {
-  const auto regions = read_section(options.file);
-  const Section section = in_file(options.file, [&] { return Section(regions); });
+  const Subject subject = read(options);
+  const Section section = in_file(options.file, [&] { return Section(subject.regions); });
   const Point d = direction(options.angle);
   const Point centroid = section.centroid();
   const Capacities c = section.capacities(d);
   const Elastic e = section.elastic(d);
   const bool elastic = e.EA > 0;
-  const auto where_known = [&](double value) {
-    return elastic ? value : std::numeric_limits<double>::quiet_NaN();
-  };
+  const auto where_known = [&](double value) { return elastic ? value : unknown; };
   const auto curve = section.interaction(d, centroid.x * d.x + centroid.y * d.y);
+  const ShearArea shear = shear_area(subject, section, d);
+  const Principal axes = principal(section);
+  const std::array radii{std::sqrt(axes.I_max / section.area()), std::sqrt(axes.I_min / section.area())};
+  std::optional<Classes> classes;
+  std::optional<int> bending_class;
+  if (subject.profile) {
+    classes = section_class(*subject.profile, subject.regions[0].material.yield_stress);
+    if (d.x == 0) bending_class = classes->bending_y;
+    if (d.y == 0) bending_class = classes->bending_z;
+  }
+  std::optional<Utilisation> used;
+  if (options.N || options.Q || options.M) used = utilisation(options, section, d, c, e, shear.Q);
+  const auto notes = remarks(subject, section, d, axes, bending_class);
 
   if (!options.pictures.empty()) {
     const std::string svg = section_svg(section, d, title_of(options.file));
@@ -48,27 +187,45 @@ std::string run(const Options& options) {
   if (options.json) {
     Json interaction = Json::array();
     for (const Interaction& point : curve) interaction.push_back({{"N", point.N}, {"M", point.M}});
-    const Json result{{"area", section.area()},
-                      {"centroid", {centroid.x, centroid.y}},
-                      {"N", number(c.N)},
-                      {"Nc", number(c.Nc)},
-                      {"Q", number(c.Q)},
-                      {"M", number(c.M)},
-                      {"M_reverse", number(c.M_reverse)},
-                      {"pna", number(c.pna)},
-                      {"EA", number(where_known(e.EA))},
-                      {"EI", number(where_known(e.EI))},
-                      {"elastic_centroid", {e.centroid.x, e.centroid.y}},
-                      {"I", number(e.I)},
-                      {"W_elastic", number(e.W_elastic)},
-                      {"W_plastic", number(e.W_plastic)},
-                      {"shape_factor", number(e.shape_factor)},
-                      {"yield_moment", number(e.yield_moment)},
-                      {"interaction", interaction}};
+    Json result{
+        {"area", section.area()},
+        {"centroid", {centroid.x, centroid.y}},
+        {"N", number(c.N)},
+        {"Nc", number(c.Nc)},
+        {"Q", number(shear.Q)},
+        {"M", number(c.M)},
+        {"M_reverse", number(c.M_reverse)},
+        {"pna", number(c.pna)},
+        {"EA", number(where_known(e.EA))},
+        {"EI", number(where_known(e.EI))},
+        {"elastic_centroid", {e.centroid.x, e.centroid.y}},
+        {"I", number(e.I)},
+        {"W_elastic", number(e.W_elastic)},
+        {"W_plastic", number(e.W_plastic)},
+        {"shape_factor", number(e.shape_factor)},
+        {"yield_moment", number(e.yield_moment)},
+        {"interaction", interaction},
+        {"principal", {{"angle", axes.angle}, {"I_max", number(axes.I_max)}, {"I_min", number(axes.I_min)}}},
+        {"I_yz", number(axes.I_yz)},
+        {"radii_of_gyration", {number(radii[0]), number(radii[1])}},
+        {"A_v", number(shear.A_v)},
+        {"A_v_by", shear.source},
+        {"remarks", notes}};
+    if (classes)
+      result["class"] = {{"compression", classes->compression},
+                         {"bending", bending_class ? Json(*bending_class) : Json(nullptr)}};
+    if (used)
+      result["utilisation"] = {{"N", number(used->N)},
+                               {"Q", number(used->Q)},
+                               {"M", number(used->M)},
+                               {"together", number(used->together)},
+                               {"first_fibre", number(used->elastic)}};
     return result.dump() + "\n";
   }
 
-  std::string table = fmt::format("{}, bending direction {:g} degrees\n", options.file, options.angle);
+  std::string table = fmt::format(
+      "{}, bending direction {:g} degrees\n",
+      subject.profile ? subject.profile->name + " of " + options.material : options.file, options.angle);
   const auto row = [&](const char* name, double value, const char* unit, const char* meaning = "") {
     table += fmt::format("{:<13} {:>14}", name, shown(value));
     if (*unit || *meaning) table += fmt::format(" {:<{}} {}", unit, *meaning ? 5 : 0, meaning);
@@ -80,7 +237,8 @@ std::string run(const Options& options) {
   row("centroid y", centroid.y, "m");
   row("N", c.N, "N", "full tension");
   row("Nc", c.Nc, "N", "full compression");
-  row("Q", c.Q, "N", "full shear");
+  row("Q", shear.Q, "N", "full shear, A_v tau_y");
+  row("A_v", shear.A_v, "m2", shear.source);
   row("M", c.M, "N m", "fully plastic, the side toward the direction in tension");
   row("M_reverse", c.M_reverse, "N m", "fully plastic, the other side in tension");
   row("pna", c.pna, "m", "plastic neutral axis of M, along the direction");
@@ -91,6 +249,24 @@ std::string run(const Options& options) {
   row("W_plastic", e.W_plastic, "m3");
   row("shape_factor", e.shape_factor, "", "M / yield moment");
   row("yield_moment", e.yield_moment, "N m", "first fibre yields");
+  row("principal", axes.angle, "deg", "direction of I_max");
+  row("I_max", axes.I_max, "m4");
+  row("I_min", axes.I_min, "m4");
+  row("I_yz", axes.I_yz, "m4", "of the drawn axes through the centroid");
+  row("i_max", radii[0], "m", "radius of gyration of I_max");
+  row("i_min", radii[1], "m");
+  if (classes) {
+    row("class", classes->compression, "", "in compression, EN 1993-1-1 Table 5.2");
+    if (bending_class) row("", *bending_class, "", "in bending");
+  }
+  if (used) {
+    row("N used", used->N, "");
+    row("Q used", used->Q, "");
+    row("M used", used->M, "");
+    row("all used", used->together, "", "N, Q and M together, plastic");
+    row("first fibre", used->elastic, "", "N and M together, elastic");
+  }
+  for (const std::string& note : notes) table += note + "\n";
   return table;
 }
 
@@ -100,7 +276,15 @@ void add_section(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("section", "What a cross-section can carry: its capacities about one direction");
-  command->add_option("FILE", options->file, "section file")->required();
+  command->add_option("FILE", options->file, "section file, or a profile's name: IPE300")->required();
+  command->add_option("--material", options->material, "of a profile: a built-in material")
+      ->capture_default_str();
+  for (const auto& [name, value, what] :
+       {std::tuple{"--N", &options->N, "acting axial force, N, tension positive"},
+        std::tuple{"--Q", &options->Q, "acting shear force, N"},
+        std::tuple{"--M", &options->M,
+                   "acting moment, N m, positive with the side toward the direction in tension"}})
+    command->add_option(name, *value, what)->check(finite(-std::numeric_limits<double>::infinity()));
   command->add_option("--angle", options->angle, "bending direction in degrees from the x axis")
       ->check(finite(-std::numeric_limits<double>::infinity()))
       ->capture_default_str();

@@ -216,6 +216,7 @@ TEST(Calibrate, ProfileGivesCapsAndMass) {
   EXPECT_NEAR(j.N / (area * 350e6), 1, 1e-13);
   EXPECT_NEAR(j.M / (Z * 350e6), 1, 1e-13);
   EXPECT_NEAR(j.M_reverse / (Z * 350e6), 1, 1e-13);
+  EXPECT_NEAR(j.Q / (h * tw * test_steel.shear()), 1, 1e-12);
   EXPECT_NEAR(j.stiffness.M / (210e9 * I / 2), 1, 1e-13);
   EXPECT_NEAR(j.max_rotation / (0.2 * h / (h / 2)), 1, 1e-13);
   for (const Piece& piece : plan.pieces) {

@@ -241,6 +241,9 @@ INSTANTIATE_TEST_SUITE_P(
             body(
                 R"("depth": 1, "profile": {"regions": [{"outer": [[0,0],[1,0],[1,1]], "material": "S235"}]})"),
             "bodies[0].profile: "},
+        Bad{"profile_of_no_table", body(R"("material": "S235", "profile": "IPE 310")"),
+            "bodies[0].profile: is in no table; there are IPE 80"},
+        Bad{"profile_without_a_material", body(R"("profile": "IPE 300")"), "bodies[0].profile: "},
         Bad{"scale_of_a_ring", body(R"("scale": 2)"), "bodies[0].scale: "},
         Bad{"outline_number", outline("3"), "bodies[0].outline: "},
         Bad{"outline_without_id", outline("\"crane.svg\""), "bodies[0].outline: "},
@@ -276,6 +279,15 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"wheel_axis", R"({"bodies": [], "wheels": [{"between": ["a","b"], "at": [0,0], "axis": [0,0]}]})",
             "wheels[0].axis: "}),
     [](const auto& info) { return info.param.name; });
+
+TEST(SceneFile, ProfilesMayBeNamed) {  // IPE 300 is 5381 mm² in EN 10365's tables
+  const SceneDef scene = parse_scene(R"({"bodies": [
+    {"name": "beam", "outline": [[0,0],[6,0],[6,0.3],[0,0.3]], "profile": "ipe 300", "material": "S355"}]})",
+                                     "level.json", ".");
+  ASSERT_EQ(scene.bodies[0].profile.size(), 1u);
+  EXPECT_NEAR(Section(scene.bodies[0].profile).area(), 5381e-6, 0.5e-6);
+  EXPECT_EQ(scene.bodies[0].profile[0].material, materials::S355);
+}
 
 TEST(SceneFile, NamesAllProblemsAtOnce) {
   try {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "run.h"
@@ -10,6 +11,13 @@ using nlohmann::json;
 std::string rectangle(
     const std::string& material = R"({"fy": 355e6, "E": 210e9, "criterion": "von_mises"})") {
   return R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,0.2],[0,0.2]], "material": )" + material + "}]}";
+}
+
+template <class... Values>
+std::string fmt(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
 }
 
 constexpr double b = 0.1, h = 0.2, fy = 355e6, E = 210e9;
@@ -62,6 +70,83 @@ TEST(SectionCommand, DefaultsAreThePapers) {
       run("section " + folder.write("r.json", rectangle(R"({"fy": 355e6})")) + " --json").json();
   expect_near(result["Q"], b * h * fy / 2);  // Tresca
   EXPECT_TRUE(result["EA"].is_null());       // no E
+}
+
+TEST(SectionCommand, KnowsProfilesByName) {  // IPE 300 of S355: ArcelorMittal's table
+  const json result = run("section IPE300 --material S355 --json").json();
+  const auto printed = [&](const json& value, double table) { expect_near(value, table, 5e-4); };
+  printed(result["area"], 53.81e-4);
+  printed(result["I"], 8356e-8);
+  printed(result["W_elastic"], 557.1e-6);
+  printed(result["W_plastic"], 628.4e-6);
+  printed(result["A_v"], 25.68e-4);
+  expect_near(result["Q"], result["A_v"].get<double>() * 355e6 / std::numbers::sqrt3);
+  EXPECT_NE(result["A_v_by"].get<std::string>().find("6.2.6"), std::string::npos);
+  printed(result["principal"]["I_max"], 8356e-8);
+  printed(result["principal"]["I_min"], 603.8e-8);
+  expect_near(result["principal"]["angle"], 90);
+  EXPECT_NEAR(result["I_yz"].get<double>(), 0, 1e-18);
+  printed(result["radii_of_gyration"][0], 12.46e-2);
+  EXPECT_EQ(result["class"]["compression"], 4);
+  EXPECT_EQ(result["class"]["bending"], 1);
+  EXPECT_TRUE(result["remarks"].empty()) << result["remarks"];
+  // About its weak axis the flanges carry the shear: 2 b t_f.
+  const json weak = run("section IPE300 --angle 0 --json").json();
+  expect_near(weak["A_v"], 2 * 0.15 * 0.0107, 1e-9);
+  expect_bad_input(run("section IPE310"), "IPE 80 100 120");
+  expect_bad_input(run("section IPE300 --material cheese"), "ductile materials");
+}
+
+TEST(SectionCommand, TellsPrincipalAxesOfAnAngle) {  // L 100x100x10, SCI P363: I_u 280, I_v 73.0, I_y 177 cm⁴
+  const json result = run("section L100x100x10 --json").json();
+  EXPECT_NEAR(result["principal"]["I_max"].get<double>() * 1e8, 280, 0.5);
+  EXPECT_NEAR(result["principal"]["I_min"].get<double>() * 1e8, 73.0, 0.05);
+  expect_near(result["principal"]["angle"], -45);
+  EXPECT_NEAR(result["I_yz"].get<double>() * 1e8, -(280 - 73.0) / 2, 0.5);  // its legs are below and left
+  EXPECT_NEAR(result["radii_of_gyration"][0].get<double>() * 1e2, 3.83, 0.005);
+  EXPECT_NE(result["remarks"].dump().find("bending sideways"), std::string::npos);
+}
+
+TEST(SectionCommand, TellsHowMuchOfASectionIsUsed) {  // rectangle: m + n² = 1 where shear leaves √(1 − q²)
+  const Folder folder;
+  const std::string file = folder.write("r.json", rectangle());
+  const double N = b * h * fy, M = b * h * h / 4 * fy, Q = b * h * fy / std::numbers::sqrt3;
+  const double n = 0.4, m = 0.5, q = 0.6;
+  const json used =
+      run(fmt("section %s --N %.17g --M %.17g --Q %.17g --json", file.c_str(), -n * N, -m * M, q * Q))
+          .json()["utilisation"];
+  expect_near(used["N"], n, 1e-12);
+  expect_near(used["M"], m, 1e-12);
+  expect_near(used["Q"], q, 1e-12);
+  const double g = (m + std::sqrt(m * m + 4 * n * n)) / 2;  // m/g + (n/g)² = 1
+  expect_near(used["together"], std::hypot(g, q), 1e-5);
+  expect_near(used["first_fibre"], n + 1.5 * m, 1e-12);
+}
+
+TEST(SectionCommand, RemarksOnWhatTheNumbersDoNotSay) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& outer, const std::string& material) {
+    const std::string text = R"({"regions": [{"outer": )" + outer + R"(, "material": ")" + material + "\"}]}";
+    return run("section " + folder.write("s.json", text) + " --json").json()["remarks"].dump();
+  };
+  EXPECT_NE(remarks("[[0,0],[150,0],[150,300],[0,300]]", "S235").find("drawn in millimetres"),
+            std::string::npos);
+  EXPECT_EQ(remarks("[[0,0],[0.15,0],[0.15,0.3],[0,0.3]]", "S235"), "[]");
+  for (const char* brittle : {"oak", "pine", "concrete", "glass", "cast iron"})
+    EXPECT_NE(remarks("[[0,0],[0.1,0],[0.1,0.2],[0,0.2]]", brittle).find("M is not reached"),
+              std::string::npos);
+  EXPECT_NE(run("section UC152x152x23 --material S355").out.find("class 3"), std::string::npos);
+}
+
+TEST(MaterialsCommand, ListsEachWithItsSource) {
+  const json list = run("materials --json").json()["materials"];
+  EXPECT_GE(list.size(), 11u);
+  for (const json& material : list) {
+    EXPECT_GT(material["fy"].get<double>(), 0) << material;
+    EXPECT_NE(material["source"].get<std::string>().find("EN "), std::string::npos) << material;
+  }
+  expect_near(list[2]["fy"], 355e6);  // S355
+  EXPECT_NE(run("materials").out.find("EN 338:2016"), std::string::npos);
 }
 
 TEST(SectionCommand, PrintsATable) {
