@@ -107,6 +107,7 @@ class Check {
       const std::string place = "support " + std::to_string(i);
       known(s.supports[i].body, place);
       check(fields::support, s.supports[i], place);
+      check(fields::springs, s.supports[i], place);
     }
     for (std::size_t i = 0; i < s.loads.size(); ++i) {
       const LoadDef& l = s.loads[i];
@@ -174,6 +175,9 @@ class Check {
     if (b.name.empty() || b.name == "ground" || b.name.find_first_of("/#-") != std::string::npos)
       add(place, "is not a name that a body can have", "use one without / # -, that is not 'ground'");
     check(fields::body, b, place);
+    for (const Point v : b.velocities) finite(v, place, "velocities");
+    if (!b.velocities.empty() && (b.velocity != Point{} || b.angular_velocity != 0))
+      add(place, "has both velocities of its pieces and one of its own", "leave one of them out");
     overrides(b.joint, place);
 
     const bool dynamic = b.type == BodyType::dynamic_body;
@@ -246,7 +250,16 @@ class Planner {
     plan_.pieces.reserve(pieces);
     plan_.joints.reserve(pieces);
     strips_.reserve(plan_.bodies.size());
-    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) add_body(static_cast<int>(i));
+    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) {
+      add_body(static_cast<int>(i));
+      const std::size_t own = plan_.pieces.size() - first_piece_[i],
+                        given = plan_.bodies[i].velocities.size();
+      if (given != 0 && given != own)
+        problems_.push_back(
+            {body_place(plan_.bodies[i]),
+             "has " + std::to_string(given) + " velocities for " + std::to_string(own) + " pieces",
+             "give one per piece, in their order"});
+    }
     refuse_problems();  // what follows needs all pieces
     for (const JointBetweenDef& joint : scene_.joints) join(joint);
     for (std::size_t i = 0; i < scene_.supports.size(); ++i) support(static_cast<int>(i));
@@ -630,10 +643,13 @@ class Planner {
     joint.b = piece;
     joint.anchor = def.at;
     joint.axis = {1, 0};
-    joint.N = joint.Nc = def.fix_x ? unlimited : 0;
-    joint.Q = def.fix_y ? unlimited : 0;
-    joint.M = joint.M_reverse = def.fix_angle ? unlimited : 0;
-    joint.stiffness = {unlimited, unlimited, unlimited};
+    const auto held = [](bool fixed, double spring) { return fixed || spring > 0 ? unlimited : 0; };
+    const auto stiff = [](bool fixed, double spring) { return !fixed && spring > 0 ? spring : unlimited; };
+    joint.N = joint.Nc = held(def.fix_x, def.stiffness_x);
+    joint.Q = held(def.fix_y, def.stiffness_y);
+    joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
+    joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
+                       stiff(def.fix_angle, def.stiffness_angle)};
     joint.governed_by = caps_.reason("support");
   }
 

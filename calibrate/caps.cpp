@@ -152,6 +152,13 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
         break;
     }
   }
+  for (std::size_t i = overriding.size(); i-- > 0;) {
+    const JointOverrides& o = *overriding[i].values;
+    if (o.stiffness_axial || o.stiffness_shear || o.stiffness_moment) stiffness = overriding[i].name;
+    joint.stiffness = {o.stiffness_axial.value_or(joint.stiffness.N),
+                       o.stiffness_shear.value_or(joint.stiffness.Q),
+                       o.stiffness_moment.value_or(joint.stiffness.M)};
+  }
   joint.N = v.value[N];
   joint.Nc = v.value[Nc];
   joint.Q = v.value[Q];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ductile/rolled.h"
 #include "ductile/shear.h"
 #include "moments.h"
 #include "plane.h"
@@ -85,6 +86,10 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   const Section as_given(body.profile);
   profile_.emplace(moved(body.profile, -as_given.centroid()));
   of_profile_ = of(*profile_);
+  if (!body.profile_name.empty()) {
+    if (const double A_v = shear_area(rolled(body.profile_name)); A_v > 0)
+      of_profile_.Q = A_v * body.profile.front().material.shear();
+  }
 
   double mass = 0, inertia = 0;  // per metre of the strip, about the centroid, in the plane of the scene
   fracture_strain_ = unlimited;

@@ -128,11 +128,13 @@ Built build_bodies(b2World& world, const Plan& plan) {
   built.ground = create_ground(world, plan);
   int16 group = 0;
   Point centre;
+  std::size_t first = 0;  // piece of the body
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     const Piece& piece = plan.pieces[i];
     const BodyDef& body = plan.bodies[piece.body];
     if (i == 0 || plan.pieces[i - 1].body != piece.body) {
       const bool is_split = i + 1 < plan.pieces.size() && plan.pieces[i + 1].body == piece.body;
+      first = i;
       group = body.group == 0 && is_split ? groups.next() : body.group;
       centre = is_split && body.angular_velocity != 0 ? mass_centre(plan, piece.body) : piece.center;
     }
@@ -146,7 +148,10 @@ Built build_bodies(b2World& world, const Plan& plan) {
                                                          : b2_staticBody;
       def.position = vector(piece.center);
       if (def.type != b2_staticBody) {
-        def.linearVelocity = vector(body.velocity + body.angular_velocity * left(piece.center - centre));
+        const Point own = body.velocities.empty()
+                              ? body.velocity + body.angular_velocity * left(piece.center - centre)
+                              : body.velocities[i - first];
+        def.linearVelocity = vector(own);
         def.angularVelocity = static_cast<float>(body.angular_velocity);
       }
       def.allowSleep = plan.sleep;

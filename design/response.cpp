@@ -22,7 +22,8 @@ Response::Response(const Plan& plan, double impact)
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     if (statics_.column[i] < 0 || plan.pieces[i].part_of >= 0) continue;
     const BodyDef& body = plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)];
-    if (body.velocity != Point{} || body.angular_velocity != 0) energy = unlimited;
+    if (body.velocity != Point{} || body.angular_velocity != 0 || !body.velocities.empty())
+      energy = unlimited;
   }
   swing_.assign(swing_.size(), std::sqrt(2 * energy));
   strain_.assign(swing_.size(), 0);

@@ -121,7 +121,14 @@ SupportDef read_support(const Value& value) {
   SupportDef def;
   Object object(value);
   object.read(fields::support, def);
-  if (const auto fix = object.require("fix")) {
+  if (const auto stiffness = object.find("stiffness")) {
+    Object rows(*stiffness);
+    rows.read(fields::springs, def);
+    if (stiffness->json().is_object() && stiffness->json().empty())
+      stiffness->wrong("is empty", R"(give any of "x", "y", "angle")");
+  }
+  const bool sprung = value.json().contains("stiffness");
+  if (const auto fix = sprung ? object.find("fix") : object.require("fix")) {
     for (const Value& row : fix->elements()) {
       if (row.json() == "x") {
         def.fix_x = true;
@@ -280,9 +287,16 @@ BodyDef SceneReader::body(const Value& value) {
                  {"dynamic", BodyType::dynamic_body},
                  {"kinematic", BodyType::kinematic_body}});
   if (const auto shape = object.require("outline")) outline(object, *shape, def);
+  if (const auto velocities = object.find("velocities")) {
+    for (const Value& velocity : velocities->elements())
+      def.velocities.push_back(velocity.point().value_or(Point{}));
+  }
   if (const auto name = object.find("material")) def.material = material(*name);
   if (const auto section = object.find("profile")) {
     def.profile = profile(*section, def.material);
+    if (section->json().is_string() && names_a_profile(section->json().get<std::string>()) &&
+        !def.profile.empty())
+      def.profile_name = rolled(section->json().get<std::string>()).name;
     if (value.json().contains("depth")) {
       section->wrong("stands beside \"depth\"", "give one of the two: the profile has its own depth");
     }

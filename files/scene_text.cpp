@@ -96,8 +96,9 @@ Json json(const BodyDef& body, MaterialNames& names) {
   if (body.material) object["material"] = names.name(*body.material);
   if (!body.profile.empty()) {
     object.erase("depth");
-    object["profile"] = section_json(body.profile);
+    object["profile"] = body.profile_name.empty() ? section_json(body.profile) : Json(body.profile_name);
   }
+  for (const Point velocity : body.velocities) object["velocities"].push_back(json(velocity));
   if (body.automatic) {
     object["split"] = "auto";
   } else if (!body.cuts.empty()) {
@@ -123,7 +124,10 @@ Json json(const JointBetweenDef& joint) {
 Json json(const SupportDef& support) {
   Json object;
   put(object, fields::support, support);
-  object["fix"] = Json::array();
+  Json springs;
+  put(springs, fields::springs, support);
+  if (!springs.empty()) object["stiffness"] = springs;
+  if (support.fix_x || support.fix_y || support.fix_angle || springs.empty()) object["fix"] = Json::array();
   if (support.fix_x) object["fix"].push_back("x");
   if (support.fix_y) object["fix"].push_back("y");
   if (support.fix_angle) object["fix"].push_back("angle");

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "ductile/calibrate.h"
+#include "ductile/rolled.h"
 #include "scenes.h"
 
 namespace {
@@ -226,6 +227,58 @@ TEST(Calibrate, ProfileGivesCapsAndMass) {
   scene.bodies[0].outline.outer = rectangle(0, 3, 6, 3 + 1.02 * h);
   EXPECT_NE(problems_of(scene).find("0.408 m high where the profile of 'beam' is 0.4 m"), std::string::npos)
       << problems_of(scene);
+}
+
+TEST(Calibrate, NamedProfilesHaveTheShearAreaOfTheirStandard) {  // IPE 300: A_v = 25.68 cm² in its table
+  SceneDef scene = cantilever(2);
+  scene.bodies[1].outline = {rectangle(0, 0, 20, 0.3), {}};
+  scene.bodies[1].along = {};
+  scene.bodies[1].profile = {{draw(rolled("IPE 300")).outline, materials::S355}};
+  scene.bodies[1].profile_name = "IPE 300";
+  EXPECT_NEAR(joint(calibrate(scene), "beam/0-beam/1").Q / (25.68e-4 * 355e6 / std::sqrt(3.0)), 1, 2e-4);
+}
+
+TEST(Calibrate, EachStiffnessMayBeGivenAlone) {  // they go before `elastic`, the inner level before the outer
+  SceneDef scene = cantilever(2);
+  const PlannedJoint own = joint(calibrate(scene), "beam/0-beam/1");
+  scene.joint.stiffness_shear = unlimited;
+  scene.joint.stiffness_moment = 5;
+  scene.bodies[1].joint.stiffness_moment = 7;
+  PlannedJoint j = joint(calibrate(scene), "beam/0-beam/1");
+  EXPECT_EQ(j.stiffness.N, own.stiffness.N);
+  EXPECT_EQ(j.stiffness.Q, unlimited);
+  EXPECT_EQ(j.stiffness.M, 7);
+  scene.bodies[1].joint.elastic = Elasticity::rigid;
+  scene.bodies[1].joint.stiffness_axial = 3;
+  j = joint(calibrate(scene), "beam/0-beam/1");
+  EXPECT_EQ(j.stiffness.N, 3);
+  EXPECT_EQ(j.stiffness.M, 7);
+  scene.joint.stiffness_shear = 0;
+  EXPECT_NE(problems_of(scene).find("stiffness_shear is 0"), std::string::npos);
+}
+
+TEST(Calibrate, SupportsMayBeSprings) {
+  SceneDef scene = cantilever(2);
+  scene.supports.push_back({.body = "beam", .at = {10, 0.5}, .fix_x = true, .stiffness_y = 4e5});
+  const Plan plan = calibrate(scene);
+  const PlannedJoint& s = joint(plan, "support/0");
+  EXPECT_EQ(s.stiffness.N, unlimited);
+  EXPECT_EQ(s.N, unlimited);
+  EXPECT_EQ(s.stiffness.Q, 4e5);
+  EXPECT_EQ(s.Q, unlimited);
+  EXPECT_EQ(s.M, 0);  // free
+  scene.supports[0].stiffness_y = -1;
+  EXPECT_NE(problems_of(scene).find("y is -1"), std::string::npos);
+}
+
+TEST(Calibrate, VelocitiesAreOnePerPiece) {
+  SceneDef scene = cantilever(3);
+  scene.bodies[1].velocities = {{1, 0}, {0, 2}};
+  EXPECT_NE(problems_of(scene).find("2 velocities for 3 pieces"), std::string::npos) << problems_of(scene);
+  scene.bodies[1].velocities.push_back({3, 4});
+  EXPECT_EQ(calibrate(scene).bodies[1].velocities.size(), 3u);
+  scene.bodies[1].velocity = {1, 1};
+  EXPECT_NE(problems_of(scene).find("both velocities"), std::string::npos);
 }
 
 // A tee that is weak in one sense keeps it when another body's joint looks along it from the other end.

@@ -40,6 +40,18 @@ TEST(StaticCheck, StaticsAloneDecidesACantileverWhateverItsStiffness) {
   }
 }
 
+// A cantilever whose tip rests on a spring: the spring takes P k f/(1 + k f) of the load on it, f = L³/3EI.
+TEST(StaticCheck, ASpringSharesTheLoadByItsStiffness) {
+  const double f = L * L * L / 3 / (210e9 / 12), k = 2 / f;
+  SceneDef scene = cantilever(40, P);
+  scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+  scene.supports = {{.body = "beam", .at = {L, 0}, .stiffness_y = k}};
+  const Plan plan = calibrate(scene);
+  const StaticCheck check = static_check(plan);
+  EXPECT_NEAR(std::abs(at(plan, check, "support/0").Q) / (P * k * f / (1 + k * f)), 1, 1e-3);
+  EXPECT_NEAR(at(plan, check, "wall-beam/0").M / (-P * L / (1 + k * f)), 1, 1e-3);
+}
+
 // Bending alone P L³/3EI; the pieces' rotations are lumped in joints of ℓ, the root's of ℓ/2: the sum over
 // joints of M_i² ℓ_i/(P EI) differs from the integral by 1/2n² of it, and by n more pieces for shear.
 TEST(StaticCheck, ElasticTipDeflection) {

@@ -61,6 +61,10 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(beam.joint.max_slip, 0.2);
   EXPECT_EQ(beam.joint.hinge_length, 0.5);
   EXPECT_EQ(beam.joint.combine, true);
+  EXPECT_EQ(beam.joint.stiffness_axial, 5e8);
+  EXPECT_EQ(beam.joint.stiffness_shear, unlimited);
+  EXPECT_EQ(beam.joint.stiffness_moment, 7e6);
+  EXPECT_EQ(beam.velocities, (std::vector<Point>{{1, 2}, {3, 4}}));
 
   EXPECT_EQ(wheel.type, BodyType::kinematic_body);
   EXPECT_EQ(wheel.circle, 0.4);
@@ -76,6 +80,9 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(girder.material, materials::S235);
   EXPECT_EQ(girder.cuts, (std::vector<std::array<Point, 2>>{{{{5, 4}, {5, 7}}}, {{{10, 4}, {10, 7}}}}));
   EXPECT_TRUE(arm.automatic);
+  EXPECT_EQ(arm.profile_name, "IPE 300");
+  ASSERT_EQ(arm.profile.size(), 1u);
+  EXPECT_EQ(arm.profile[0].material, materials::S355);
 
   ASSERT_EQ(scene.joints.size(), 3u);
   EXPECT_EQ(scene.joints[0].a, "wall");
@@ -88,11 +95,16 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(scene.joints[2].overrides.elastic_rotation, 0.02);
   EXPECT_EQ(scene.joints[2].overrides.frequency, 3);
 
-  ASSERT_EQ(scene.supports.size(), 1u);
+  ASSERT_EQ(scene.supports.size(), 2u);
   EXPECT_EQ(scene.supports[0].at, (Point{20, 0.5}));
   EXPECT_FALSE(scene.supports[0].fix_x);
   EXPECT_TRUE(scene.supports[0].fix_y);
   EXPECT_TRUE(scene.supports[0].fix_angle);
+  EXPECT_EQ(scene.supports[0].stiffness_x, 4e5);
+  EXPECT_FALSE(scene.supports[1].fix_y);
+  EXPECT_EQ(scene.supports[1].stiffness_x, 0);
+  EXPECT_EQ(scene.supports[1].stiffness_y, 3);
+  EXPECT_EQ(scene.supports[1].stiffness_angle, 2);
 
   ASSERT_EQ(scene.loads.size(), 2u);
   EXPECT_EQ(scene.loads[0].force, (Point{0, -1e6}));
@@ -270,6 +282,15 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"zero_hinge_length", joint(R"("hinge_length": 0)"), "joints[0].hinge_length: "},
         Bad{"fix_nothing", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": []}]})",
             "supports[0].fix: "},
+        Bad{"stiffness_of_nothing",
+            R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "stiffness": {}}]})",
+            "supports[0].stiffness: "},
+        Bad{"stiffness_below_zero",
+            R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "stiffness": {"x": -1}}]})",
+            "supports[0].stiffness.x: "},
+        Bad{"stiffness_zero", body(R"("joint": {"stiffness_axial": 0})"),
+            "bodies[0].joint.stiffness_axial: "},
+        Bad{"velocities_flat", body(R"("velocities": [1, 2])"), "bodies[0].velocities[0]"},
         Bad{"fix_z", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": ["z"]}]})",
             "supports[0].fix[0]: "},
         Bad{"load_nowhere", R"({"bodies": [], "loads": [{"body": "a", "force": [0,1]}]})",

@@ -33,6 +33,9 @@ struct JointOverrides {
   std::optional<double> moment, moment_reverse;    ///< N m; unlimited, or 0 for a free row
   std::optional<double> axial, axial_compression;  ///< N; likewise
   std::optional<double> shear;                     ///< N; likewise
+  /// k of each row, N/m, N/m, N m/rad; unlimited: as stiff as the step can integrate. They go before
+  /// `elastic`.
+  std::optional<double> stiffness_axial, stiffness_shear, stiffness_moment;
   std::optional<Elasticity> elastic;
   double frequency = 0;  ///< Hz, with `elastic`
   /// ζ: with `frequency`, of a vibration of that frequency; otherwise of the structure's lowest elastic mode.
@@ -60,21 +63,25 @@ struct BodyDef {
   double circle = 0;  ///< m: a disc of this radius about the origin instead of an outline; not split
   std::optional<Material> material;  ///< required for dynamic bodies
   double depth = 1;                  ///< m, out of plane
-  std::vector<Region> profile;   ///< instead of depth: the section that the strip is extruded from, x out of
-                                 ///< plane, y across the strip, its centroid at the cut's middle; its height
-                                 ///< fits each cut within 1 %
+  std::vector<Region> profile;  ///< instead of depth: the section that the strip is extruded from, x out of
+                                ///< plane, y across the strip, its centroid at the cut's middle; its height
+                                ///< fits each cut within 1 %
+  /// What `profile` is called in rolled.h, if it has a name: its A_v is that of EN 1993-1-1, not of its
+  /// outline.
+  std::string profile_name;
   int pieces = 1;                ///< equal parts along `along`; 1: not split
   std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis. As
                                  ///< `cuts`, in the outline's own coordinates
   std::vector<std::array<Point, 2>>
-      cuts;                     ///< explicit cuts instead: segments that leave the outline at both ends
-  bool automatic = false;       ///< split: number and place of the cuts from SceneDef::target_error
-  JointOverrides joint;         ///< for the joints inside this body
-  Point at;                     ///< m: where the outline's origin is placed
-  double angle = 0;             ///< rad
-  Point velocity;               ///< m/s
-  double angular_velocity = 0;  ///< rad/s
-  std::int16_t group = 0;       ///< collision filter group, as Box2D
+      cuts;                       ///< explicit cuts instead: segments that leave the outline at both ends
+  bool automatic = false;         ///< split: number and place of the cuts from SceneDef::target_error
+  JointOverrides joint;           ///< for the joints inside this body
+  Point at;                       ///< m: where the outline's origin is placed
+  double angle = 0;               ///< rad
+  Point velocity;                 ///< m/s
+  double angular_velocity = 0;    ///< rad/s
+  std::vector<Point> velocities;  ///< m/s: of each piece, instead of velocity and angular_velocity
+  std::int16_t group = 0;         ///< collision filter group, as Box2D
 };
 
 /// Two bodies joined wherever their edges overlap.
@@ -84,11 +91,12 @@ struct JointBetweenDef {
   JointOverrides overrides;
 };
 
-/// Holds the piece under a point to the ground, in world axes.
+/// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free.
 struct SupportDef {
   std::string body;
   Point at;
   bool fix_x = false, fix_y = false, fix_angle = false;
+  double stiffness_x = 0, stiffness_y = 0, stiffness_angle = 0;  ///< N/m, N m/rad: of a spring; 0: none
 };
 
 /// A force and moment that ride with the piece under a point, in world axes.

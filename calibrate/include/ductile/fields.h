@@ -29,6 +29,7 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{0, true, {}, "a number > 0"};
 inline constexpr Range not_negative{0, false, {}, "a number >= 0"};
 inline constexpr Range limit{0, false, unlimited, "a number >= 0"};
+inline constexpr Range spring{0, true, unlimited, "a number > 0"};  ///< null: rigid
 
 /// One field of an `Owner`, whose default is that of Owner{}.
 template <class Owner, class T>
@@ -71,6 +72,9 @@ inline constexpr std::tuple overrides{
     Field{"axial", &JointOverrides::axial, limit, "N"},
     Field{"axial_compression", &JointOverrides::axial_compression, limit, "N"},
     Field{"shear", &JointOverrides::shear, limit, "N"},
+    Field{"stiffness_axial", &JointOverrides::stiffness_axial, spring, "N/m"},
+    Field{"stiffness_shear", &JointOverrides::stiffness_shear, spring, "N/m"},
+    Field{"stiffness_moment", &JointOverrides::stiffness_moment, spring, "N m/rad"},
     Field{"max_rotation", &JointOverrides::max_rotation, limit, "rad"},
     Field{"max_elongation", &JointOverrides::max_elongation, limit, "m"},
     Field{"max_compression", &JointOverrides::max_compression, limit, "m"},
@@ -96,7 +100,12 @@ inline constexpr std::tuple body{Field{"name", &BodyDef::name, any_number, "", t
 /// A joint between bodies; `between` and overrides besides.
 inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"}};
 
-/// A support; `fix` besides.
+/// The springs of a support.
+inline constexpr std::tuple springs{Field{"x", &SupportDef::stiffness_x, positive, "N/m"},
+                                    Field{"y", &SupportDef::stiffness_y, positive, "N/m"},
+                                    Field{"angle", &SupportDef::stiffness_angle, positive, "N m/rad"}};
+
+/// A support; `fix` and springs besides.
 inline constexpr std::tuple support{Field{"body", &SupportDef::body, any_number, "", true},
                                     Field{"at", &SupportDef::at, any_number, "m", true}};
 

@@ -45,6 +45,7 @@ Json tables() {
           {"body", table<BodyDef>(fields::body)},
           {"joint", table<JointBetweenDef>(fields::joint)},
           {"support", table<SupportDef>(fields::support)},
+          {"springs", table<SupportDef>(fields::springs)},
           {"load", table<LoadDef>(fields::load)},
           {"wheel", table<WheelDef>(fields::wheel)},
           {"scene", table<SceneDef>(fields::scene)}};
