@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "blocks.h"
 #include "reveal.h"
 #include "structure.h"
 
@@ -43,9 +45,6 @@ using namespace dynamics;
 namespace {
 
 // b2_block_allocator.cpp
-constexpr std::size_t chunk_size = std::size_t{16} * 1024;
-constexpr int32 block_sizes[b2_blockSizeCount] = {16,  32,  64,  96,  128, 160, 192,
-                                                  224, 256, 320, 384, 448, 512, 640};
 struct Chunk {
   int32 block_size;
   std::byte* blocks;
@@ -53,7 +52,9 @@ struct Chunk {
 struct FreeBlock {
   FreeBlock* next;
 };
-static_assert(sizeof(b2Body) <= 640 && sizeof(b2WheelJoint) <= 640, "what is larger lies elsewhere");
+static_assert(std::size(block_sizes) == b2_blockSizeCount);
+static_assert(block_of(sizeof(b2Body)) > 0 && block_of(sizeof(b2WheelJoint)) > 0,
+              "what is larger lies elsewhere");
 
 using Bytes = std::vector<std::byte>;
 
@@ -200,8 +201,7 @@ void Snapshot::Impl::restore(b2World& w) const {
   // place.
   for (int32 i = known; i < of(allocator, b2BlockAllocator_m_chunkCount{}); ++i) {
     const auto size = static_cast<std::size_t>(chunk[i].block_size);
-    auto& head =
-        free[std::find(block_sizes, block_sizes + b2_blockSizeCount, chunk[i].block_size) - block_sizes];
+    auto& head = free[std::find(block_sizes, block_sizes + b2_blockSizeCount, size) - block_sizes];
     for (std::size_t at = 0; at + size <= chunk_size; at += size) {
       head = reinterpret_cast<b2Block*>(new (chunk[i].blocks + at)
                                             FreeBlock{reinterpret_cast<FreeBlock*>(head)});

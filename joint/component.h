@@ -14,8 +14,8 @@
 
 namespace ductile {
 
-/// Throws std::invalid_argument that names every wrong field.
-void check(const ElasticPlasticJointDef& def);
+/// What is wrong with a def by itself, one message each.
+std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def);
 b2Body* watch_world(b2World& world, Structure::Impl& structure);
 /// The structures of a world, in an order that only their coming and going changes.
 std::vector<Structure::Impl*> structures_in(b2World& world);
@@ -47,10 +47,12 @@ struct Member {
   bool fresh = true;               // never solved: its neutral position is where it is first seen
   bool broken = false;
   bool yielded = false;
-  double told = 0;  // capacity_used() of the last flow event
+  double told = 0;         // capacity_used() of the last flow event
+  double told_energy = 0;  // J dissipated by the last event
   double max_rotation = unlimited, max_elongation = unlimited, max_compression = unlimited,
          max_slip = unlimited;
   int break_group = 0;
+  int node = 0;
   std::shared_ptr<const YieldSurface> surface;
 
   void belong_to(Component* to) { joint->component_ = component = to; }

@@ -23,10 +23,10 @@ void ElasticPlasticJointDef::Initialize(b2Body* a, b2Body* b, const b2Vec2& anch
   axisAngle = b2Atan2(axis.y, axis.x) - a->GetAngle();
 }
 
-void check(const ElasticPlasticJointDef& def) {
-  std::string wrong;
+std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
+  std::vector<std::string> wrong;
   const auto require = [&](bool good, const std::string& text) {
-    if (!good) wrong += (wrong.empty() ? "" : "\n") + ("elastic-plastic joint: " + text);
+    if (!good) wrong.push_back("elastic-plastic joint: " + text);
   };
   require(def.bodyA != nullptr && def.bodyB != nullptr, "bodyA and bodyB must be set; call Initialize");
   require(def.bodyA != def.bodyB || def.bodyA == nullptr,
@@ -62,7 +62,7 @@ void check(const ElasticPlasticJointDef& def) {
       require(false, error.what());
     }
   }
-  if (!wrong.empty()) throw std::invalid_argument(wrong);
+  return wrong;
 }
 
 ElasticPlasticJoint* ElasticPlasticJoint::cast(b2Joint* joint) {
@@ -121,6 +121,7 @@ double ElasticPlasticJoint::capacity_used() const {
                    share(compression(), member_->max_compression), share(slip(), member_->max_slip)});
 }
 
+bool ElasticPlasticJoint::yielded() const { return member_ != nullptr && member_->yielded; }
 bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_->broken; }
 
 double ElasticPlasticJoint::dissipated() const {

@@ -14,7 +14,7 @@ using namespace dynamics;
 Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(watch_world(w, *this)) {}
 
 Structure::Impl::~Impl() {
-  if (world == nullptr) return;
+  if (watch == nullptr) return;
   for (const auto& m : members) m->joint->member_ = nullptr;
   std::vector<ElasticPlasticJoint*> broken;
   for (const auto& m : members) {
@@ -24,7 +24,7 @@ Structure::Impl::~Impl() {
   world->DestroyBody(std::exchange(watch, nullptr));
 }
 
-void Structure::Impl::world_is_gone() {
+void Structure::Impl::watch_is_gone(bool with_world) {
   // Destroying the watch by hand comes here too: the joints, still there, go on as welds.
   if (watch == nullptr) return;
   for (const auto& m : members) m->joint->member_ = nullptr;
@@ -32,8 +32,10 @@ void Structure::Impl::world_is_gone() {
   joints.clear();
   components.clear();
   pending_.clear();
+  orphans.clear();
+  told_ = 0;
   watch = nullptr;
-  world = nullptr;
+  if (with_world) world = nullptr;
 }
 
 ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlasticJointDef& d) {
@@ -46,6 +48,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.max_compression = d.max_compression;
   m.max_slip = d.max_slip;
   m.break_group = d.break_group;
+  m.node = d.node;
   for (unsigned i = 0; i < 3; ++i) {
     const RowDef& row = d.rows[i];
     m.own_record.material.stiffness[i] = row.stiffness;
@@ -69,6 +72,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   enlisted_.reserve(members.capacity());
   active_.reserve(members.capacity());
   pending_.reserve(4 * members.capacity());
+  if (d.node != 0) mark(*a), mark(*b);
   a->SetAwake(true);
   b->SetAwake(true);
   return m.joint;
@@ -83,6 +87,7 @@ void Structure::Impl::forget(Member& member) {
   }
   for (const double joules : member.own_record.dissipated) gone_.dissipated += joules;
   for (const double joules : member.own_record.stored) gone_.numerical += joules;  // lost with the joint
+  if (member.node != 0 && !member.broken) orphans.push_back(orphan_of(member));
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
@@ -226,16 +231,23 @@ void Structure::Impl::look_for_breaks(Component& component) {
   }
 }
 
-void Structure::Impl::say(const Member& member, const JointEvent& event) {
+void Structure::Impl::say(Member& member, JointEvent event) {
   // Never allocates inside a step: what finds no room is not said.
-  if (pending_.size() < pending_.capacity()) pending_.push_back({member.id, event});
+  if (pending_.size() == pending_.capacity()) return;
+  event.worked = event.energy - std::exchange(member.told_energy, event.energy);
+  pending_.push_back({member.id, event});
 }
 
 // Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
 void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row) {
   const auto let_go = [&](Member& m) {
     m.broken = broke_ = true;
-    say(m, {JointEvent::broke, mode, m.joint, m.joint->force(row), m.joint->dissipated()});
+    say(m, {.kind = JointEvent::broke,
+            .mode = mode,
+            .joint = m.joint,
+            .force = m.joint->force(row),
+            .energy = m.joint->dissipated(),
+            .released = m.joint->elastic_energy()});
     Joint& j = m.data();
     JointRecord& r = m.record();
     if (m.component != nullptr) m.component->solver.find_gaps();
@@ -270,6 +282,9 @@ JointEnergy Structure::Impl::energy() const {
 }
 
 void Structure::Impl::update() {
+  if (watch == nullptr || telling_) return;
+  if (world->IsLocked())
+    throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
   if (std::exchange(stepped_, false)) {
     worst.bounds_hit += report.bounds_hit;
     worst.parted += report.parted;
@@ -279,17 +294,33 @@ void Structure::Impl::update() {
   if (def.keep_ledger) {
     for (const auto& c : components) gone_.clamped += c->close_ledger();
   }
-  // The handler may destroy anything: joints are looked up by id each time.
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
-    const Pending p = pending_[i];
-    if (handler && find(p.id) != members.end()) handler(p.event);
-    if (world == nullptr) return;
+  tell();
+  if (watch == nullptr) return;
+  if (std::exchange(broke_, false)) {
+    for (std::size_t i = members.size(); i-- > 0;) {
+      if (i < members.size() && members[i]->broken) world->DestroyJoint(members[i]->joint);
+    }
+  }
+  join_orphans();
+}
+
+// The handler may destroy anything: joints are looked up by id each time. It may throw: what it was told is
+// told.
+void Structure::Impl::tell() {
+  struct Telling {
+    bool& telling;
+    explicit Telling(bool& flag) : telling(flag) { telling = true; }
+    ~Telling() { telling = false; }
+  } telling(telling_);
+  while (told_ < pending_.size()) {
+    Pending p = pending_[told_++];
+    const auto member = find(p.id);
+    if (!handler || member == members.end()) continue;
+    p.event.at = (*member)->joint->GetAnchorA();
+    handler(p.event);
   }
   pending_.clear();
-  if (!std::exchange(broke_, false)) return;
-  for (std::size_t i = members.size(); i-- > 0;) {
-    if (i < members.size() && members[i]->broken) world->DestroyJoint(members[i]->joint);
-  }
+  told_ = 0;
 }
 
 auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {
@@ -323,7 +354,8 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, pending_};
+  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, {}, orphans, last_node};
+  s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
     std::vector<std::uint32_t> ids;
@@ -344,6 +376,9 @@ void Structure::Impl::restore(const State& s) {
   stepped_ = s.stepped;
   gone_ = s.gone;
   pending_.assign(s.pending.begin(), s.pending.end());
+  told_ = 0;
+  orphans = s.orphans;
+  last_node = s.last_node;
   broke_ = true;  // update() looks for itself
   enlisted_.clear();
   active_.clear();
@@ -367,38 +402,72 @@ void Structure::Impl::restore(const State& s) {
   }
 }
 
-Structure::Structure(b2World& world, const StructureDef& def) : impl_(std::make_unique<Impl>(world, def)) {}
+namespace {
+
+b2World& between_steps(b2World& world) {
+  if (world.IsLocked())
+    throw std::logic_error("structure: the world is stepping; make structures between steps");
+  return world;
+}
+
+[[noreturn]] void refuse(const std::vector<std::string>& problems) {
+  std::string all;
+  for (const std::string& problem : problems) all += (all.empty() ? "" : "\n") + problem;
+  throw std::invalid_argument(all);
+}
+
+}  // namespace
+
+Structure::Structure(b2World& world, const StructureDef& def)
+    : impl_(std::make_unique<Impl>(between_steps(world), def)) {
+  impl_->handle = this;
+}
 Structure::~Structure() = default;
-Structure::Structure(Structure&&) noexcept = default;
-Structure& Structure::operator=(Structure&&) noexcept = default;
+Structure::Structure(Structure&& other) noexcept : impl_(std::move(other.impl_)) {
+  if (impl_) impl_->handle = this;
+}
+Structure& Structure::operator=(Structure&& other) noexcept {
+  impl_ = std::move(other.impl_);
+  if (impl_) impl_->handle = this;
+  return *this;
+}
+
+Structure* Structure::of(b2World& world) {
+  const std::vector<Impl*> all = structures_in(world);
+  return all.empty() ? nullptr : all.front()->handle;
+}
+
+b2World* Structure::world() const { return impl_->watch != nullptr ? impl_->world : nullptr; }
+
+std::vector<std::string> Structure::problems(const ElasticPlasticJointDef& def) const {
+  return impl_->problems(def);
+}
 
 ElasticPlasticJoint* Structure::create_joint(const ElasticPlasticJointDef& def) {
-  check(def);
-  if (impl_->world == nullptr)
-    throw std::invalid_argument("structure: its world is gone; make a new structure");
+  if (const auto problems = impl_->problems(def); !problems.empty()) refuse(problems);
+  if (impl_->watch == nullptr) impl_->watch = watch_world(*impl_->world, *impl_);
+  impl_->join_orphans();
   b2WeldJointDef weld;
   static_cast<b2JointDef&>(weld) = def;
   weld.type = e_weldJoint;
   weld.localAnchorA = def.localAnchorA;
   weld.localAnchorB = def.localAnchorB;
   weld.referenceAngle = def.referenceAngle;
-  b2Joint* joint = impl_->world->CreateJoint(&weld);
-  if (joint == nullptr)
-    throw std::invalid_argument("structure: the world is stepping; create joints between steps");
-  return impl_->take(static_cast<b2WeldJoint*>(joint), def);
+  return impl_->take(static_cast<b2WeldJoint*>(impl_->world->CreateJoint(&weld)), def);
 }
 
 ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def) {
   if (weld == nullptr) throw std::invalid_argument("structure: no weld to adopt");
-  ElasticPlasticJointDef own = def;
-  own.bodyA = weld->GetBodyA();
-  own.bodyB = weld->GetBodyB();
-  check(own);
   if (const auto* own_kind = ElasticPlasticJoint::cast(weld); own_kind && own_kind->member_ != nullptr) {
     throw std::invalid_argument(
         "structure: the weld is a joint of a structure already; adopt stock welds, or those of one that is "
         "gone");
   }
+  ElasticPlasticJointDef own = def;
+  own.bodyA = weld->GetBodyA();
+  own.bodyB = weld->GetBodyB();
+  if (const auto problems = impl_->problems(own); !problems.empty()) refuse(problems);
+  if (impl_->watch == nullptr) impl_->watch = watch_world(*impl_->world, *impl_);
   return impl_->take(weld, own);
 }
 

@@ -9,13 +9,30 @@
 
 namespace ductile {
 
+/// What held a body to a node and went without breaking.
+struct Orphan {
+  ElasticPlasticJointDef def;
+  std::shared_ptr<const dynamics::YieldSurface> surface;
+  dynamics::PlasticFlow plastic;
+};
+
+/// A body that is in a node keeps a mark, by which it is told from another one that was made at its address.
+void mark(b2Body& body);
+Orphan orphan_of(const dynamics::Member& member);
+
 struct Structure::Impl {
   Impl(b2World& w, const StructureDef& d);
   ~Impl();
 
   ElasticPlasticJoint* take(b2WeldJoint* weld, const ElasticPlasticJointDef& joint_def);
   void forget(dynamics::Member& member);
-  void world_is_gone();
+  /// With its world, or with all bodies of it, or alone.
+  void watch_is_gone(bool with_world);
+  std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
+  /// Whether a structure has joints on the body that is not this one.
+  bool is_of_another(const b2Body& body) const;
+  /// Joins to each other what hung on bodies of nodes that are no more.
+  void join_orphans();
 
   // The phases of an island in b2World::Step, called by its joints.
   bool enlist(dynamics::Member* member, dynamics::Component* component);  // whether it is the first
@@ -32,9 +49,10 @@ struct Structure::Impl {
   std::size_t bytes() const;
   JointEnergy energy() const;
 
-  b2World* world;  // nullptr once it is gone
+  b2World* world;  // nullptr once it is gone, as far as known: that takes a watch
   StructureDef def;
   b2Body* watch;
+  Structure* handle = nullptr;
   std::uint32_t next_id = 0;
   std::vector<std::unique_ptr<dynamics::Member>> members;  // by id
   std::vector<ElasticPlasticJoint*> joints;                // as members
@@ -42,6 +60,8 @@ struct Structure::Impl {
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
+  std::vector<Orphan> orphans;  // since the last update()
+  int last_node = 0;            // of new_node(): negative, so that a game's own are others
   StepReport worst;  // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
  private:
@@ -49,7 +69,8 @@ struct Structure::Impl {
   void dissolve(dynamics::Component& component);
   void look_for_breaks(dynamics::Component& component);
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
-  void say(const dynamics::Member& member, const JointEvent& event);
+  void say(dynamics::Member& member, JointEvent event);
+  void tell();
   decltype(members)::iterator find(std::uint32_t id);
 
   // The island at hand.
@@ -69,6 +90,8 @@ struct Structure::Impl {
     JointEvent event;
   };
   std::vector<Pending> pending_;
+  std::size_t told_ = 0;  // of them
+  bool telling_ = false;  // a handler is at work
 };
 
 struct Structure::Impl::State {
@@ -86,6 +109,8 @@ struct Structure::Impl::State {
   bool stepped;
   JointEnergy gone;
   std::vector<Pending> pending;
+  std::vector<Orphan> orphans;
+  int last_node;
 };
 
 }  // namespace ductile

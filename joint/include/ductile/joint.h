@@ -59,6 +59,9 @@ struct ElasticPlasticJointDef : b2JointDef {
   /// with the origin inside, counter-clockwise in the (N, M) plane. Empty: independent caps.
   std::vector<AxialMoment> interaction;
   int break_group = 0;  ///< joints of one group ≠ 0 break together, in the mode of the first
+  /// Joints of one node ≠ 0 hold several bodies at one point to body A, which they share. Where that body is
+  /// destroyed, Structure::update() joins the others to each other, each by its own rows and maxima.
+  int node = 0;
 };
 
 /// A joint of a Structure. The world owns it as it owns every joint: b2World::DestroyJoint and DestroyBody
@@ -88,7 +91,8 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double capacity_used() const;
   /// 0 unloaded … 1 yields … 2 broken: stage_of() in stage.h.
   double stage() const;
-  bool broken() const;  ///< carries nothing any more; gone after Structure::update()
+  bool yielded() const;  ///< whether it ever flowed, limit or none
+  bool broken() const;   ///< carries nothing any more; gone after Structure::update()
 
   // Energy.
   double dissipated() const;      ///< J: plastic work so far
@@ -147,6 +151,10 @@ enum class SolverKind {
               ///< of a natural frequency above 1/(2π·step) are rigid
 };
 
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"  // modes and rows have the same names
+#endif
 /// What a structure reports after a step.
 struct JointEvent {
   enum Kind { yield, flow, broke } kind = yield;
@@ -154,7 +162,13 @@ struct JointEvent {
   ElasticPlasticJoint* joint = nullptr;  ///< valid during the call; a broken one is destroyed right after it
   double force = 0;                      ///< N or N m, of the row that gave the event
   double energy = 0;                     ///< J dissipated by the joint so far
+  double worked = 0;                     ///< J of plastic work of the joint since its last event
+  double released = 0;  ///< J: elastic energy of the joint that its breaking has set free; else 0
+  b2Vec2 at{0, 0};      ///< m, world: the joint's anchor when told
 };
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 
 struct StructureDef {
   SolverKind solver = SolverKind::direct;
@@ -191,23 +205,53 @@ struct StepReport {
 };
 
 /// The joints of one world that are kept honest together. It finds by itself which bodies hang together, and
-/// anew when joints break, come or go and when bodies change. Make one per world (or as many as you like),
-/// before its joints; destroy it before the world or after it, as you like.
+/// anew when joints break, come or go and when bodies change. Make one per world, before its joints; destroy
+/// it before the world or after it, as you like. A world may have several, but a dynamic body joints of one.
+///
+/// In the world it keeps one disabled static body without user data, the last in the list of bodies, by which
+/// it learns that the world is gone. It counts in GetBodyCount(), and no query, ray or contact finds it.
+/// Destroying all bodies of the world empties a structure, and it goes on with the next joint; destroying
+/// that body alone makes stock welds of the joints that are left.
 class Structure {
  public:
+  /// Throws std::logic_error while the world is stepping.
   explicit Structure(b2World& world, const StructureDef& def = {});
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;
 
-  /// A new joint in the world. Throws std::invalid_argument that names every wrong field.
+  /// The structure that was made for the world, the first of several; nullptr where there is none. Goes
+  /// through the world's bodies.
+  static Structure* of(b2World& world);
+  /// Whether a structure made the body to learn of the end of its world.
+  static bool is_watch(const b2Body& body);
+  /// nullptr once it is gone, or all its bodies.
+  b2World* world() const;
+
+  /// A new joint in the world. Throws std::invalid_argument with all problems() of the def, one a line.
   ElasticPlasticJoint* create_joint(const ElasticPlasticJointDef& def);
+  /// Why create_joint() would refuse the def: wrong fields, bodies of another world or of another structure,
+  /// a world that is stepping. Empty where it would not. Changes and throws nothing.
+  std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
+  /// A node: holds bodies together at a point in world coordinates, each by a joint from the first body to
+  /// it, whose axis runs from the point to the body's centre of mass and turns with it. Where one breaks the
+  /// others hold; where the first body is destroyed the others are joined to each other
+  /// (ElasticPlasticJointDef::node). Turns freely and never yields; with `like`, its rows, maxima and
+  /// interaction. Throws as create_joint(), and then has made nothing.
+  std::vector<ElasticPlasticJoint*> pin(const b2Vec2& at, const std::vector<b2Body*>& bodies);
+  std::vector<ElasticPlasticJoint*> pin(const b2Vec2& at, const std::vector<b2Body*>& bodies,
+                                        const ElasticPlasticJointDef& like);
+  /// A number that no node of the structure has yet.
+  int new_node();
   /// Makes an existing weld, which keeps its address, anchors and user data, one of this structure's. The
   /// def's bodies and anchors are ignored. A joint whose structure is gone is such a weld. Throws
-  /// std::invalid_argument where the def is wrong or the weld is a joint of a structure already.
+  /// std::invalid_argument where the def is wrong, the weld is a joint of a structure already, or the world
+  /// is stepping.
   ElasticPlasticJoint* adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def);
 
-  /// Call after b2World::Step: delivers events and destroys broken joints.
+  /// Call after b2World::Step: delivers events, destroys broken joints and joins nodes anew. Within a handler
+  /// it does nothing. Throws std::logic_error while the world is stepping, and what a handler throws: then
+  /// the events that are left are told, and broken joints destroyed, by the next call.
   void update();
 
   /// Called by update() for every event. It may destroy any joint or body.

@@ -1,0 +1,150 @@
+// Several bodies at one point: joints from the first, the hub, to each of the others, and what becomes of
+// them when the hub goes. And what a structure refuses to join.
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "reveal.h"
+#include "structure.h"
+
+namespace ductile::dynamics {
+DUCTILE_REVEAL(b2Body, m_flags, uint16);
+}
+
+namespace ductile {
+
+using namespace dynamics;
+
+namespace {
+
+constexpr uint16 in_node = 0x4000;  // Box2D 2.4.1 uses the seven lowest, and leaves the others as they are
+
+// In the list of the world's bodies, and not one that came after.
+bool lives(const b2World& world, const b2Body* body) {
+  for (const b2Body* b = world.GetBodyList(); b != nullptr; b = b->GetNext()) {
+    if (b == body) return (of(*b, b2Body_m_flags{}) & in_node) != 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+void mark(b2Body& body) { of(body, b2Body_m_flags{}) |= in_node; }
+
+Orphan orphan_of(const Member& m) {
+  Orphan orphan{{}, m.surface, m.own_record.plastic};
+  ElasticPlasticJointDef& def = orphan.def;
+  def.bodyA = m.joint->GetBodyA();
+  def.bodyB = m.joint->GetBodyB();
+  def.collideConnected = m.joint->GetCollideConnected();
+  def.localAnchorA = m.joint->GetLocalAnchorA();
+  def.localAnchorB = m.joint->GetLocalAnchorB();
+  def.referenceAngle = m.joint->GetReferenceAngle();
+  def.axisAngle = static_cast<float>(std::atan2(m.own.frame.axis.s, m.own.frame.axis.c));
+  def.axisFollow = static_cast<float>(m.own.frame.follow);
+  for (unsigned i = 0; i < 3; ++i) {
+    const Material& r = m.own_record.material;
+    def.rows[i] = {r.stiffness[i], r.damping_ratio[i], r.cap[i], r.cap_reverse[i], r.hardening[i]};
+  }
+  def.max_rotation = m.max_rotation;
+  def.max_elongation = m.max_elongation;
+  def.max_compression = m.max_compression;
+  def.max_slip = m.max_slip;
+  def.break_group = m.break_group;
+  def.node = m.node;
+  return orphan;
+}
+
+// Only those whose hub was destroyed: a joint that a game destroyed, or whose own body went, is gone.
+void Structure::Impl::join_orphans() {
+  if (orphans.empty()) return;
+  std::vector<Orphan> left = std::exchange(orphans, {});
+  std::erase_if(left,
+                [&](const Orphan& o) { return lives(*world, o.def.bodyA) || !lives(*world, o.def.bodyB); });
+  std::stable_sort(left.begin(), left.end(),
+                   [](const Orphan& a, const Orphan& b) { return a.def.node < b.def.node; });
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const std::size_t hub = i;
+    const ElasticPlasticJointDef& to_hub = left[hub].def;
+    for (; i + 1 < left.size() && left[i + 1].def.node == to_hub.node; ++i) {
+      Orphan& o = left[i + 1];
+      b2WeldJointDef weld;
+      weld.bodyA = o.def.bodyA = to_hub.bodyB;
+      weld.bodyB = o.def.bodyB;
+      weld.collideConnected = o.def.collideConnected;
+      weld.localAnchorA = to_hub.localAnchorB;
+      weld.localAnchorB = o.def.localAnchorB;
+      weld.referenceAngle = o.def.referenceAngle - to_hub.referenceAngle;
+      o.def.axisAngle -= to_hub.referenceAngle;
+      auto* joint = take(static_cast<b2WeldJoint*>(world->CreateJoint(&weld)), o.def);
+      JointRecord& record = joint->member_->own_record;
+      joint->member_->surface = o.surface;
+      record.material.surface = o.surface.get();
+      record.plastic = o.plastic;
+    }
+  }
+}
+
+bool Structure::Impl::is_of_another(const b2Body& body) const {
+  if (!is_free(&body)) return false;
+  for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
+    const auto* joint = ElasticPlasticJoint::cast(e->joint);
+    if (joint != nullptr && joint->member_ != nullptr && joint->member_->structure != this) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> Structure::Impl::problems(const ElasticPlasticJointDef& d) const {
+  std::vector<std::string> all = wrong_in(d);
+  if (d.bodyA == nullptr || d.bodyB == nullptr) return all;
+  if (world == nullptr) return {"structure: its world is gone; make a new structure"};
+  // Without a watch it may be gone unseen, and only an address be left of it.
+  if (d.bodyA->GetWorld() != world || d.bodyB->GetWorld() != world) {
+    all.emplace_back("structure: bodyA or bodyB is in another world than the structure");
+    return all;
+  }
+  if (world->IsLocked()) all.emplace_back("structure: the world is stepping; create joints between steps");
+  for (const b2Body* body : {d.bodyA, d.bodyB}) {
+    if (!is_of_another(*body)) continue;
+    all.emplace_back(body == d.bodyA
+                         ? "structure: bodyA has joints of another structure; create this joint in that one"
+                         : "structure: bodyB has joints of another structure; create this joint in that one");
+  }
+  return all;
+}
+
+int Structure::new_node() { return --impl_->last_node; }
+
+std::vector<ElasticPlasticJoint*> Structure::pin(const b2Vec2& at, const std::vector<b2Body*>& bodies) {
+  ElasticPlasticJointDef like;
+  like.rows[rotation] = RowDef::free();
+  return pin(at, bodies, like);
+}
+
+std::vector<ElasticPlasticJoint*> Structure::pin(const b2Vec2& at, const std::vector<b2Body*>& bodies,
+                                                 const ElasticPlasticJointDef& like) {
+  if (bodies.size() < 2) throw std::invalid_argument("structure: a node holds two bodies or more together");
+  std::vector<ElasticPlasticJointDef> defs;
+  std::string wrong;
+  const int node = new_node();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i] == nullptr || std::count(bodies.begin(), bodies.end(), bodies[i]) > 1)
+      throw std::invalid_argument("structure: body " + std::to_string(i) + " of a node is " +
+                                  (bodies[i] == nullptr ? "no body" : "there twice") + "; name each once");
+    if (i == 0) continue;
+    ElasticPlasticJointDef& def = defs.emplace_back(like);
+    const b2Vec2 along = bodies[i]->GetWorldCenter() - at;
+    def.Initialize(bodies[0], bodies[i], at,
+                   along.LengthSquared() > 0 ? along : bodies[i]->GetWorldVector({1, 0}));
+    def.axisFollow = 1;
+    def.node = node;
+    for (const std::string& problem : impl_->problems(def)) wrong += (wrong.empty() ? "" : "\n") + problem;
+  }
+  if (!wrong.empty()) throw std::invalid_argument(wrong);
+  std::vector<ElasticPlasticJoint*> joints;
+  for (const ElasticPlasticJointDef& def : defs) joints.push_back(create_joint(def));
+  return joints;
+}
+
+}  // namespace ductile
