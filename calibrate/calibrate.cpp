@@ -95,10 +95,21 @@ class Check {
     for (std::size_t i = 0; i < s.joints.size(); ++i) {
       const JointBetweenDef& j = s.joints[i];
       const std::string place = "joint " + std::to_string(i);
-      known(j.a, place);
-      known(j.b, place);
-      if (j.a == j.b) add(place, "joins '" + j.a + "' to itself", "name two bodies");
-      if (!pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
+      std::vector<std::string> all{j.a, j.b};
+      all.insert(all.end(), j.others.begin(), j.others.end());
+      for (const std::string& name : all) known(name, place);
+      for (std::size_t k = 1; k < all.size(); ++k)
+        if (std::find(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k), all[k]) - all.begin() <
+            static_cast<std::ptrdiff_t>(k))
+          add(place, "joins '" + all[k] + "' to itself", "name each body once");
+      if (j.at) finite(*j.at, place, "at");
+      if (!j.at && !j.others.empty())
+        add(place, "joins " + std::to_string(all.size()) + " bodies where edges overlap",
+            "give the node's point, `at`");
+      if (j.at && (j.gap > 0 || j.overrides.elastic || j.overrides.hinge_length || j.overrides.shear_span))
+        add(place, "has `gap`, `elastic` or a hinge's length beside `at`",
+            "leave them out: a node is rigid, and has no section");
+      if (!j.at && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
         add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
       check(fields::joint, j, place);
       overrides(j.overrides, place);
@@ -593,7 +604,53 @@ class Planner {
     return result;
   }
 
+  // The first body's piece is the hub.
+  void join_at(const JointBetweenDef& def, int node) {
+    std::vector<int> pieces;
+    std::vector<std::string> names{def.a, def.b};
+    names.insert(names.end(), def.others.begin(), def.others.end());
+    for (const std::string& name : names) {
+      const int piece = pieces.emplace_back(nearest_piece(name, *def.at));
+      const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+      const double size = body.circle > 0 ? 2 * body.circle : box_of(body.outline.outer).diagonal();
+      if (distance(plan_.pieces[piece], *def.at) > size)
+        problems_.push_back({"joint " + std::to_string(node - 1),
+                             "'" + name + "' is farther from " + to_string(*def.at) + " than it is large",
+                             "put the node on the body, or near it"});
+    }
+    const JointOverrides& own = def.overrides;
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+      PlannedJoint joint;
+      joint.a = pieces[0];
+      joint.b = pieces[i];
+      joint.name = plan_.pieces[joint.a].name + '-' + plan_.pieces[joint.b].name;
+      const auto repeat =
+          std::count_if(plan_.joints.begin(), plan_.joints.end(),
+                        [&](const PlannedJoint& other) { return other.a == joint.a && other.b == joint.b; });
+      if (repeat > 0) joint.name += '#' + std::to_string(repeat);
+      joint.anchor = *def.at;
+      const Point along = plan_.pieces[joint.b].center - joint.anchor;
+      joint.axis = length(along) > 0 ? unit(along) : Point{1, 0};
+      joint.N = own.axial.value_or(unlimited);
+      joint.Nc = own.axial_compression.value_or(joint.N);
+      joint.Q = own.shear.value_or(unlimited);
+      joint.M = own.moment.value_or(0);
+      joint.M_reverse = own.moment_reverse.value_or(joint.M);
+      joint.stiffness = {unlimited, unlimited, unlimited};
+      joint.damping_ratio = own.damping_ratio.value_or(0);
+      joint.max_rotation = own.max_rotation.value_or(unlimited);
+      joint.max_elongation = own.max_elongation.value_or(unlimited);
+      joint.max_compression = own.max_compression.value_or(unlimited);
+      joint.max_slip = own.max_slip.value_or(unlimited);
+      joint.hold = own.hold.value_or(false);
+      joint.node = node;
+      joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: free");
+      plan_.joints.push_back(std::move(joint));
+    }
+  }
+
   void join(const JointBetweenDef& def) {
+    if (def.at) return join_at(def, static_cast<int>(&def - scene_.joints.data()) + 1);
     const auto of_a = pieces_of(def.a), of_b = pieces_of(def.b);  // from, to
     double size = unlimited;
     for (const int piece : {of_a.first, of_b.first}) {

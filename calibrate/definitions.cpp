@@ -112,6 +112,7 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   def.max_elongation = j.max_elongation;
   def.max_compression = j.max_compression;
   def.max_slip = j.max_slip;
+  def.node = j.node;
   if (plan.interaction) def.interaction = interaction_of(plan, j);
   return def;
 }

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <numeric>
+#include <stdexcept>
 
 #include "ductile/box2d.h"
 #include "moments.h"
@@ -32,6 +35,28 @@ class FreshGroups {
   void use(int group) { lowest_ = static_cast<int16>(std::min<int>(lowest_, group)); }
   int16 lowest_ = 0;
 };
+
+// Bodies that hold together at nodes, where they overlap: by body, the first of those it is with.
+std::vector<int> node_mates(const Plan& plan) {
+  std::vector<int> mate(plan.bodies.size());
+  std::iota(mate.begin(), mate.end(), 0);
+  const auto first = [&](int body) {
+    while (mate[body] != body) body = mate[body];
+    return body;
+  };
+  std::map<int, int> of_node;
+  for (const PlannedJoint& j : plan.joints) {
+    if (j.node == 0) continue;
+    for (const int piece : {j.a, j.b}) {
+      if (!plan.is_dynamic(piece)) continue;
+      const int body = plan.pieces[piece].body;
+      const int a = first(body), b = first(of_node.try_emplace(j.node, body).first->second);
+      mate[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (int& body : mate) body = first(body);
+  return mate;
+}
 
 double area_of(const Piece& piece) {
   return piece.circle > 0 ? std::numbers::pi * piece.circle * piece.circle : moments(piece.outline).area;
@@ -126,6 +151,10 @@ Built build_bodies(b2World& world, const Plan& plan) {
 
   Built built;
   built.ground = create_ground(world, plan);
+  const std::vector<int> mates = node_mates(plan);
+  std::vector<int> shared(mates.size());
+  for (const int mate : mates) ++shared[mate];
+  std::map<int, int16> group_of;  // of the first of mates
   int16 group = 0;
   Point centre;
   std::size_t first = 0;  // piece of the body
@@ -135,7 +164,15 @@ Built build_bodies(b2World& world, const Plan& plan) {
     if (i == 0 || plan.pieces[i - 1].body != piece.body) {
       const bool is_split = i + 1 < plan.pieces.size() && plan.pieces[i + 1].body == piece.body;
       first = i;
-      group = body.group == 0 && is_split ? groups.next() : body.group;
+      const int mate = mates[piece.body];
+      const bool in_node = shared[mate] > 1;
+      group = body.group;
+      if (group == 0 && (is_split || in_node)) {
+        if (const auto known = group_of.find(mate); in_node && known != group_of.end())
+          group = known->second;
+        else
+          group_of[mate] = group = groups.next();
+      }
       centre = is_split && body.angular_velocity != 0 ? mass_centre(plan, piece.body) : piece.center;
     }
     b2Body* created = nullptr;
@@ -193,18 +230,46 @@ Built build_bodies(b2World& world, const Plan& plan) {
   return built;
 }
 
-Structure build(b2World& world, const Plan& plan, const StructureDef& def, Built* built) {
+namespace {
+
+Built build(Structure& structure, b2World& world, const Plan& plan,
+            std::vector<ElasticPlasticJointDef> defs) {
+  Built built = build_bodies(world, plan);
+  std::map<int, int> nodes;  // of the plan, in the structure
+  for (std::size_t i = 0; i < defs.size(); ++i) {
+    defs[i].bodyA = body_of(built, plan.joints[i].a);
+    defs[i].bodyB = body_of(built, plan.joints[i].b);
+    if (int& node = defs[i].node; node != 0) {
+      const auto [known, is_new] = nodes.try_emplace(node, 0);
+      node = is_new ? known->second = structure.new_node() : known->second;
+    }
+    built.joints.push_back(structure.create_joint(defs[i]));
+  }
+  return built;
+}
+
+// What floats do not hold is found before anything is built.
+std::vector<ElasticPlasticJointDef> defs_of(const Plan& plan) {
   std::vector<ElasticPlasticJointDef> defs;
   for (const PlannedJoint& j : plan.joints) defs.push_back(elastic_plastic_def(plan, j));
-  Built own = build_bodies(world, plan);
+  return defs;
+}
+
+}  // namespace
+
+Structure build(b2World& world, const Plan& plan, const StructureDef& def, Built* built) {
+  auto defs = defs_of(plan);
   Structure structure(world, def);
-  for (std::size_t i = 0; i < defs.size(); ++i) {
-    defs[i].bodyA = body_of(own, plan.joints[i].a);
-    defs[i].bodyB = body_of(own, plan.joints[i].b);
-    own.joints.push_back(structure.create_joint(defs[i]));
-  }
+  Built own = build(structure, world, plan, std::move(defs));
   if (built) *built = std::move(own);
   return structure;
+}
+
+Built build(Structure& structure, b2World& world, const Plan& plan) {
+  if (structure.world() != nullptr && structure.world() != &world)
+    throw std::invalid_argument(
+        "build: the structure is of another world; give the world's own, Structure::of(world)");
+  return build(structure, world, plan, defs_of(plan));
 }
 
 Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {

@@ -105,11 +105,15 @@ JointBetweenDef read_joint(const Value& value) {
   Object object(value);
   if (const auto between = object.require("between")) {
     const auto names = between->elements();
-    if (between->json().is_array() && names.size() != 2) {
-      between->wrong("names " + std::to_string(names.size()) + " bodies", "name two");
-    } else if (names.size() == 2) {
+    const auto at = object.find("at");
+    if (at) def.at = at->point();
+    if (between->json().is_array() && (names.size() < 2 || (names.size() > 2 && !at))) {
+      between->wrong("names " + std::to_string(names.size()) + " bodies",
+                     names.size() < 2 ? "name two" : "name two, or give the point of a node, \"at\"");
+    } else if (names.size() >= 2) {
       def.a = names[0].text().value_or("");
       def.b = names[1].text().value_or("");
+      for (std::size_t i = 2; i < names.size(); ++i) def.others.push_back(names[i].text().value_or(""));
     }
   }
   object.read(fields::joint, def);

@@ -116,6 +116,8 @@ Json json(const BodyDef& body, MaterialNames& names) {
 Json json(const JointBetweenDef& joint) {
   Json object;
   object["between"] = {joint.a, joint.b};
+  for (const std::string& name : joint.others) object["between"].push_back(name);
+  if (joint.at) object["at"] = json(*joint.at);
   put(object, fields::joint, joint);
   put_overrides(object, joint.overrides);
   return object;

@@ -75,6 +75,10 @@ Built build_bodies(b2World& world, const Plan& plan);
 /// The plan with ductile joints. Keep the structure beside the world, and call its update() after each Step.
 Structure build(b2World& world, const Plan& plan, const StructureDef& def = {}, Built* built = nullptr);
 
+/// The same into the world's structure, beside what is there: one for all that is built in a world
+/// (Structure::of). Throws std::invalid_argument, and builds nothing, where the structure is another world's.
+Built build(Structure& structure, b2World& world, const Plan& plan);
+
 /// The plan with stock joints that never give way: welds (with the joints' bending stiffness and damping
 /// unless `all_rigid`), and where a row is free the revolute, prismatic, wheel or motor joint that leaves it
 /// free.

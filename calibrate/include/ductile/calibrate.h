@@ -20,6 +20,10 @@ namespace ductile {
 
 enum class BodyType { static_body, dynamic_body, kinematic_body };
 
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"  // a way to be elastic, and the stiffness of that name
+#endif
 /// How a row of a joint behaves below its cap.
 enum class Elasticity {
   true_stiffness,    ///< EA/ℓ, κGA/ℓ, EI/ℓ of the material and section (rigid where E is not known)
@@ -27,6 +31,9 @@ enum class Elasticity {
   frequency,         ///< from a frequency and damping ratio of the two bodies, as b2AngularStiffness
   elastic_rotation,  ///< k = cap/θ; with a frequency: cap = k·θ
 };
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 
 /// What a user says of joints instead of leaving it to section and material; unset fields are not overridden.
 struct JointOverrides {
@@ -84,11 +91,16 @@ struct BodyDef {
   std::int16_t group = 0;         ///< collision filter group, as Box2D
 };
 
-/// Two bodies joined wherever their edges overlap.
+/// Two bodies joined wherever their edges overlap; or at a point, two or more, whether or not they meet
+/// there.
 struct JointBetweenDef {
   std::string a, b;  ///< names of bodies
   double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
   JointOverrides overrides;
+  /// m, world axes at t = 0: a node, each body's nearest piece joined to a's there. A pin, rigid, that
+  /// nothing limits but its own overrides.
+  std::optional<Point> at;
+  std::vector<std::string> others;  ///< further bodies of a node
 };
 
 /// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free.
@@ -173,6 +185,7 @@ struct PlannedJoint {
   std::vector<std::array<double, 2>> intervals;
   int governed_by = -1;  ///< index into Plan::reasons
   bool hold = false;     ///< JointOverrides::hold
+  int node = 0;          ///< ≠ 0: of one node, whose bodies hold together where body a goes
 };
 
 /// What an automatic split came to.

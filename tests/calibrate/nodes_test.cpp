@@ -1,0 +1,132 @@
+// Bodies held together at a point, and plans built into a structure that is there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "ductile/box2d.h"
+#include "scenes.h"
+
+namespace ductile {
+namespace {
+
+/// Two bars of 2.5 m from the ceiling, 1.5 m to either side, down to a weight that they overlap at (0, 0).
+SceneDef hanger() {
+  SceneDef scene;
+  scene.gravity = {0, -10};
+  const auto bar = [](const char* name, double side) {
+    const double along = std::atan2(2, side), c = std::cos(along), s = std::sin(along);
+    BodyDef def{.name = name,
+                .outline = {rectangle(-0.05, -0.05, 2.55, 0.05), {}},
+                .material = test_steel,
+                .depth = 0.01};
+    def.angle = std::atan2(s, c);
+    return def;
+  };
+  scene.bodies = {{.name = "ceiling", .type = BodyType::static_body, .outline = {rectangle(-3, 2, 3, 3), {}}},
+                  {.name = "weight",
+                   .outline = {rectangle(-0.5, -0.5, 0.5, 0.5), {}},
+                   .material = test_steel,
+                   .depth = 0.1},
+                  bar("left", -1.5),
+                  bar("right", 1.5)};
+  scene.joints = {{.a = "weight", .b = "left", .at = Point{0, 0}, .others = {"right"}},
+                  {.a = "ceiling", .b = "left", .at = Point{-1.5, 2}},
+                  {.a = "ceiling", .b = "right", .at = Point{1.5, 2}}};
+  return scene;
+}
+
+TEST(Node, JoinsEachBodyToTheFirst) {
+  const Plan plan = calibrate(hanger());
+  ASSERT_EQ(plan.joints.size(), 4u);
+  EXPECT_EQ(plan.joints[0].name, "weight-left");
+  EXPECT_EQ(plan.joints[1].name, "weight-right");
+  EXPECT_EQ(plan.joints[0].node, plan.joints[1].node);
+  EXPECT_NE(plan.joints[1].node, plan.joints[2].node);
+  for (const PlannedJoint& j : plan.joints) {
+    EXPECT_EQ(j.N, unlimited);
+    EXPECT_EQ(j.Q, unlimited);
+    EXPECT_EQ(j.M, 0);
+    EXPECT_EQ(j.M_reverse, 0);
+  }
+}
+
+TEST(Node, CarriesWhatStaticsSays) {
+  b2World world({0, 0});
+  const Plan plan = calibrate(hanger());
+  Built built;
+  Structure structure = build(world, plan, {}, &built);
+  world.SetAllowSleeping(false);
+  for (int i = 0; i < 300; ++i) {
+    apply_loads(world, plan, built, i / 60.0);
+    world.Step(1 / 60.0f, 8, 3);
+    structure.update();
+  }
+  // As in tests/joint/game_test.cpp; the bars' centres are in their middles.
+  const double weight = 0.1 * 7800 * 10, bar = 2.6 * 0.1 * 0.01 * 7800 * 10;
+  const double V = weight / 2, H = (1.5 * V + 0.75 * bar) / 2, tension = 0.8 * V + 0.6 * H;
+  for (int i : {0, 1}) {
+    const auto* joint = static_cast<const ElasticPlasticJoint*>(built.joints[static_cast<std::size_t>(i)]);
+    EXPECT_NEAR(joint->force(axial), tension, 1e-4 * tension) << i;
+  }
+  // They overlap there, and do not push each other away.
+  for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext())
+    EXPECT_FALSE(c->IsTouching());
+  world.DestroyBody(built.bodies[1]);
+  structure.update();
+  EXPECT_EQ(structure.joints().size(), 3u);  // left to right, and both to the ceiling
+}
+
+TEST(Node, RefusesWhatItCannotBe) {
+  const auto expect = [](const char* what, auto&& spoil) {
+    SceneDef scene = hanger();
+    spoil(scene.joints[0]);
+    try {
+      calibrate(scene);
+      ADD_FAILURE() << what;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  expect("there is no body 'middle'", [](JointBetweenDef& j) { j.others = {"middle"}; });
+  expect("joins 'left' to itself", [](JointBetweenDef& j) { j.others = {"left"}; });
+  expect("joins 3 bodies where edges overlap", [](JointBetweenDef& j) { j.at.reset(); });
+  expect("farther", [](JointBetweenDef& j) { j.at = Point{50, 0}; });
+  expect("not finite", [](JointBetweenDef& j) { j.at = Point{unlimited, 0}; });
+  expect("`gap`", [](JointBetweenDef& j) { j.gap = 1; });
+}
+
+TEST(Build, IntoAStructureThatIsThere) {
+  b2World world({0, -10});
+  Structure structure(world);
+  const Plan plan = calibrate(cantilever(4));
+  const Built first = build(structure, world, plan), second = build(*Structure::of(world), world, plan);
+  EXPECT_EQ(structure.joints().size(), 8u);
+  EXPECT_EQ(first.joints.size(), 4u);
+  EXPECT_NE(first.bodies[1], second.bodies[1]);
+  // Bars between the two, as a game adds them: no structure refuses the other's.
+  EXPECT_EQ(structure.pin({20, 0.5f}, {first.bodies.back(), second.bodies.back()}).size(), 1u);
+  b2World other({0, -10});
+  EXPECT_THROW(build(structure, other, plan), std::invalid_argument);
+  EXPECT_EQ(other.GetBodyCount(), 0);
+}
+
+TEST(Build, KeepsTheNodesOfTwoPlansApart) {
+  b2World world({0, -10});
+  Structure structure(world);
+  const Plan plan = calibrate(hanger());
+  const Built first = build(structure, world, plan), second = build(structure, world, plan);
+  world.DestroyBody(first.bodies[1]);
+  world.DestroyBody(second.bodies[1]);
+  structure.update();
+  ASSERT_EQ(structure.joints().size(), 6u);
+  for (ElasticPlasticJoint* joint : structure.joints()) {
+    const auto in = [&](const Built& built, b2Body* body) {
+      return std::find(built.bodies.begin(), built.bodies.end(), body) != built.bodies.end();
+    };
+    EXPECT_EQ(in(first, joint->GetBodyA()), in(first, joint->GetBodyB()));
+  }
+}
+
+}  // namespace
+}  // namespace ductile
