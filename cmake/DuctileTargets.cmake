@@ -33,3 +33,8 @@ function(ductile_room name)
     install(EXPORT ductile-${name} NAMESPACE ductile:: DESTINATION ${DUCTILE_CMAKE_DIR})
   endif()
 endfunction()
+
+# A room whose results have the same bits on processors that fuse multiplications and additions.
+function(ductile_same_bits name)
+  target_compile_options(ductile_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
+endfunction()

@@ -1,8 +1,14 @@
-# add_subdirectory(ductile): only the libraries are added, no tests, no command, no install rules, no warnings as errors.
+# add_subdirectory(ductile): only joint/ is added, and what was asked for, no tests, no command, no install rules, no
+# warnings as errors.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 configure(${CMAKE_CURRENT_LIST_DIR}/outside ${SCRATCH}/build -D SOURCE=${SOURCE})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build --target help)
-if(printed MATCHES "_tests|ductile_command|ductile_bench" OR NOT printed MATCHES "ductile_files")
+if(printed MATCHES "_tests|ductile_command|ductile_bench|ductile_section|ductile_files" OR NOT printed MATCHES "ductile_joint")
+  message(FATAL_ERROR "has these targets:\n${printed}")
+endif()
+configure(${CMAKE_CURRENT_LIST_DIR}/outside ${SCRATCH}/all -D SOURCE=${SOURCE} -D DUCTILE_SECTION=ON -D DUCTILE_FILES=ON)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/all --target help)
+if(NOT printed MATCHES "ductile_files")
   message(FATAL_ERROR "has these targets:\n${printed}")
 endif()
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build --target game --verbose)

@@ -3,6 +3,7 @@
 // false position. Shares nothing with section/ but the coordinates as given.
 #pragma once
 
+#include <cfloat>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -12,7 +13,11 @@
 
 namespace ductile::oracle {
 
+#if LDBL_MANT_DIG == 113
+using Real = long double;
+#else
 __extension__ typedef __float128 Real;
+#endif
 
 inline Real magnitude(Real x) { return x < 0 ? -x : x; }
 

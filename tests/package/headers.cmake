@@ -1,0 +1,22 @@
+# The public headers, as users compile them who ask for many warnings, with each compiler that is here.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+file(GLOB headers ${SOURCE}/joint/include/ductile/*.h ${SOURCE}/section/include/ductile/*.h ${SOURCE}/calibrate/include/ductile/*.h)
+set(text "")
+foreach(header IN LISTS headers)
+  get_filename_component(name ${header} NAME)
+  if(NOT name STREQUAL "section_cgal.h")  # for those who hold CGAL's polygons, and its headers
+    string(APPEND text "#include <ductile/${name}>\n")
+  endif()
+endforeach()
+file(WRITE ${SCRATCH}/user.cpp "${text}int main() {}\n")
+foreach(compiler g++ clang++)
+  find_program(found_${compiler} ${compiler})
+  if(NOT found_${compiler})
+    message("${compiler} is not here")
+    continue()
+  endif()
+  foreach(standard c++20 gnu++20)
+    run(${found_${compiler}} -std=${standard} -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -pedantic-errors
+      -I${SOURCE}/joint/include -I${SOURCE}/section/include -I${SOURCE}/calibrate/include ${SCRATCH}/user.cpp)
+  endforeach()
+endforeach()

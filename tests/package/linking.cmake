@@ -1,0 +1,45 @@
+# docs/games/linking.md: each of its CMakeLists.txt builds its program, against an installed ductile, a fetched one (from this
+# folder instead of the net), and one beside a Box2D of the game's own with settings of its own.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+file(READ ${SOURCE}/docs/games/linking.md page)
+string(REGEX MATCH "```cpp\n([^`]*)```" found "${page}")
+set(program "${CMAKE_MATCH_1}")
+string(REGEX MATCHALL "```cmake\n[^`]*```" texts "${page}")
+list(LENGTH texts count)
+if(NOT count EQUAL 3)
+  message(FATAL_ERROR "the page has ${count} texts, not 3")
+endif()
+set(ways installed fetched beside)
+foreach(way text IN ZIP_LISTS ways texts)
+  string(REGEX REPLACE "```(cmake\n)?" "" text "${text}")
+  file(WRITE ${SCRATCH}/${way}/CMakeLists.txt "${text}")
+  file(WRITE ${SCRATCH}/${way}/game.cpp "${program}")
+endforeach()
+
+# built(WAY ARGS...): configures, builds and runs it.
+function(built way)
+  configure(${SCRATCH}/${way} ${SCRATCH}/${way}/build -D CMAKE_DISABLE_FIND_PACKAGE_CGAL=ON ${ARGN})
+  run(${CMAKE_COMMAND} --build ${SCRATCH}/${way}/build)
+  run(${SCRATCH}/${way}/build/game)
+  if(NOT printed STREQUAL "linked\n")
+    message(FATAL_ERROR "${way}: it printed ${printed}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+built(installed -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+built(fetched -D FETCHCONTENT_SOURCE_DIR_DUCTILE=${SOURCE})
+
+# The game's Box2D is the installed one under a name and with a definition of the game's.
+file(WRITE ${SCRATCH}/beside/box2d/CMakeLists.txt [[
+find_library(installed box2d REQUIRED)
+add_library(box2d INTERFACE)
+target_link_libraries(box2d INTERFACE ${installed})
+target_compile_definitions(box2d INTERFACE B2_SHARED GAMES_OWN_BOX2D)
+]])
+file(CREATE_LINK ${SOURCE} ${SCRATCH}/beside/ductile SYMBOLIC)
+built(beside -D CMAKE_EXPORT_COMPILE_COMMANDS=ON)
+file(STRINGS ${SCRATCH}/beside/build/compile_commands.json commands REGEX "command.*structure.cpp")
+if(NOT commands MATCHES "GAMES_OWN_BOX2D")
+  message(FATAL_ERROR "joint/ was not compiled with the game's Box2D:\n${commands}")
+endif()
