@@ -84,7 +84,7 @@ void expect_everything(const SceneDef& scene) {
   ASSERT_EQ(arm.profile.size(), 1u);
   EXPECT_EQ(arm.profile[0].material, materials::S355);
 
-  ASSERT_EQ(scene.joints.size(), 3u);
+  ASSERT_EQ(scene.joints.size(), 4u);
   EXPECT_EQ(scene.joints[0].a, "wall");
   EXPECT_EQ(scene.joints[0].b, "beam");
   EXPECT_EQ(scene.joints[0].gap, 0.01);
@@ -94,6 +94,10 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(scene.joints[2].overrides.elastic, Elasticity::elastic_rotation);
   EXPECT_EQ(scene.joints[2].overrides.elastic_rotation, 0.02);
   EXPECT_EQ(scene.joints[2].overrides.frequency, 3);
+  EXPECT_EQ(scene.joints[0].at, std::nullopt);
+  EXPECT_EQ(scene.joints[3].at, (Point{0, 0.5}));
+  EXPECT_EQ(scene.joints[3].others, std::vector<std::string>{"arm"});
+  EXPECT_EQ(scene.joints[3].overrides.axial, 1e6);
 
   ASSERT_EQ(scene.supports.size(), 2u);
   EXPECT_EQ(scene.supports[0].at, (Point{20, 0.5}));
