@@ -106,6 +106,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     Rows& gap = solver.records[i].gap;
     if (std::exchange(members[i]->fresh, false)) {
       j.neutral = gap;
+      if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
       continue;
     }
     // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
@@ -117,7 +118,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     if (moved) gap = seen;
     parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
-      if (j.G[row] > 0) j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
+      if (j.G[row] > 0 && !is_slack(j, solver.records[i], row)) j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
     }
   }
 }

@@ -51,6 +51,7 @@ struct Member {
   double told_energy = 0;  // J dissipated by the last event
   double max_rotation = unlimited, max_elongation = unlimited, max_compression = unlimited,
          max_slip = unlimited;
+  double length = -1;  // of a line without force, before it was first solved
   int break_group = 0;
   int node = 0;
   std::shared_ptr<const YieldSurface> surface;

@@ -23,6 +23,15 @@ void ElasticPlasticJointDef::Initialize(b2Body* a, b2Body* b, const b2Vec2& anch
   axisAngle = b2Atan2(axis.y, axis.x) - a->GetAngle();
 }
 
+void ElasticPlasticJointDef::InitializeLine(b2Body* a, b2Body* b, const b2Vec2& anchor_a,
+                                            const b2Vec2& anchor_b) {
+  const b2Vec2 along = anchor_b - anchor_a;
+  Initialize(a, b, anchor_a, along.LengthSquared() > 0 ? along : a->GetWorldVector({1, 0}));
+  localAnchorB = b->GetLocalPoint(anchor_b);
+  line = true;
+  rows[shear] = rows[rotation] = RowDef::free();
+}
+
 std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
   std::vector<std::string> wrong;
   const auto require = [&](bool good, const std::string& text) {
@@ -48,13 +57,24 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
             name + "caps must be ≥ 0 (0: free, unlimited: never yields)");
     require(row.hardening >= 0 && row.hardening < row.stiffness,
             name + "hardening must be in [0, stiffness)");
+    require(!row.slackens || (row.cap > 0) != (row.cap_reverse > 0),
+            name + "a row that slackens has one cap of 0 and one that is not");
+    require(!row.drive || (row.drive->speed >= 0 && std::isfinite(row.drive->speed) &&
+                           !std::isnan(row.drive->target)),
+            name + "a drive's speed must be ≥ 0 and finite, its target a number");
+    require(!row.drive || !(row.hardening > 0), name + "a driven row does not harden; set hardening to 0");
   }
+  require(!def.line || (def.rows[shear].cap == 0 && def.rows[shear].cap_reverse == 0 &&
+                        def.rows[rotation].cap == 0 && def.rows[rotation].cap_reverse == 0),
+          "a line carries along its axis only; set the shear and rotation rows free()");
+  require(!std::isnan(def.length) && !std::isinf(def.length), "length must be finite (below 0: as it is)");
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
   }
   if (!def.interaction.empty()) {
     for (const RowDef& row : def.rows) {
       require(!(row.hardening > 0), "an interaction curve does not harden; set hardening to 0");
+      require(!row.slackens && !row.drive, "an interaction curve takes no drive and does not slacken");
     }
     try {
       YieldSurface(def.interaction, def.rows[shear].cap);
@@ -83,6 +103,7 @@ std::uint32_t ElasticPlasticJoint::id() const { return member_ != nullptr ? memb
 
 b2Vec2 ElasticPlasticJoint::axis() const {
   const Joint& j = state();
+  if (b2Vec2 along = GetAnchorB() - GetAnchorA(); j.frame.line && along.Normalize() > 0) return along;
   const double relative = double{m_bodyB->GetAngle()} - double{m_bodyA->GetAngle()} - j.frame.reference;
   const double angle =
       m_bodyA->GetAngle() + std::atan2(j.frame.axis.s, j.frame.axis.c) + j.frame.follow * relative;
@@ -102,6 +123,7 @@ double ElasticPlasticJoint::usage(Row row) const {
 }
 
 double ElasticPlasticJoint::elastic(Row row) const { return elastic_strain(state(), record(), row); }
+double ElasticPlasticJoint::neutral(Row row) const { return state().neutral[row]; }
 double ElasticPlasticJoint::plastic(Row row) const { return record().plastic.net[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {
@@ -147,6 +169,18 @@ void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
   if (member_ == nullptr || member_->broken) return;
   member_->record().material.cap[row] = cap;
   member_->record().material.cap_reverse[row] = cap_reverse;
+  wake();
+}
+
+void ElasticPlasticJoint::drive(Row row, const Drive& drive) {
+  if (!(drive.speed >= 0 && std::isfinite(drive.speed) && !std::isnan(drive.target))) {
+    throw std::invalid_argument("elastic-plastic joint: a drive's speed must be ≥ 0 and finite");
+  }
+  if (member_ == nullptr || member_->broken) return;
+  if (record().material.surface != nullptr) {
+    throw std::invalid_argument("elastic-plastic joint: an interaction curve takes no drive");
+  }
+  member_->record().material.drive(row, drive.target, drive.speed);
   wake();
 }
 

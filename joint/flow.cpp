@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -24,18 +26,19 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
   Rows slip{};
   double work = 0;
   for (unsigned i = 0; i < 3; ++i) {
-    if (!flows(j.regime, i) || !(j.G[i] > 0)) continue;
+    if (!flows(j.regime, i) || !(j.G[i] > 0) || is_slack(j, r, i)) continue;
     slip[i] = motion.swept ? gap[i] - j.neutral[i] - j.impulse[i] / (h * r.law.spring[i])
                            : motion.share * slip_of(j, r, i);
     work += j.impulse[i] * slip[i];
   }
   for (unsigned i = 0; i < 3; ++i) {
-    if (!flows(j.regime, i) || !(j.G[i] > 0)) continue;
+    if (!flows(j.regime, i) || !(j.G[i] > 0) || is_slack(j, r, i)) continue;
     const double s = j.impulse[i];
     const double increment = slip[i];
     // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
     if (!(increment * r.x[i] > 0) && j.regime != on_surface) continue;
     j.neutral[i] += increment;
+    if (is_driven(r, i)) continue;
     r.plastic.net[i] += increment;
     (increment > 0 ? r.plastic.forward : r.plastic.back)[i] += std::abs(increment);
     if (work >= 0) r.dissipated[i] += s / h * increment;

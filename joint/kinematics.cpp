@@ -1,5 +1,6 @@
 #include "kinematics.h"
 
+#include <cmath>
 #include <utility>
 
 namespace ductile::dynamics {
@@ -9,12 +10,15 @@ Rows locate(Joint& j, const Place& a, const Place& b) {
   const Frame& f = j.frame;
   const Turn relative = inverse(a.turn) * b.turn;
   const double bend = b.pose.angle - a.pose.angle - f.reference;
-  J.axis_a = f.follow == 0 ? f.axis : f.axis * turn_of(f.follow * bend);
-  J.axis_b = J.axis_a * inverse(relative);
   // From anchor to anchor, in A's frame and then along and across the axis.
   const double wx = b.pose.x - a.pose.x, wy = b.pose.y - a.pose.y;
   const double dx = a.turn.c * wx + a.turn.s * wy + relative.c * f.bx - relative.s * f.by - f.ax;
   const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * f.bx + relative.c * f.by - f.ay;
+  const double length = f.line ? std::hypot(dx, dy) : 0;
+  J.axis_a = length > 0       ? Turn{dx / length, dy / length}
+             : f.follow == 0 ? f.axis
+                             : f.axis * turn_of(f.follow * bend);
+  J.axis_b = J.axis_a * inverse(relative);
   const double u = J.axis_a.c * dx + J.axis_a.s * dy;
   const double v = -J.axis_a.s * dx + J.axis_a.c * dy;
   J.au = -(f.ax * J.axis_a.s - f.ay * J.axis_a.c) + (1 - f.follow) * v;

@@ -1,5 +1,6 @@
 #include "ledger.h"
 
+#include "drive.h"
 #include "objective.h"
 #include "turn_inertia.h"
 
@@ -53,7 +54,7 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
   for (unsigned i = 0; i < 3; ++i) {
     const double held = r.stored[i];
     r.stored[i] = 0;
-    if (!(j.G[i] > 0)) {
+    if (!(j.G[i] > 0) || is_slack(j, r, i)) {
       energies.numerical += held;
       continue;
     }
@@ -65,7 +66,9 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
     r.stored[i] = k / 2 * (delta < 1 ? half * half + delta * delta * u * u / 4 : after * after);
     const double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
     energies.damping += damping;
-    energies.numerical += taken_[index][i] - (r.stored[i] - held) - work[i] - damping;
+    const double given = is_driven(r, i) ? -j.impulse[i] / h * slip[i] : 0;
+    energies.driven += given;
+    energies.numerical += taken_[index][i] + given - (r.stored[i] - held) - work[i] - damping;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "drive.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -175,6 +177,7 @@ void Projection::take_neutral(System& system, bool kept, double trifle, double r
     JointRecord& r = system.records[k];
     for (unsigned i = 0; i < 3; ++i) {
       const bool free = j.G[i] == 0;
+      if (is_slack(j, r, i) && !free) continue;
       const double change = r.gap[i] - kept_[k][i];
       const bool closed = kept && r.m_eff[i] * change * change <= trifle + rounding * rounding * r.m_eff[i];
       if (closed && !free && !flows(j.regime, i)) continue;

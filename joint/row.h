@@ -39,6 +39,14 @@ struct Material {
   Rows cap{}, cap_reverse{};        // N, N, N m
   Rows hardening{};                 // N/m, N/m, N m/rad
   const YieldSurface* surface = nullptr;
+  unsigned slackens = 0, driven = 0;  // rows that go slack at a cap of 0, and driven ones, one bit each
+  Rows target{}, speed{};             // of driven rows: see Drive
+
+  void drive(unsigned row, double to, double at) {
+    driven |= 1u << row;
+    target[row] = to;
+    speed[row] = at;
+  }
 };
 
 /// The law of one step's rows.

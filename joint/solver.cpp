@@ -25,7 +25,8 @@ void Solver::form(std::size_t free_bodies) {
   const std::span<Vec3> masses = newton_.scratch().first(free);
   for (std::size_t i = 0; i < free; ++i) masses[i] = momentum(bodies[i], {1, 1, 1});
   prediction_.form(masses);
-  laws_.invalidate();
+  driven.reserve(joints.size());
+  laws_changed();
 }
 
 void Solver::begin(double h) {
@@ -33,6 +34,7 @@ void Solver::begin(double h) {
   motion_.share = 1;
   if (h != step()) prediction_.forget();
   const bool other_laws = laws_.begin(*this, h);
+  begin_drives(*this, h);
   if (follow_tension(*this, h) || other_laws) hessian_.forget();
 }
 
@@ -80,7 +82,7 @@ void Solver::advance() {
     const bool turns = j.regime != 0 || j.overdamped;
     if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
-    if (keeps_ledger || j.regime != 0 || j.free) book(j, gap);
+    if (keeps_ledger || j.regime != 0 || j.free || j.special) book(j, gap);
     j.rate = relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]);
     for (unsigned i = 0; turns && i < 3; ++i) {
       if (j.carry[i] < 0) {
@@ -89,6 +91,7 @@ void Solver::advance() {
         j.rate[i] -= before_turn[i];  // the spring's own rate is none
       }
     }
+    if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
   }
   biases_known = true;
@@ -99,6 +102,7 @@ void Solver::book(Joint& j, const Rows& gap) {
   JointRecord& r = record(j);
   follow_gap(j, gap);
   const Rows neutral = j.neutral, dissipated = r.dissipated;
+  if (r.material.driven != 0) move_drive(j, r, step());
   if (j.regime != 0) flow(j, r, gap, laws_, motion_);
   if (!keeps_ledger) return;
   Rows slip, work;

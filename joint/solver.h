@@ -23,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include "drive.h"
 #include "ledger.h"
 #include "newton.h"
 #include "projection.h"
@@ -72,7 +73,10 @@ class Solver : public System {
   double step() const { return laws_.step(); }
 
   /// Caps or stiffness were edited.
-  void laws_changed() { laws_.invalidate(); }
+  void laws_changed() {
+    laws_.invalidate();
+    list_special(*this);
+  }
   /// See StepLaws.
   double& drift_time() { return laws_.drift_time; }
   double drift_time() const { return laws_.drift_time; }

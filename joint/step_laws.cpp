@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "drive.h"
 #include "kinematics.h"
 
 namespace ductile::dynamics {
@@ -38,7 +39,7 @@ double StepLaws::deferred_share(System& system, double h) {
     double now = 0;
     for (unsigned i = 0; i < 3; ++i) {
       const double d = r.gap[i] - j.neutral[i] - elastic_strain(j, r, i);
-      if (j.G[i] > 0 && is_rigid(r, i)) now += r.m_eff[i] * d * d;
+      if (j.G[i] > 0 && is_rigid(r, i) && !is_slack(j, r, i)) now += r.m_eff[i] * d * d;
     }
     deferred += h < r.law.h ? now : r.deferred_drift;
     all += now;
@@ -62,7 +63,7 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain) const {
     j.rate[i] /= longer;
     // What holds nothing any more, as both its bodies are held, forgets its force.
     if (!(r.law.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
-    if (!(spring[i] > 0 && r.law.spring[i] > 0)) continue;
+    if (!(spring[i] > 0 && r.law.spring[i] > 0) || is_slack(j, r, i)) continue;
     const auto strain_by = [&](double by) {
       j.neutral[i] += strain[i] * (1 - by);
       strain[i] *= by;
@@ -116,7 +117,7 @@ bool StepLaws::begin(System& system, double h) {
     if (changed) follow_law(j, r, strain);
     for (unsigned i = 0; i < 3; ++i) {
       double e = r.gap[i] - j.neutral[i];
-      e -= waits * (e - strain[i]);
+      if (!is_slack(j, r, i)) e -= waits * (e - strain[i]);
       j.bias[i] = j.relaxation[i] * e - j.carry[i] * j.rate[i];
     }
   }

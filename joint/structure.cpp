@@ -49,6 +49,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.max_slip = d.max_slip;
   m.break_group = d.break_group;
   m.node = d.node;
+  m.length = d.line ? d.length : -1;
   for (unsigned i = 0; i < 3; ++i) {
     const RowDef& row = d.rows[i];
     m.own_record.material.stiffness[i] = row.stiffness;
@@ -57,6 +58,8 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     m.own_record.material.cap[i] = row.cap;
     m.own_record.material.cap_reverse[i] = row.cap_reverse;
     m.own_record.material.hardening[i] = row.hardening;
+    if (row.slackens) m.own_record.material.slackens |= 1u << i;
+    if (row.drive) m.own_record.material.drive(i, row.drive->target, row.drive->speed);
   }
   if (!d.interaction.empty()) {
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
@@ -65,6 +68,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.own.frame.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
   m.own.frame.follow = d.axisFollow;
   m.own.frame.reference = weld->GetReferenceAngle();
+  m.own.frame.line = d.line;
   b2Body *a = weld->GetBodyA(), *b = weld->GetBodyB();
   m.joint = ElasticPlasticJoint::put_in_place(weld, &m);
   members.push_back(std::move(member));
@@ -211,9 +215,15 @@ void Structure::Impl::look_for_breaks(Component& component) {
   for (Member* m : component.members) {
     Joint& j = component.solver.joints[m->index];
     if (j.regime == 0 || m->broken) continue;
+    unsigned yields = flowing(j.regime);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (is_driven(m->record(), i) || is_slack(j, m->record(), i)) yields &= ~(1u << i);
+    }
+    if (yields == 0) continue;
     const Rows force = dynamics::force(j, m->record());
-    const unsigned row =
-        j.regime == on_surface ? 2u : static_cast<unsigned>(std::countr_zero(flowing(j.regime)));
+    const unsigned row = j.regime == on_surface && (yields & 4u) != 0
+                             ? 2u
+                             : static_cast<unsigned>(std::countr_zero(yields));
     const double energy = m->joint->dissipated();
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear

@@ -32,6 +32,7 @@ struct Frame {
   Turn axis;                              // in A's frame at rest
   double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
   double reference = 0;  // angle of B against A at rest, rad
+  bool line = false;     // the axis runs from anchor to anchor
 };
 
 /// What every step reads and writes of a joint. What it needs only where something flows, is factored or
@@ -46,6 +47,7 @@ struct Joint {
   std::uint8_t factored_flow = 0;  // rows that were flowing in the current factorisation
   bool free = false;               // some row holds nothing
   bool overdamped = false;         // some row has δ > 1
+  bool special = false;            // some row is driven or goes slack (drive.h)
   int block = -1;                  // of H, when both bodies are free
 
   Rows G{}, elastic_range{};   // of the law
@@ -79,6 +81,7 @@ struct JointRecord {
   int turn_inertia = -1;      // index into System::turn_inertias
   double deferred_drift = 0;  // Σ m_eff d² of the constraint drift d of a longer step, not yet taken back
   PlasticFlow plastic;
+  Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Material material;
@@ -93,6 +96,7 @@ struct System {
   std::vector<Joint> joints;
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them
+  std::vector<int> driven;                 // joints
   std::size_t free = 0;                    // bodies
   double mass = 0;                         // of all free bodies, kg
   bool gaps_known = false;                 // no pose was moved since they were found
@@ -113,11 +117,16 @@ Rows force(const Joint& joint, const JointRecord& record);
 /// Whether a row is stiffer than the step can integrate.
 inline bool is_rigid(const JointRecord& r, unsigned i) { return r.law.spring[i] != r.material.stiffness[i]; }
 
+/// Whether a row that takes one sign took nothing in the last step (drive.h).
+inline bool is_slack(const Joint& j, const JointRecord& r, unsigned i) {
+  return (r.material.slackens >> i & 1u) != 0 && j.impulse[i] == 0;
+}
+
 /// The elastic strain at the end of the last step, m or rad: that of the biases, and R/k in rigid rows. The
 /// gap itself may be more there: turning bodies part along their tangents in a step, by r(ωh)²/2, before the
 /// next one brings them back.
 inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
-  if (!(j.relaxation[i] > 0)) return 0;
+  if (!(j.relaxation[i] > 0) || is_slack(j, r, i)) return 0;
   return is_rigid(r, i) ? j.impulse[i] / (r.law.h * r.law.spring[i])
                         : (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
 }

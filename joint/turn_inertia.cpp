@@ -43,7 +43,7 @@ TurnInertia& of(System& system, const Joint& j) {
 bool follow_tension(System& system, double h) {
   bool changed = false;
   for (const Joint& j : system.joints) {
-    if (j.block < 0) continue;
+    if (j.block < 0 || j.frame.line) continue;
     const double need = needed(system, j, h);
     if (need == 0 && system.turn_inertias.empty()) continue;
     if (need > 0) of(system, j);
@@ -69,7 +69,7 @@ bool follow_tension(System& system, double h) {
 bool raise_to_tension(System& system, double h) {
   bool raised = false;
   for (const Joint& j : system.joints) {
-    if (j.block < 0) continue;
+    if (j.block < 0 || j.frame.line) continue;
     const double need = needed(system, j, h);
     if (need == 0) continue;
     const Body &a = system.bodies[z(j.a)], &b = system.bodies[z(j.b)];

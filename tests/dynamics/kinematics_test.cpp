@@ -1,6 +1,8 @@
 // J against differences of the gap, and what follows from the gap's being the same wherever all of it is.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "random_system.h"
 
 namespace ductile::dynamics {
@@ -32,6 +34,35 @@ TEST(Kinematics, JacobianIsTheDerivativeOfTheGap) {
                 << seed << ", " << i << ", " << row;
         }
       }
+    }
+  }
+}
+
+TEST(Kinematics, LinesMeasureTheDistanceOfTheirAnchors) {
+  System system = RandomSystem(3).system;
+  for (Joint j : system.joints) {
+    j.frame.line = true;
+    j.frame.bx += 3;
+    const Place &a = system.places[z(j.a)], &b = system.places[z(j.b)];
+    const auto anchor = [](const Place& p, double x, double y) {
+      return Vec3{p.pose.x + p.turn.c * x - p.turn.s * y, p.pose.y + p.turn.s * x + p.turn.c * y, 0};
+    };
+    const auto distance = [&](const Place& on_a, const Place& on_b) {
+      const Vec3 d = anchor(on_b, j.frame.bx, j.frame.by) - anchor(on_a, j.frame.ax, j.frame.ay);
+      return std::hypot(d.x, d.y);
+    };
+    EXPECT_NEAR(locate(j, a, b)[0], distance(a, b), 1e-14 * distance(a, b));
+    for (int i = 0; i < 6; ++i) {
+      constexpr double step = 1e-5;
+      Vec3 da, db;
+      entry(i < 3 ? da : db, i % 3) = 1;
+      const auto moved = [&](double by) {
+        Place on_a = a, on_b = b;
+        displace(on_a, by * da);
+        displace(on_b, by * db);
+        return distance(on_a, on_b);
+      };
+      EXPECT_NEAR(relative_velocity(j, da, db)[0], (moved(step) - moved(-step)) / (2 * step), 1e-8) << i;
     }
   }
 }

@@ -42,6 +42,9 @@ struct ElasticPlasticJointDef : b2JointDef {
   void Initialize(b2Body* bodyA, b2Body* bodyB, const b2Vec2& anchor);
   /// The same with the axis given, in world coordinates (any length > 0).
   void Initialize(b2Body* bodyA, b2Body* bodyB, const b2Vec2& anchor, const b2Vec2& axis);
+  /// A line between two anchors, which turns freely at both: a rope, strut, winch or jack. Its axial row,
+  /// `rows[axial]`, is yours to set; the others are free.
+  void InitializeLine(b2Body* bodyA, b2Body* bodyB, const b2Vec2& anchorA, const b2Vec2& anchorB);
 
   b2Vec2 localAnchorA{0, 0};  ///< relative to body A's origin, m
   b2Vec2 localAnchorB{0, 0};  ///< relative to body B's origin, m
@@ -49,6 +52,10 @@ struct ElasticPlasticJointDef : b2JointDef {
   float axisFollow =
       0.5f;  ///< share of B's turn against A that the axis follows: ½: mean of both; 0: fixed to A
   float referenceAngle = 0;  ///< angle of B minus angle of A at rest, rad
+  /// The axis runs from anchor to anchor wherever they are, and u is their distance. Needs a free shear and
+  /// rotation row.
+  bool line = false;
+  double length = -1;  ///< m: of a line without force; below 0: the anchors' distance when it is first solved
 
   RowDef rows[3];                      ///< axial, shear, rotation
   double max_rotation = unlimited;     ///< rad: breaks where accumulated plastic rotation exceeds it
@@ -82,6 +89,9 @@ class ElasticPlasticJoint : public b2WeldJoint {
 
   // Deformation.
   double elastic(Row row) const;        ///< m, m, rad: the elastic part now
+  /// m, m, rad: the row's coordinate (u, v, θ) where it is without force: the length of a rope, how far a
+  /// drive has got.
+  double neutral(Row row) const;
   double plastic(Row row) const;        ///< m, m, rad: net plastic offset, b against a
   double accumulated_rotation() const;  ///< rad: Σ|plastic rotation|
   double elongation() const;            ///< m: Σ plastic lengthening
@@ -105,6 +115,9 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// Changes a row while the world is not stepping; wakes the bodies.
   void set_caps(Row row, double cap, double cap_reverse);
   void set_stiffness(Row row, double stiffness, double damping_ratio);
+  /// Drives a row from where its neutral position is. A row that carries nothing (caps of 0) lets go, and
+  /// takes hold where it is when it is given caps again.
+  void drive(Row row, const Drive& drive);
   void set_limits(double max_rotation, double max_elongation, double max_compression, double max_slip);
 
   b2Vec2 GetReactionForce(float inv_dt) const override;
@@ -186,7 +199,7 @@ struct JointEnergy {
       0;  ///< plastic work since the start, of joints that are gone too; what broke sets free counts in
   double damping = 0;    ///< of the rows' dampers, since the start
   double numerical = 0;  ///< what implicit integration took since the start (negative: gave)
-  double driven = 0;     ///< work of kinematic bodies, and of turning ones with fixed rotation, on the joints
+  double driven = 0;     ///< work of driven rows, kinematic bodies and turning ones with fixed rotation
   double clamped = 0;    ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 namespace ductile {
 
@@ -13,6 +14,12 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 /// Index of a row.
 enum Row : unsigned { axial, shear, rotation };
+
+/// Where a driven row goes: its neutral position moves toward `target` at `speed`.
+struct Drive {
+  double target = unlimited;  ///< m or rad, in the row's own coordinate; ±unlimited: on and on
+  double speed = 0;           ///< m/s or rad/s, ≥ 0; 0 holds: a brake
+};
 
 /// The law of one row.
 struct RowDef {
@@ -26,7 +33,22 @@ struct RowDef {
   /// c ≥ 0, N s/m or N m s, besides what `damping_ratio` makes; no effect when rigid. A structure whose rows
   /// all have c = 2ζk/ω damps a vibration of ω' by ζω'/ω of critical damping.
   double damping = 0;
+  /// Beyond a cap of 0 the row goes slack instead of flowing: its neutral position stays, so that it carries
+  /// again where it did before. The other cap is not 0.
+  bool slackens = false;
+  /// Drives the row: a motor (rotation), a winch or a hydraulic jack (axial). What the caps cannot hold slips,
+  /// and the drive goes on from where it has got to: that is neither damage nor plastic work, and comes with
+  /// no event.
+  std::optional<Drive> drive = {};
 
+  /// Tension only: a rope of stiffness k that flows at `cap`.
+  static constexpr RowDef rope(double k = rigid, double cap = unlimited) {
+    return {.stiffness = k, .cap = cap, .cap_reverse = 0, .slackens = true};
+  }
+  /// Compression only: what leans on something, and may lift off it.
+  static constexpr RowDef strut(double k = rigid, double cap = unlimited) {
+    return {.stiffness = k, .cap = 0, .cap_reverse = cap, .slackens = true};
+  }
   /// A row that carries nothing: a pin is rotation = free(), a roller axial = free().
   static constexpr RowDef free() { return {.cap = 0, .cap_reverse = 0}; }
   /// A row of cap ±k·displacement: "max force given by a maximum elastic displacement or rotation".

@@ -1,0 +1,34 @@
+// Rows that do not just hold or flow: driven ones, whose neutral position moves as it is told, and ropes and
+// struts, which go slack.
+//
+// A neutral position that moves at n turns J v and the rate w of the row's law into J v − n and w − n, both
+// of the elastic part alone: what moves evenly without force stays without it. Where a cap does not hold it,
+// a driven row slips and goes on from there.
+//
+// A slack row keeps its neutral position. Its strain e is then beyond it, which no spring was strained by:
+// with w = 2e/h, e half a step ago is 0, so what was stored is 0 (see ledger.h), and the row takes hold in
+// the step at whose middle it is taut, without gain.
+#pragma once
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+inline bool is_driven(const JointRecord& r, unsigned i) { return (r.material.driven >> i & 1u) != 0; }
+
+/// Lists the driven joints, and marks those that are or may be slack. Never allocates after the system's
+/// form().
+void list_special(System& system);
+
+/// After laws and biases of a step of h seconds are made: sets the drives' rates.
+void begin_drives(System& system, double h);
+
+/// After the step was solved, before its flow is booked: neutral positions move, biases are those of rows at
+/// rest again.
+void move_drive(Joint& joint, const JointRecord& record, double h);
+
+/// Sets the rates that the law carries over, of driven and of slack rows, after they were set as those of the
+/// gap.
+void correct_rates(Joint& joint, const JointRecord& record, const Rows& gap, double h);
+
+}  // namespace ductile::dynamics

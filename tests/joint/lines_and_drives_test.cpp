@@ -1,0 +1,283 @@
+// Ropes, struts, winches, jacks and motors against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "beam.h"
+#include "bodies.h"
+
+namespace ductile {
+namespace {
+
+constexpr double gravity = 10;
+
+// A load of 1000 kg, 1 m high, below or above a held block at the origin, and a line between their centres.
+struct Line {
+  Line(double at_x, double at_y, const RowDef& row, double length = -1)
+      : world(vec(0, -gravity)), structure(world, {.keep_ledger = true}) {
+    world.SetAllowSleeping(false);
+    block = add_box(world, {.type = b2_staticBody});
+    load = add_box(world, {.x = at_x, .y = at_y, .mass = mass});
+    ElasticPlasticJointDef def;
+    def.InitializeLine(block, load, {0, 0}, vec(at_x, at_y));
+    def.rows[axial] = row;
+    def.length = length;
+    joint = structure.create_joint(def);
+    structure.on_event([this](const JointEvent&) { ++events; });
+  }
+  void step(double dt = 1.0 / 60) {
+    world.Step(static_cast<float>(dt), 8, 3);
+    EXPECT_EQ(structure.report().bounds_hit, 0);
+    structure.update();
+  }
+  void run(double seconds, double dt = 1.0 / 60) {
+    for (int i = 0; i < std::lround(seconds / dt); ++i) step(dt);
+  }
+  double distance() const { return load->GetPosition().Length(); }
+  double energy() const {
+    return mass * (load->GetLinearVelocity().LengthSquared() / 2.0 + gravity * load->GetPosition().y) +
+           joint->elastic_energy();
+  }
+  static constexpr double mass = 1000;
+  b2World world;
+  Structure structure;
+  b2Body *block, *load;
+  ElasticPlasticJoint* joint;
+  int events = 0;
+};
+
+RowDef damped(RowDef row) {
+  if (row.stiffness < rigid) row.damping = 0.3 * row.stiffness;
+  return row;
+}
+
+class Rope : public testing::TestWithParam<double> {};
+
+// F = k (l − L): hung, thrown up so that it goes slack, and hung again.
+TEST_P(Rope, ComesBackToItsLengthAfterItWasSlack) {
+  const double k = GetParam(), length = 4;
+  Line line(0, -length, damped(RowDef::rope(k)));
+  const double hung = length + (k < rigid ? Line::mass * gravity / k : 0);
+  line.run(6);
+  EXPECT_NEAR(line.distance(), hung, 1e-6 * length);
+  EXPECT_NEAR(line.joint->force(axial), Line::mass * gravity, 1e-6 * Line::mass * gravity);
+  for (int again = 0; again < 3; ++again) {
+    line.load->SetLinearVelocity({0, 5});
+    line.run(0.5);
+    EXPECT_EQ(line.joint->force(axial), 0);
+    EXPECT_LT(line.distance(), length - 1);
+    line.run(8);
+    EXPECT_NEAR(line.distance(), hung, 1e-6 * length);
+  }
+  EXPECT_EQ(line.joint->neutral(axial), length);
+  EXPECT_EQ(line.joint->elongation(), 0);
+  EXPECT_EQ(line.joint->compression(), 0);
+  EXPECT_EQ(line.events, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Stiffness, Rope, testing::Values(1e6, 1e8, rigid));
+
+// A fall of H into a slack rope: ½ k x² = m g (H + x), so that k x = m g (1 + √(1 + 2 k H / (m g))).
+TEST(Ropes, SnapTautWithTheForceOfTheFall) {
+  const double k = 1e5, length = 4, fall = 2, weight = Line::mass * gravity;
+  Line line(0, -length + fall, RowDef::rope(k), length);
+  double highest = 0;
+  for (int i = 0; i < 3 * 2000; ++i) {
+    line.step(1.0 / 2000);
+    highest = std::max(highest, line.joint->force(axial));
+  }
+  const double expected = weight * (1 + std::sqrt(1 + 2 * k * fall / weight));
+  EXPECT_NEAR(highest, expected, 5e-3 * expected);
+}
+
+// Without a damper it bounces for ever, and never higher than before.
+TEST(Ropes, GiveNoEnergy) {
+  for (const double k : {1e4, 1e5, 1e6, 1e7}) {
+    Line line(0.3, -2, RowDef::rope(k), 4);
+    line.step();
+    double least = line.energy();
+    const double swing = Line::mass * gravity * 2;
+    for (int i = 0; i < 3000; ++i) {
+      line.step();
+      // In free fall all of it is kinetic and potential, but for what leapfrog has of them half a step apart.
+      if (line.joint->force(axial) != 0) continue;
+      const double v = line.load->GetLinearVelocity().y;
+      const double now = line.energy() - Line::mass * gravity * v / 120;
+      EXPECT_LT(now, least + 2e-3 * swing) << k << ", step " << i;
+      least = std::min(least, now);
+    }
+  }
+}
+
+// A simple pendulum of amplitude a: T = 2π √(L/g) (1 + a²/16 + …), plus the box's own inertia about its centre,
+// which a rope does not turn.
+TEST(Ropes, SwingAsPendulums) {
+  const double length = 4, a = 0.2;
+  Line line(length * std::sin(a), -length * std::cos(a), RowDef::rope());
+  int crossings = 0;
+  double first = 0, last = 0, x = line.load->GetPosition().x;
+  const double dt = 1.0 / 240;
+  for (int i = 1; i < 240 * 30; ++i) {
+    line.step(dt);
+    const double now = line.load->GetPosition().x;
+    if (x < 0 && now >= 0) {
+      last = dt * (i - now / (now - x));
+      if (crossings++ == 0) first = last;
+    }
+    x = now;
+    EXPECT_NEAR(line.distance(), length, 2e-4 * length);
+  }
+  ASSERT_GT(crossings, 5);
+  const double period = 2 * std::numbers::pi * std::sqrt(length / gravity) * (1 + a * a / 16);
+  EXPECT_NEAR((last - first) / (crossings - 1), period, 2e-3 * period);
+}
+
+TEST(Ropes, AreLetGoAndTakeHoldWhereTheyAre) {
+  Line line(0, -4, RowDef::rope());
+  line.run(1);
+  line.joint->set_caps(axial, 0, 0);
+  line.run(0.5);
+  line.joint->set_caps(axial, unlimited, 0);
+  const double caught = line.distance();
+  EXPECT_GT(caught, 5);
+  line.run(3);
+  EXPECT_NEAR(line.distance(), caught, 1e-3);
+  EXPECT_NEAR(line.joint->force(axial), Line::mass * gravity, 1e-6 * Line::mass * gravity);
+}
+
+// It flows at its cap, and that stays.
+TEST(Ropes, StretchBeyondTheirCap) {
+  Line line(0, -4, RowDef::rope(1e6, 0.9 * Line::mass * gravity));
+  line.run(1);
+  // Elastic until k x = 0.9 m g, and from there at a = (1 − 0.9) g.
+  const double w = std::sqrt(1e6 / Line::mass), t = std::acos(0.1) / w, v = gravity / w * std::sin(w * t);
+  const double expected = v * (1 - t) + 0.1 * gravity * (1 - t) * (1 - t) / 2;
+  EXPECT_NEAR(line.joint->elongation(), expected, 5e-3 * expected);
+  EXPECT_GT(line.events, 0);
+}
+
+TEST(Struts, CarryCompressionAlone) {
+  const double k = 1e6, length = 2;
+  Line line(0, length, damped(RowDef::strut(k)));
+  line.run(4);
+  EXPECT_NEAR(line.distance(), length - Line::mass * gravity / k, 1e-6 * length);
+  line.load->SetLinearVelocity({0, 5});
+  line.run(0.5);
+  EXPECT_EQ(line.joint->force(axial), 0);
+  line.run(6);
+  EXPECT_NEAR(line.distance(), length - Line::mass * gravity / k, 1e-6 * length);
+  EXPECT_EQ(line.joint->compression(), 0);
+  EXPECT_EQ(line.events, 0);
+}
+
+class Winch : public testing::TestWithParam<double> {};
+
+// It lifts with the weight alone, at its speed, to its length, and what it gives is the load's height.
+TEST_P(Winch, LiftsEvenlyAndStops) {
+  const double k = GetParam(), length = 6, speed = 0.5, weight = Line::mass * gravity;
+  Line line(0, -length, damped(RowDef::rope(k)));
+  line.run(4);
+  const double before = line.structure.energy().driven;
+  line.joint->drive(axial, {.target = 3, .speed = speed});
+  line.run(4);
+  EXPECT_NEAR(line.load->GetLinearVelocity().y, speed, 1e-5 * speed);
+  EXPECT_NEAR(line.joint->force(axial), weight, 1e-5 * weight);
+  EXPECT_NEAR(line.joint->neutral(axial), length - 4 * speed, 1e-6);
+  line.run(6);
+  EXPECT_NEAR(line.distance(), 3 + (k < rigid ? weight / k : 0), 1e-6 * length);
+  EXPECT_EQ(line.joint->neutral(axial), 3);
+  const double given = line.structure.energy().driven - before;
+  EXPECT_NEAR(given, weight * 3, (k < 1e8 ? 2e-2 : 1e-2) * weight * 3);
+  EXPECT_EQ(line.events, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Stiffness, Winch, testing::Values(1e6, 1e8, rigid));
+
+// What its cap does not hold it lowers with: a = g − F/m; and it is no damage.
+TEST(Jacks, SlipBeyondTheirForce) {
+  const double force = 0.8 * Line::mass * gravity;
+  Line line(0, 4, {.cap = force, .cap_reverse = force, .drive = Drive{.target = 6, .speed = 1}});
+  line.run(1);
+  EXPECT_NEAR(line.joint->force(axial), -force, 1e-9 * force);
+  EXPECT_NEAR(line.load->GetLinearVelocity().y, -0.2 * gravity, 1e-4);
+  EXPECT_NEAR(line.joint->neutral(axial), line.distance(), 1e-2);
+  line.joint->set_caps(axial, unlimited, unlimited);
+  line.run(6);
+  EXPECT_NEAR(line.distance(), 6, 1e-5);
+  EXPECT_EQ(line.joint->compression(), 0);
+  EXPECT_EQ(line.joint->dissipated(), 0);
+  EXPECT_EQ(line.events, 0);
+}
+
+// A wheel of inertia I on a motor of moment M: ω = M t / I up to its speed.
+TEST(Motors, SpeedUpByTheirMomentAndKeepTheirSpeed) {
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body* block = add_box(world, {.type = b2_staticBody});
+  b2Body* wheel = add_box(world, {.mass = 600});  // I = m/6 = 100 kg m²
+  ElasticPlasticJointDef def;
+  def.Initialize(block, wheel, {0, 0}, {1, 0});
+  def.rows[rotation] = {.cap = 50, .cap_reverse = 50, .drive = Drive{.speed = 2}};
+  ElasticPlasticJoint* motor = structure.create_joint(def);
+  const auto run = [&](double seconds) {
+    for (int i = 0; i < std::lround(60 * seconds); ++i) {
+      world.Step(1 / 60.0f, 8, 3);
+      structure.update();
+    }
+  };
+  run(2);
+  EXPECT_NEAR(wheel->GetAngularVelocity(), 50.0 / 100 * 2, 1e-4);
+  run(4);
+  EXPECT_NEAR(wheel->GetAngularVelocity(), 2, 1e-5);
+  EXPECT_NEAR(motor->force(rotation), 0, 1e-3);
+  motor->drive(rotation, {.speed = 0});  // a brake
+  run(2);
+  EXPECT_NEAR(wheel->GetAngularVelocity(), 1, 1e-4);
+  EXPECT_NEAR(motor->force(rotation), 50, 1e-6);
+}
+
+class Drawbridge : public testing::TestWithParam<int> {};
+
+// A deck of 12 m and 314 kg/m on a driven hinge: held at q L²/2, and lifted to an angle at q L²/2 cos α.
+TEST_P(Drawbridge, IsHeldAndLiftedByItsHinge) {
+  const int n = GetParam();
+  Beam deck({.pieces = n, .length = 12, .height = 0.2, .density = 314 / 0.2, .youngs_modulus = 210e9,
+             .gravity = gravity});
+  ElasticPlasticJoint* hinge = deck.joints.front();
+  hinge->set_caps(rotation, 2e6, 2e6);
+  hinge->set_stiffness(rotation, rigid, 0);
+  hinge->drive(rotation, {.speed = 0});
+  deck.run(10);
+  const double held = 314 * gravity * 12 * 12 / 2;
+  EXPECT_NEAR(hinge->force(rotation), deck.root_moment(), 1e-5 * held);
+  EXPECT_NEAR(hinge->force(rotation), -held, 1e-3 * held);
+  const double angle = 1;
+  hinge->drive(rotation, {.target = angle, .speed = 0.1});
+  deck.run(20);
+  EXPECT_NEAR(deck.pieces.front()->GetAngle(), angle, 1e-4);
+  EXPECT_NEAR(hinge->force(rotation), deck.root_moment(), 1e-4 * held);
+  EXPECT_NEAR(hinge->force(rotation), -held * std::cos(angle), 1e-2 * held);
+  EXPECT_EQ(hinge->accumulated_rotation(), 0);
+}
+INSTANTIATE_TEST_SUITE_P(Pieces, Drawbridge, testing::Values(1, 4, 12, 24));
+
+TEST(LineDefs, SayWhatIsWrong) {
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body* a = add_box(world, {.type = b2_staticBody});
+  b2Body* b = add_box(world, {.x = 3});
+  ElasticPlasticJointDef def;
+  def.InitializeLine(a, b, {0, 0}, {3, 0});
+  def.rows[shear] = {};
+  EXPECT_THROW(structure.create_joint(def), std::invalid_argument);
+  def.rows[shear] = RowDef::free();
+  def.rows[axial] = {.slackens = true};
+  EXPECT_THROW(structure.create_joint(def), std::invalid_argument);
+  def.rows[axial] = {.drive = Drive{.speed = -1}};
+  EXPECT_THROW(structure.create_joint(def), std::invalid_argument);
+  def.rows[axial] = RowDef::rope();
+  EXPECT_NO_THROW(structure.create_joint(def));
+}
+
+}  // namespace
+}  // namespace ductile
