@@ -118,7 +118,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     if (moved) gap = seen;
     parted_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
-      if (j.G[row] > 0 && !is_slack(j, solver.records[i], row)) j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
+      if (j.G[row] > 0 && !is_slack(j, solver.records[i], row))
+        j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
     }
   }
 }

@@ -59,8 +59,8 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
             name + "hardening must be in [0, stiffness)");
     require(!row.slackens || (row.cap > 0) != (row.cap_reverse > 0),
             name + "a row that slackens has one cap of 0 and one that is not");
-    require(!row.drive || (row.drive->speed >= 0 && std::isfinite(row.drive->speed) &&
-                           !std::isnan(row.drive->target)),
+    require(!row.drive ||
+                (row.drive->speed >= 0 && std::isfinite(row.drive->speed) && !std::isnan(row.drive->target)),
             name + "a drive's speed must be ≥ 0 and finite, its target a number");
     require(!row.drive || !(row.hardening > 0), name + "a driven row does not harden; set hardening to 0");
   }

@@ -221,9 +221,8 @@ void Structure::Impl::look_for_breaks(Component& component) {
     }
     if (yields == 0) continue;
     const Rows force = dynamics::force(j, m->record());
-    const unsigned row = j.regime == on_surface && (yields & 4u) != 0
-                             ? 2u
-                             : static_cast<unsigned>(std::countr_zero(yields));
+    const unsigned row =
+        j.regime == on_surface && (yields & 4u) != 0 ? 2u : static_cast<unsigned>(std::countr_zero(yields));
     const double energy = m->joint->dissipated();
     const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
                       : row == shear ? JointEvent::shear

@@ -110,8 +110,8 @@ TEST(Ropes, GiveNoEnergy) {
   }
 }
 
-// A simple pendulum of amplitude a: T = 2π √(L/g) (1 + a²/16 + …), plus the box's own inertia about its centre,
-// which a rope does not turn.
+// A simple pendulum of amplitude a: T = 2π √(L/g) (1 + a²/16 + …), plus the box's own inertia about its
+// centre, which a rope does not turn.
 TEST(Ropes, SwingAsPendulums) {
   const double length = 4, a = 0.2;
   Line line(length * std::sin(a), -length * std::cos(a), RowDef::rope());
@@ -241,7 +241,11 @@ class Drawbridge : public testing::TestWithParam<int> {};
 // A deck of 12 m and 314 kg/m on a driven hinge: held at q L²/2, and lifted to an angle at q L²/2 cos α.
 TEST_P(Drawbridge, IsHeldAndLiftedByItsHinge) {
   const int n = GetParam();
-  Beam deck({.pieces = n, .length = 12, .height = 0.2, .density = 314 / 0.2, .youngs_modulus = 210e9,
+  Beam deck({.pieces = n,
+             .length = 12,
+             .height = 0.2,
+             .density = 314 / 0.2,
+             .youngs_modulus = 210e9,
              .gravity = gravity});
   ElasticPlasticJoint* hinge = deck.joints.front();
   hinge->set_caps(rotation, 2e6, 2e6);

@@ -88,7 +88,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double cap(Row row, bool reverse = false) const;  ///< N, N, N m; grows with hardening
 
   // Deformation.
-  double elastic(Row row) const;        ///< m, m, rad: the elastic part now
+  double elastic(Row row) const;  ///< m, m, rad: the elastic part now
   /// m, m, rad: the row's coordinate (u, v, θ) where it is without force: the length of a rope, how far a
   /// drive has got.
   double neutral(Row row) const;

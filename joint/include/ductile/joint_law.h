@@ -36,9 +36,9 @@ struct RowDef {
   /// Beyond a cap of 0 the row goes slack instead of flowing: its neutral position stays, so that it carries
   /// again where it did before. The other cap is not 0.
   bool slackens = false;
-  /// Drives the row: a motor (rotation), a winch or a hydraulic jack (axial). What the caps cannot hold slips,
-  /// and the drive goes on from where it has got to: that is neither damage nor plastic work, and comes with
-  /// no event.
+  /// Drives the row: a motor (rotation), a winch or a hydraulic jack (axial). What the caps cannot hold
+  /// slips, and the drive goes on from where it has got to: that is neither damage nor plastic work, and
+  /// comes with no event.
   std::optional<Drive> drive = {};
 
   /// Tension only: a rope of stiffness k that flows at `cap`.
