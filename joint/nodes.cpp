@@ -10,11 +10,6 @@
 
 namespace ductile::dynamics {
 DUCTILE_REVEAL(b2Body, m_flags, uint16);
-}
-
-namespace ductile {
-
-using namespace dynamics;
 
 namespace {
 
@@ -59,6 +54,12 @@ Orphan orphan_of(const Member& m) {
   def.node = m.node;
   return orphan;
 }
+
+}  // namespace ductile::dynamics
+
+namespace ductile {
+
+using namespace dynamics;
 
 // Only those whose hub was destroyed: a joint that a game destroyed, or whose own body went, is gone.
 void Structure::Impl::join_orphans() {

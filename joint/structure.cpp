@@ -1,9 +1,9 @@
-// Which joints hang together, when that changed, and what is told of it after the step.
+// A structure's joints from their making to their end, its state, and its public face.
 
 #include "structure.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -97,185 +97,6 @@ void Structure::Impl::forget(Member& member) {
   members.erase(place);
 }
 
-void Structure::Impl::dissolve(Component& component) {
-  gone_.damping += component.solver.energies().damping;
-  gone_.numerical += component.solver.energies().numerical;
-  gone_.driven += component.solver.energies().driven;
-  component.solver.find_gaps();
-  for (Member* m : component.members) {
-    m->own = component.solver.joints[m->index];
-    m->own_record = component.solver.records[m->index];
-    m->drift_time = component.solver.drift_time();
-    m->known = {component.known(m->own.a), component.known(m->own.b)};
-    if (m->broken) m->own.impulse = {};
-    m->belong_to(nullptr);
-  }
-}
-
-// Joints are solved in the order in which they were initialised: the first does the work of all.
-bool Structure::Impl::enlist(Member* member, Component* component) {
-  const bool first = !enlisting_;
-  if (first) {
-    enlisting_ = true;
-    incomplete_ = false;
-    ++batch_;
-    enlisted_.clear();
-    active_.clear();
-    velocity_calls_ = 0;
-    if (std::exchange(stepped_, true) == false) report = {};
-  }
-  enlisted_.push_back(member);
-  if (component == nullptr) {
-    incomplete_ = true;
-    return first;
-  }
-  if (component->batch != batch_) {
-    component->batch = batch_;
-    component->enlisted = 0;
-    active_.push_back(component);
-  }
-  ++component->enlisted;
-  return first;
-}
-
-void Structure::Impl::velocity(const b2SolverData& data) {
-  enlisting_ = false;
-  const int last = data.step.velocityIterations;
-  if (velocity_calls_ == last) return;
-  if (velocity_calls_++ == 0) {
-    bool fits = !incomplete_;
-    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data);
-    if (!fits) {
-      form();
-      for (Component* c : active_) c->look(data);
-    }
-    for (Component* c : active_) c->first_velocity(data);
-    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->alone(); })) {
-      report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
-      velocity_calls_ = last;
-    }
-  } else {
-    for (Component* c : active_) c->next_velocity(data);
-  }
-  if (velocity_calls_ < last) return;
-  for (Component* c : active_) {
-    if (c->resting) continue;
-    c->limit_speed(data);
-    c->advance(data);
-    look_for_breaks(*c);
-  }
-}
-
-void Structure::Impl::position(const b2SolverData& data) {
-  for (Component* c : active_) c->position(data);
-}
-
-// Forms components of the joints of this island, keeping what is known of their bodies and strains.
-void Structure::Impl::form() {
-  for (Component* c : active_) dissolve(*c);
-  std::erase_if(components, [&](const auto& c) {
-    return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
-  });
-  active_.clear();
-
-  // Contacts change the order of joints between steps; elimination must not depend on it.
-  std::vector<Member*> all = enlisted_;
-  std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
-  std::unordered_map<const b2Body*, std::size_t> first_joint;
-  std::vector<std::size_t> root(all.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const b2Body* body : {all[i]->joint->GetBodyA(), all[i]->joint->GetBodyB()}) {
-      if (!is_free(body)) continue;
-      const std::size_t other = find(first_joint.try_emplace(body, i).first->second), mine = find(i);
-      root[std::max(other, mine)] = std::min(other, mine);
-    }
-  }
-  std::vector<std::vector<Member*>> groups(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
-  for (auto& group : groups) {
-    if (group.empty()) continue;
-    components.push_back(std::make_unique<Component>(std::move(group), def.solver));
-    Component* c = components.back().get();
-    c->structure = this;
-    c->report = &report;
-    c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
-    c->batch = batch_;
-    c->enlisted = c->members.size();
-    active_.push_back(c);
-  }
-}
-
-void Structure::Impl::look_for_breaks(Component& component) {
-  if (!component.solver.any_flows()) return;
-  for (Member* m : component.members) {
-    Joint& j = component.solver.joints[m->index];
-    if (j.regime == 0 || m->broken) continue;
-    unsigned yields = flowing(j.regime);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (is_driven(m->record(), i) || is_slack(j, m->record(), i)) yields &= ~(1u << i);
-    }
-    if (yields == 0) continue;
-    const Rows force = dynamics::force(j, m->record());
-    const unsigned row =
-        j.regime == on_surface && (yields & 4u) != 0 ? 2u : static_cast<unsigned>(std::countr_zero(yields));
-    const double energy = m->joint->dissipated();
-    const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
-                      : row == shear ? JointEvent::shear
-                                     : JointEvent::rotation;
-    const double used = m->joint->capacity_used();
-    if (!std::exchange(m->yielded, true)) {
-      say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
-    } else if (used >= m->told + def.flow_share) {
-      m->told = used;
-      say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
-    }
-    const bool exceeded = used > 1;
-    if (!exceeded || (veto && !veto(*m->joint))) continue;
-    break_joint(*m, mode, static_cast<Row>(row));
-  }
-}
-
-void Structure::Impl::say(Member& member, JointEvent event) {
-  // Never allocates inside a step: what finds no room is not said.
-  if (pending_.size() == pending_.capacity()) return;
-  event.worked = event.energy - std::exchange(member.told_energy, event.energy);
-  pending_.push_back({member.id, event});
-}
-
-// Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
-void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row) {
-  const auto let_go = [&](Member& m) {
-    m.broken = broke_ = true;
-    say(m, {.kind = JointEvent::broke,
-            .mode = mode,
-            .joint = m.joint,
-            .force = m.joint->force(row),
-            .energy = m.joint->dissipated(),
-            .released = m.joint->elastic_energy()});
-    Joint& j = m.data();
-    JointRecord& r = m.record();
-    if (m.component != nullptr) m.component->solver.find_gaps();
-    for (unsigned i = 0; i < 3; ++i) {
-      r.dissipated[i] += r.stored[i];  // what it still held is set free
-      r.stored[i] = 0;
-      j.neutral[i] = r.gap[i];
-    }
-    r.material.cap = r.material.cap_reverse = {};
-    r.material.surface = nullptr;
-    if (m.component != nullptr) m.component->disturb();
-  };
-  let_go(member);
-  if (member.break_group == 0) return;
-  for (const auto& other : members) {
-    if (other->break_group == member.break_group && !other->broken) let_go(*other);
-  }
-}
-
 JointEnergy Structure::Impl::energy() const {
   JointEnergy sum = gone_;
   for (const auto& m : members) {
@@ -311,25 +132,6 @@ void Structure::Impl::update() {
     }
   }
   join_orphans();
-}
-
-// The handler may destroy anything: joints are looked up by id each time. It may throw: what it was told is
-// told.
-void Structure::Impl::tell() {
-  struct Telling {
-    bool& telling;
-    explicit Telling(bool& flag) : telling(flag) { telling = true; }
-    ~Telling() { telling = false; }
-  } telling(telling_);
-  while (told_ < pending_.size()) {
-    Pending p = pending_[told_++];
-    const auto member = find(p.id);
-    if (!handler || member == members.end()) continue;
-    p.event.at = (*member)->joint->GetAnchorA();
-    handler(p.event);
-  }
-  pending_.clear();
-  told_ = 0;
 }
 
 auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {

@@ -1,24 +1,31 @@
 // What a Structure keeps: its joints, and the components that they form.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "component.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
 /// What held a body to a node and went without breaking.
 struct Orphan {
   ElasticPlasticJointDef def;
-  std::shared_ptr<const dynamics::YieldSurface> surface;
-  dynamics::PlasticFlow plastic;
+  std::shared_ptr<const YieldSurface> surface;
+  PlasticFlow plastic;
 };
 
 /// A body that is in a node keeps a mark, by which it is told from another one that was made at its address.
 void mark(b2Body& body);
-Orphan orphan_of(const dynamics::Member& member);
+Orphan orphan_of(const Member& member);
+
+}  // namespace ductile::dynamics
+
+namespace ductile {
 
 struct Structure::Impl {
   Impl(b2World& w, const StructureDef& d);
@@ -60,7 +67,7 @@ struct Structure::Impl {
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
-  std::vector<Orphan> orphans;  // since the last update()
+  std::vector<dynamics::Orphan> orphans;  // since the last update()
   int last_node = 0;            // of new_node(): negative, so that a game's own are others
   StepReport worst;  // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
@@ -109,7 +116,7 @@ struct Structure::Impl::State {
   bool stepped;
   JointEnergy gone;
   std::vector<Pending> pending;
-  std::vector<Orphan> orphans;
+  std::vector<dynamics::Orphan> orphans;
   int last_node;
 };
 

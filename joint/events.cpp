@@ -1,0 +1,98 @@
+// Which joints yield, flow and break in a step, and who is told of it after the step.
+
+#include <bit>
+#include <utility>
+
+#include "drive.h"
+#include "structure.h"
+
+namespace ductile {
+
+using namespace dynamics;
+
+void Structure::Impl::look_for_breaks(Component& component) {
+  if (!component.solver.any_flows()) return;
+  for (Member* m : component.members) {
+    Joint& j = component.solver.joints[m->index];
+    if (j.regime == 0 || m->broken) continue;
+    unsigned yields = flowing(j.regime);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (is_driven(m->record(), i) || is_slack(j, m->record(), i)) yields &= ~(1u << i);
+    }
+    if (yields == 0) continue;
+    const Rows force = dynamics::force(j, m->record());
+    const unsigned row =
+        j.regime == on_surface && (yields & 4u) != 0 ? 2u : static_cast<unsigned>(std::countr_zero(yields));
+    const double energy = m->joint->dissipated();
+    const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
+                      : row == shear ? JointEvent::shear
+                                     : JointEvent::rotation;
+    const double used = m->joint->capacity_used();
+    if (!std::exchange(m->yielded, true)) {
+      say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
+    } else if (used >= m->told + def.flow_share) {
+      m->told = used;
+      say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
+    }
+    const bool exceeded = used > 1;
+    if (!exceeded || (veto && !veto(*m->joint))) continue;
+    break_joint(*m, mode, static_cast<Row>(row));
+  }
+}
+
+void Structure::Impl::say(Member& member, JointEvent event) {
+  // Never allocates inside a step: what finds no room is not said.
+  if (pending_.size() == pending_.capacity()) return;
+  event.worked = event.energy - std::exchange(member.told_energy, event.energy);
+  pending_.push_back({member.id, event});
+}
+
+// Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
+void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row) {
+  const auto let_go = [&](Member& m) {
+    m.broken = broke_ = true;
+    say(m, {.kind = JointEvent::broke,
+            .mode = mode,
+            .joint = m.joint,
+            .force = m.joint->force(row),
+            .energy = m.joint->dissipated(),
+            .released = m.joint->elastic_energy()});
+    Joint& j = m.data();
+    JointRecord& r = m.record();
+    if (m.component != nullptr) m.component->solver.find_gaps();
+    for (unsigned i = 0; i < 3; ++i) {
+      r.dissipated[i] += r.stored[i];  // what it still held is set free
+      r.stored[i] = 0;
+      j.neutral[i] = r.gap[i];
+    }
+    r.material.cap = r.material.cap_reverse = {};
+    r.material.surface = nullptr;
+    if (m.component != nullptr) m.component->disturb();
+  };
+  let_go(member);
+  if (member.break_group == 0) return;
+  for (const auto& other : members) {
+    if (other->break_group == member.break_group && !other->broken) let_go(*other);
+  }
+}
+
+// The handler may destroy anything: joints are looked up by id each time. It may throw: what it was told is
+// told.
+void Structure::Impl::tell() {
+  struct Telling {
+    bool& telling;
+    explicit Telling(bool& flag) : telling(flag) { telling = true; }
+    ~Telling() { telling = false; }
+  } telling(telling_);
+  while (told_ < pending_.size()) {
+    Pending p = pending_[told_++];
+    const auto member = find(p.id);
+    if (!handler || member == members.end()) continue;
+    p.event.at = (*member)->joint->GetAnchorA();
+    handler(p.event);
+  }
+  pending_.clear();
+  told_ = 0;
+}
+
+}  // namespace ductile

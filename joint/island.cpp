@@ -1,0 +1,127 @@
+// The phases of an island in b2World::Step, and the components that its joints form.
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "structure.h"
+
+namespace ductile {
+
+using namespace dynamics;
+
+// Joints are solved in the order in which they were initialised: the first does the work of all.
+bool Structure::Impl::enlist(Member* member, Component* component) {
+  const bool first = !enlisting_;
+  if (first) {
+    enlisting_ = true;
+    incomplete_ = false;
+    ++batch_;
+    enlisted_.clear();
+    active_.clear();
+    velocity_calls_ = 0;
+    if (std::exchange(stepped_, true) == false) report = {};
+  }
+  enlisted_.push_back(member);
+  if (component == nullptr) {
+    incomplete_ = true;
+    return first;
+  }
+  if (component->batch != batch_) {
+    component->batch = batch_;
+    component->enlisted = 0;
+    active_.push_back(component);
+  }
+  ++component->enlisted;
+  return first;
+}
+
+void Structure::Impl::velocity(const b2SolverData& data) {
+  enlisting_ = false;
+  const int last = data.step.velocityIterations;
+  if (velocity_calls_ == last) return;
+  if (velocity_calls_++ == 0) {
+    bool fits = !incomplete_;
+    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data);
+    if (!fits) {
+      form();
+      for (Component* c : active_) c->look(data);
+    }
+    for (Component* c : active_) c->first_velocity(data);
+    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->alone(); })) {
+      report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
+      velocity_calls_ = last;
+    }
+  } else {
+    for (Component* c : active_) c->next_velocity(data);
+  }
+  if (velocity_calls_ < last) return;
+  for (Component* c : active_) {
+    if (c->resting) continue;
+    c->limit_speed(data);
+    c->advance(data);
+    look_for_breaks(*c);
+  }
+}
+
+void Structure::Impl::position(const b2SolverData& data) {
+  for (Component* c : active_) c->position(data);
+}
+
+// Forms components of the joints of this island, keeping what is known of their bodies and strains.
+void Structure::Impl::form() {
+  for (Component* c : active_) dissolve(*c);
+  std::erase_if(components, [&](const auto& c) {
+    return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
+  });
+  active_.clear();
+
+  // Contacts change the order of joints between steps; elimination must not depend on it.
+  std::vector<Member*> all = enlisted_;
+  std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
+  std::unordered_map<const b2Body*, std::size_t> first_joint;
+  std::vector<std::size_t> root(all.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const b2Body* body : {all[i]->joint->GetBodyA(), all[i]->joint->GetBodyB()}) {
+      if (!is_free(body)) continue;
+      const std::size_t other = find(first_joint.try_emplace(body, i).first->second), mine = find(i);
+      root[std::max(other, mine)] = std::min(other, mine);
+    }
+  }
+  std::vector<std::vector<Member*>> groups(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
+  for (auto& group : groups) {
+    if (group.empty()) continue;
+    components.push_back(std::make_unique<Component>(std::move(group), def.solver));
+    Component* c = components.back().get();
+    c->structure = this;
+    c->report = &report;
+    c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
+    c->batch = batch_;
+    c->enlisted = c->members.size();
+    active_.push_back(c);
+  }
+}
+
+void Structure::Impl::dissolve(Component& component) {
+  gone_.damping += component.solver.energies().damping;
+  gone_.numerical += component.solver.energies().numerical;
+  gone_.driven += component.solver.energies().driven;
+  component.solver.find_gaps();
+  for (Member* m : component.members) {
+    m->own = component.solver.joints[m->index];
+    m->own_record = component.solver.records[m->index];
+    m->drift_time = component.solver.drift_time();
+    m->known = {component.known(m->own.a), component.known(m->own.b)};
+    if (m->broken) m->own.impulse = {};
+    m->belong_to(nullptr);
+  }
+}
+
+}  // namespace ductile
