@@ -12,10 +12,10 @@
 #include "axis.h"
 #include "convex.h"
 #include "ductile/box2d.h"
+#include "ductile/plane.h"
 #include "moments.h"
-#include "plane.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 // m; Box2D collides nothing below 4 b2_linearSlop = 0.02 m.
@@ -666,7 +666,7 @@ class Automatic {
       area -= std::abs(doubled_area(hole)) / 2;
       triangles += hole.size() + 2;
     }
-    const double diameter = box_of(piece.outer).diagonal();
+    const double diameter = bounds_of(piece.outer).diagonal();
     const double least = std::max(1.01 * thinnest, 1e-3 * diameter);
     if (area > static_cast<double>(triangles) * diameter * least) return true;
 
@@ -718,4 +718,4 @@ AutomaticSplit split_automatically(Splitter& splitter, const Outline& outline, d
   return Automatic(outline, target, holds).run(splitter, place);
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -9,7 +9,7 @@
 #include "ductile/section.h"
 #include "split.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// Where a body is held, and whether it cannot turn there.
 struct Hold {
@@ -40,4 +40,4 @@ struct AutomaticSplit {
 AutomaticSplit split_automatically(Splitter& splitter, const Outline& outline, double target,
                                    std::span<const Hold> holds, const std::string& place);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

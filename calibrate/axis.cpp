@@ -8,7 +8,7 @@
 
 #include "moments.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 // A branch that reaches no farther than so many of its widths is a corner (of 37° or more) or a bump.
@@ -35,7 +35,7 @@ Outline without_small_holes(const Outline& outline) {
   const double most = parting * std::abs(doubled_area(outline.outer)) / 2 / perimeter(outline.outer);
   Outline result{outline.outer, {}};
   for (const Ring& hole : outline.holes)
-    if (box_of(hole).diagonal() > most) result.holes.push_back(hole);
+    if (bounds_of(hole).diagonal() > most) result.holes.push_back(hole);
   return result;
 }
 
@@ -634,4 +634,4 @@ Axis::Walk Axis::walk(int triangle, Point from, Point direction, double most) co
   return {result.triangle, lost, 0};
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

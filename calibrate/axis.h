@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "ductile/plane.h"
 #include "ductile/section.h"
-#include "plane.h"
 #include "triangulation.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// Across a strip, from its left side to its right one, at equal angles to both.
 struct Chord {
@@ -88,4 +88,4 @@ class Axis {
   std::vector<int> first_;     // half-edge of every triangle
 };
 
-}  // namespace ductile
+}  // namespace ductile::calibration

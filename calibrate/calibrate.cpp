@@ -14,14 +14,16 @@
 #include "automatic.h"
 #include "caps.h"
 #include "ductile/fields.h"
+#include "ductile/plane.h"
 #include "fundamental.h"
 #include "moments.h"
-#include "plane.h"
 #include "split.h"
 #include "strip.h"
 #include "touching.h"
 
 namespace ductile {
+using namespace calibration;
+
 namespace {
 
 constexpr int most_pieces = 100'000;
@@ -30,21 +32,12 @@ constexpr double thinnest_section = 3e-10;
 
 std::string body_place(const BodyDef& body) { return "body '" + body.name + "'"; }
 
-// Where a body's outline is put: turned, then moved.
-struct Placement {
-  Point at;
-  double cosine, sine;
-  explicit Placement(const BodyDef& body)
-      : at(body.at), cosine(std::cos(body.angle)), sine(std::sin(body.angle)) {}
-  Point turned(Point p) const { return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y}; }
-  Point operator()(Point p) const { return at + turned(p); }
-  Point back(Point p) const {
-    return {cosine * (p.x - at.x) + sine * (p.y - at.y), cosine * (p.y - at.y) - sine * (p.x - at.x)};
-  }
-  void place(Ring& ring) const {
-    for (Point& p : ring) p = (*this)(p);
-  }
-};
+Frame frame_of(const BodyDef& body) { return {body.at, body.angle}; }
+
+Ring placed(const Frame& frame, Ring ring) {
+  for (Point& p : ring) p = frame.world(p);
+  return ring;
+}
 
 // From end to end of the outline through its centroid, along the axis about which its area is most slender;
 // in the direction of x, then of y.
@@ -67,7 +60,7 @@ Point strip_direction(const BodyDef& body) {
     line = {middle(body.cuts.front()[0], body.cuts.front()[1]),
             middle(body.cuts.back()[0], body.cuts.back()[1])};
   if (line[0] == line[1]) line = long_axis(body.outline);
-  return Placement(body).turned(line[1] - line[0]);
+  return frame_of(body).rotation * (line[1] - line[0]);
 }
 
 // --- what is wrong with a scene ---
@@ -329,10 +322,10 @@ class Planner {
     const std::vector<Hold> holds = holds_of(body);
     AutomaticSplit split =
         split_automatically(splitter_, body.outline, scene_.target_error, holds, body_place(body));
-    const Placement place(body);
+    const Frame frame = frame_of(body);
     for (AutomaticSplit::End& end : split.ends) {
-      end.at = place(end.at);
-      end.outward = place.turned(end.outward);
+      end.at = frame.world(end.at);
+      end.outward = frame.rotation * end.outward;
     }
     ends_[index] = std::move(split.ends);
     plan_.split_errors.push_back(
@@ -352,9 +345,9 @@ class Planner {
                                          [&](const SupportDef&s) { return is_it(s.body); });
     std::vector<Hold> holds;
     if (joined + supported == 0) return holds;
-    const Placement place(body);
+    const Frame frame = frame_of(body);
     for (const SupportDef& s : scene_.supports)
-      if (is_it(s.body)) holds.push_back({place.back(s.at), s.fix_angle});
+      if (is_it(s.body)) holds.push_back({frame.local(s.at), s.fix_angle});
     const Outline own = in_world(body);
     for (const JointBetweenDef& j : scene_.joints) {
       if (!is_it(j.a) && !is_it(j.b)) continue;
@@ -363,11 +356,11 @@ class Planner {
                                       [&](const BodyDef& b) { return b.name == other_name; });
       if (other->circle > 0) continue;
       const double size =
-          std::min(box_of(body.outline.outer).diagonal(), box_of(other->outline.outer).diagonal());
+          std::min(bounds_of(body.outline.outer).diagonal(), bounds_of(other->outline.outer).diagonal());
       for (const Contact& c : touching(own, in_world(*other), j.gap > 0 ? j.gap : 1e-6 * size))
-        holds.push_back({place.back(middle(c.from, c.to)),
+        holds.push_back({frame.local(middle(c.from, c.to)),
                          j.overrides.moment != 0.0,
-                         {place.back(c.from), place.back(c.to)}});
+                         {frame.local(c.from), frame.local(c.to)}});
     }
     return holds;
   }
@@ -375,11 +368,11 @@ class Planner {
   // As split() would make it, of one piece.
   static Outline in_world(const BodyDef& body) {
     Outline outline = body.outline;
-    const Placement place(body);
+    const Frame frame = frame_of(body);
     const auto put = [&](Ring& ring, bool clockwise) {
       if (ring.front() == ring.back()) ring.pop_back();
       if ((doubled_area(ring) < 0) != clockwise) std::reverse(ring.begin(), ring.end());
-      place.place(ring);
+      ring = placed(frame, std::move(ring));
     };
     put(outline.outer, false);
     for (Ring& hole : outline.holes) put(hole, true);
@@ -406,7 +399,7 @@ class Planner {
   // `lengths`: ℓ of the joints by cut, where it is known.
   void add_pieces(int index, Split parts, const std::vector<Cut>& cuts, std::span<const double> lengths) {
     const BodyDef& body = plan_.bodies[index];
-    const Placement place(body);
+    const Frame frame = frame_of(body);
     const Strip& strip = strips_.back();
     const int first = static_cast<int>(plan_.pieces.size()), n = static_cast<int>(parts.pieces.size());
     std::vector<AreaMoments> area;
@@ -421,16 +414,16 @@ class Planner {
       Piece& piece = plan_.pieces.emplace_back();
       piece.name = cuts.empty() ? body.name : body.name + '/' + std::to_string(i);
       piece.body = index;
-      piece.center = place(m.centroid);
+      piece.center = frame.world(m.centroid);
       if (body.type == BodyType::dynamic_body) {
         piece.mass = strip.mass_per_area() * m.area;
         piece.inertia = strip.mass_per_area() * m.polar() + strip.excess_inertia(m.area);
       }
-      place.place(outline.outer);
-      for (Ring& hole : outline.holes) place.place(hole);
+      outline.outer = placed(frame, std::move(outline.outer));
+      for (Ring& hole : outline.holes) hole = placed(frame, std::move(hole));
       piece.outline = std::move(outline);
     }
-    add_joints(index, parts.intervals, lengths, rank, first, place);
+    add_joints(index, parts.intervals, lengths, rank, first, frame);
   }
 
   // Pieces by their projection on the line of the split, then across it; where the split has no line, by
@@ -445,7 +438,7 @@ class Planner {
                               : middle_of(cuts.back()) - middle_of(cuts.front());
     if (body.automatic || u == Point{}) u = {std::cos(body.angle), -std::sin(body.angle)};  // the world's x
     u = unit(u);
-    const double level = 1e-6 * box_of(body.outline.outer).diagonal();
+    const double level = 1e-6 * bounds_of(body.outline.outer).diagonal();
     std::vector<std::pair<double, double>> key;
     key.reserve(area.size());
     for (const AreaMoments& m : area)
@@ -457,10 +450,10 @@ class Planner {
   // --- joints ---
 
   void add_joints(int index, std::vector<Interval>& intervals, std::span<const double> lengths,
-                  const std::vector<int>& rank, int first, const Placement& place) {
+                  const std::vector<int>& rank, int first, const Frame& frame) {
     const BodyDef& body = plan_.bodies[index];
     if (body.automatic) {  // where nobody drew the cuts, pieces that meet in a corner are not joined there
-      const double corner = 1e-9 * box_of(body.outline.outer).diagonal();
+      const double corner = 1e-9 * bounds_of(body.outline.outer).diagonal();
       std::erase_if(intervals, [&](const Interval& i) { return length(i.to - i.from) <= corner; });
     }
     for (Interval& i : intervals) {
@@ -479,8 +472,8 @@ class Planner {
     std::vector<Touch> touches;
     for (std::size_t k = 0; k < intervals.size(); ++k) {
       const Interval& i = intervals[k];
-      touches.push_back(
-          {place(i.from), place(i.to), lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]});
+      touches.push_back({frame.world(i.from), frame.world(i.to),
+                         lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]});
       if (k + 1 < intervals.size() && intervals[k + 1].left == i.left && intervals[k + 1].right == i.right)
         continue;
       add_joints(first + i.left, first + i.right, touches, overriding);
@@ -612,7 +605,7 @@ class Planner {
     for (const std::string& name : names) {
       const int piece = pieces.emplace_back(nearest_piece(name, *def.at));
       const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
-      const double size = body.circle > 0 ? 2 * body.circle : box_of(body.outline.outer).diagonal();
+      const double size = body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal();
       if (distance(plan_.pieces[piece], *def.at) > size)
         problems_.push_back({"joint " + std::to_string(node - 1),
                              "'" + name + "' is farther from " + to_string(*def.at) + " than it is large",
@@ -655,7 +648,7 @@ class Planner {
     double size = unlimited;
     for (const int piece : {of_a.first, of_b.first}) {
       const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
-      size = std::min(size, body.circle > 0 ? 2 * body.circle : box_of(body.outline.outer).diagonal());
+      size = std::min(size, body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal());
     }
     const double least = 1e-6 * size;
     const double gap = def.gap > 0 ? def.gap : least;
@@ -684,7 +677,7 @@ class Planner {
   }
 
   static bool near(const Outline& a, const Outline& b, double gap) {
-    const Box p = box_of(a.outer), q = box_of(b.outer);
+    const Bounds p = bounds_of(a.outer), q = bounds_of(b.outer);
     return p.low.x <= q.high.x + gap && q.low.x <= p.high.x + gap && p.low.y <= q.high.y + gap &&
            q.low.y <= p.high.y + gap;
   }
@@ -753,11 +746,8 @@ class Planner {
 
   static double to_ring(const Ring& ring, Point at) {
     double least = unlimited;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point p = ring[i], along = ring[(i + 1) % ring.size()] - p;
-      const double s = std::clamp(dot(at - p, along) / dot(along, along), 0.0, 1.0);
-      least = std::min(least, length(at - p - s * along));
-    }
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      least = std::min(least, ductile::distance(at, ring[i], ring[(i + 1) % ring.size()]));
     return least;
   }
 

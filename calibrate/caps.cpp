@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "plane.h"
+#include "ductile/plane.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 // What set a value: the section or material of side 0 or 1, nothing, or the user at a level.
@@ -221,4 +221,4 @@ std::string Caps::text(const Governed& governed, std::span<const Overriding> ove
   return text;
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -7,7 +7,7 @@
 #include "ductile/calibrate.h"
 #include "strip.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// What a joint connects, seen from the joint.
 struct Side {
@@ -66,4 +66,4 @@ class Caps {
   std::unordered_map<std::string, int> numbers_;  // of the reasons
 };
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -8,10 +8,10 @@
 
 #include "ductile/calibrate.h"
 #include "moments.h"
-#include "plane.h"
+#include "orientation.h"
 #include "triangulation.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 // The triangulation's triangles, merged to larger polygons.
@@ -19,7 +19,7 @@ class Parts {
  public:
   Parts(const std::vector<Point>& points, std::vector<HalfEdge> triangles)
       : points_(points), edges_(std::move(triangles)) {
-    straight_ = 1e-12 * box_of(points).diagonal();
+    straight_ = 1e-12 * bounds_of(points).diagonal();
   }
 
   // Hertel and Mehlhorn: leave out every edge whose absence leaves its ends convex, the longest first, which
@@ -111,14 +111,6 @@ bool is_convex_part(const Outline& outline, int most_vertices) {
 
 }  // namespace
 
-std::vector<Convex> convex_parts(const Piece& piece) {
-  if (piece.circle > 0) return {};
-  std::vector<Convex> parts = convex_parts(piece.outline, 8);  // b2_maxPolygonVertices
-  for (Convex& part : parts)
-    for (Point& p : part) p = p - piece.center;
-  return parts;
-}
-
 Ring hull(std::vector<Point> points) {  // Andrew's monotone chain
   std::sort(points.begin(), points.end(),
             [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -140,7 +132,7 @@ double least_width(const Ring& convex) {  // rotating calipers: the vertex oppos
   const std::size_t n = convex.size();
   if (n < 3) return 0;
   double least = std::numeric_limits<double>::infinity();
-  const double size = box_of(convex).diagonal();
+  const double size = bounds_of(convex).diagonal();
   for (std::size_t i = 0, opposite = 1; i < n; ++i) {
     const Point p = convex[i], along = convex[(i + 1) % n] - p;
     const auto height = [&](std::size_t k) { return cross(along, convex[k % n] - p); };
@@ -161,6 +153,18 @@ std::vector<Ring> convex_parts(const Outline& outline, int most_vertices) {
   Parts parts(triangles.points, std::move(triangles.edges));
   parts.merge(most_vertices);
   return parts.rings();
+}
+
+}  // namespace ductile::calibration
+
+namespace ductile {
+
+std::vector<Convex> convex_parts(const Piece& piece) {
+  if (piece.circle > 0) return {};
+  std::vector<Convex> parts = calibration::convex_parts(piece.outline, 8);  // b2_maxPolygonVertices
+  for (Convex& part : parts)
+    for (Point& p : part) p = p - piece.center;
+  return parts;
 }
 
 }  // namespace ductile

@@ -5,7 +5,7 @@
 
 #include "ductile/section.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// Convex polygons of at most `most_vertices` vertices, counter-clockwise, that cover the outline without
 /// overlap and use no other vertices than its own. Takes rings that touch; of rings that cross by rounding it
@@ -18,4 +18,4 @@ Ring hull(std::vector<Point> points);
 /// The least width of a convex, counter-clockwise ring over all directions, m.
 double least_width(const Ring& convex);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -6,9 +6,11 @@
 
 #include "convex.h"
 #include "ductile/box2d.h"
-#include "plane.h"
+#include "ductile/plane.h"
 
 namespace ductile {
+using namespace calibration;
+
 namespace {
 
 // A number as Box2D stores it. Subnormal floats count as vanished: Box2D divides by some of them.

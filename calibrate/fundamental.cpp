@@ -16,7 +16,7 @@
 #include <numeric>
 #include <vector>
 
-namespace ductile {
+namespace ductile::calibration {
 
 namespace {
 
@@ -163,4 +163,4 @@ void find_damping_frequencies(Plan& plan) {
   }
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

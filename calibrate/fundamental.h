@@ -4,11 +4,11 @@
 
 #include "ductile/calibrate.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// Fills in PlannedJoint::damping_frequency of every joint that has a damping ratio and none yet: the lowest
 /// natural frequency above zero, Hz, of the structure that the joint belongs to, undamped, unloaded, and as
 /// designed (supports and static bodies hold still, loads have no mass). 0 where nothing in it is elastic.
 void find_damping_frequencies(Plan& plan);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -1,8 +1,8 @@
 #include "moments.h"
 
-#include "plane.h"
+#include "ductile/plane.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 AreaMoments moments(const Outline& outline) {
   // Green's theorem over the edges, about a vertex of the outline itself.
@@ -36,4 +36,4 @@ AreaMoments moments(const Outline& outline) {
   return m;
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

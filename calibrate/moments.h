@@ -3,7 +3,7 @@
 
 #include "ductile/section.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 struct AreaMoments {
   double area = 0;                ///< m²
@@ -16,4 +16,4 @@ struct AreaMoments {
 /// distance from the origin.
 AreaMoments moments(const Outline& outline);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "moments.h"
-#include "plane.h"
+#include "orientation.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 // The outline and its cuts as one planar map. Every ring edge is a half-edge with the material on its left;
@@ -85,7 +85,7 @@ class PlanarMap {
     events_.clear();
     add_ring(outline.outer, false);
     for (const Ring& hole : outline.holes) add_ring(hole, true);
-    size_ = box_of(points_).diagonal();
+    size_ = bounds_of(points_).diagonal();
   }
 
   void add_ring(const Ring& ring, bool clockwise) {
@@ -460,4 +460,4 @@ int locate(const Ring& ring, Point point) {
   return winding != 0 ? 1 : -1;
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -8,7 +8,7 @@
 
 #include "ductile/section.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// A straight cut from one side of an outline to the other. Its ends lie outside or on the outline.
 struct Cut {
@@ -50,4 +50,4 @@ class Splitter {
 /// −1 outside, 0 on the boundary, 1 inside; exact.
 int locate(const Ring& ring, Point point);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

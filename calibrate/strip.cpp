@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ductile/plane.h"
 #include "ductile/rolled.h"
 #include "ductile/shear.h"
 #include "moments.h"
-#include "plane.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 constexpr double poisson = 0.3;                // ν
@@ -78,7 +78,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   if (body.material) {
     fracture_strain_ = body.material->fracture_strain;
     damping_ratio_ = body.material->damping_ratio;
-    hardening_ = ductile::hardening(*body.material);
+    hardening_ = calibration::hardening(*body.material);
     mass_per_area_ = body.material->density * body.depth;
   }
   if (body.profile.empty()) return;
@@ -103,7 +103,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
     inertia += density * (area.yy + area.area * area.centroid.y * area.centroid.y);
     fracture_strain_ = std::min(fracture_strain_, m.fracture_strain);
     damping_ratio_ = std::min(damping_ratio_, m.damping_ratio);
-    hardening_ = std::min(hardening_, ductile::hardening(m));
+    hardening_ = std::min(hardening_, calibration::hardening(m));
   }
   const double h = of_profile_.height;
   mass_per_area_ = mass / h;
@@ -137,4 +137,4 @@ std::optional<double> Strip::profile_height() const {
 
 double Strip::excess_inertia(double area) const { return excess_inertia_per_area_ * area; }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -6,7 +6,7 @@
 
 #include "ductile/calibrate.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// Of one cross-section: caps, the stiffness of a metre, and how far it can be strained.
 struct Strength {
@@ -49,4 +49,4 @@ class Strip {
   double fracture_strain_ = 0, damping_ratio_ = 0, hardening_ = 1;
 };
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "plane.h"
+#include "ductile/plane.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 template <class Visit>
@@ -82,4 +82,4 @@ std::vector<Contact> touching(const Outline& a, const Outline& b, double gap) {
   return result;
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -5,7 +5,7 @@
 
 #include "ductile/section.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// A straight stretch along which two outlines touch, in the direction of the first one's boundary: its
 /// material is on the left, the other's on the right.
@@ -17,4 +17,4 @@ struct Contact {
 /// other in a straight line are one. Rings as split() makes them: outer counter-clockwise, holes clockwise.
 std::vector<Contact> touching(const Outline& a, const Outline& b, double gap);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

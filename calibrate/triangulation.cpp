@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "moments.h"
-#include "plane.h"
+#include "orientation.h"
 
-namespace ductile {
+namespace ductile::calibration {
 namespace {
 
 void make_twins(std::vector<HalfEdge>& edges, int a, int b) {
@@ -415,4 +415,4 @@ void add_feet(Triangulation& triangulation) {
   }
 }
 
-}  // namespace ductile
+}  // namespace ductile::calibration

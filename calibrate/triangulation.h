@@ -5,7 +5,7 @@
 
 #include "ductile/section.h"
 
-namespace ductile {
+namespace ductile::calibration {
 
 /// One side of an edge of a polygon, whose inside is on its left.
 struct HalfEdge {
@@ -26,4 +26,4 @@ Triangulation triangulate(const Outline& outline);
 /// run across it. Delaunay again, but for those feet's own.
 void add_feet(Triangulation& triangulation);
 
-}  // namespace ductile
+}  // namespace ductile::calibration

@@ -8,10 +8,12 @@
 #include <stdexcept>
 
 #include "ductile/box2d.h"
+#include "ductile/plane.h"
 #include "moments.h"
-#include "plane.h"
 
 namespace ductile {
+using namespace calibration;
+
 namespace {
 
 b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }

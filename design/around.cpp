@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "plane.h"
+#include "ductile/plane.h"
 
 namespace ductile {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "plane.h"
+#include "ductile/plane.h"
 #include "yield.h"
 
 namespace ductile {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bars.h"
-#include "plane.h"
+#include "ductile/plane.h"
 
 namespace ductile {
 namespace {

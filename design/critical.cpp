@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "ductile/design.h"
+#include "ductile/plane.h"
 #include "elastic_path.h"
-#include "plane.h"
 
 namespace ductile {
 

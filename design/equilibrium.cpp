@@ -7,8 +7,8 @@
 
 #include "bars.h"
 #include "ductile/joint.h"
+#include "ductile/plane.h"
 #include "groups.h"
-#include "plane.h"
 #include "yield.h"
 
 namespace ductile {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "ductile/design.h"
+#include "ductile/plane.h"
 #include "elastic_path.h"
-#include "plane.h"
 
 namespace ductile {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "compare.h"
 #include "ductile/design.h"
+#include "ductile/plane.h"
 #include "merge.h"
-#include "plane.h"
 #include "response.h"
 #include "yield.h"
 

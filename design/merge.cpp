@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "ductile/plane.h"
 #include "groups.h"
-#include "plane.h"
 
 namespace ductile {
 namespace {

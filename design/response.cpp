@@ -5,8 +5,8 @@
 
 #include "around.h"
 #include "buckling.h"
+#include "ductile/plane.h"
 #include "groups.h"
-#include "plane.h"
 
 namespace ductile {
 

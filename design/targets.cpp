@@ -6,8 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "ductile/plane.h"
 #include "equilibrium.h"
-#include "plane.h"
 
 namespace ductile {
 namespace {

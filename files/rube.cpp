@@ -11,16 +11,6 @@
 
 namespace ductile::rube {
 
-Point Frame::world(Point p) const {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {origin.x + c * p.x - s * p.y, origin.y + s * p.x + c * p.y};
-}
-Point Frame::local(Point p) const { return turned_back({p.x - origin.x, p.y - origin.y}); }
-Point Frame::turned_back(Point d) const {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * d.x + s * d.y, c * d.y - s * d.x};
-}
-
 namespace {
 /// A directed edge; equal coordinates are equal bits, as the editor cuts a polygon into parts.
 using Edge = std::array<double, 4>;

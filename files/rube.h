@@ -15,20 +15,12 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/plane.h"
 #include "json.h"
 
 namespace ductile::rube {
 
 using Json = nlohmann::json;
-
-/// A coordinate frame: a body's, in the world.
-struct Frame {
-  Point origin;
-  double angle = 0;
-  Point world(Point local) const;
-  Point local(Point world) const;
-  Point turned_back(Point direction) const;  ///< a direction of the world, as the frame has it
-};
 
 /// An object of a scene. Every reader complains where it stands, and then returns what stands for missing.
 class Item {

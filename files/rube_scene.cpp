@@ -36,23 +36,10 @@ bool names_material(const Item& body) {
 }
 
 double distance(Point p, const Ring& ring) {
-  double nearest = unlimited;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
-    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
-    const double t = square > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, std::hypot(p.x - a.x - t * x, p.y - a.y - t * y));
-  }
-  return nearest;
-}
-
-bool inside(Point p, const Ring& ring) {
-  bool in = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point a = ring[i], b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) in = !in;
-  }
-  return in;
+  double least = unlimited;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    least = std::min(least, distance(p, ring[i], ring[(i + 1) % ring.size()]));
+  return least;
 }
 
 /// Reads a scene, calibrates it and writes back what came out.
@@ -366,7 +353,7 @@ int Reader::piece_at(int body, Point at) const {
     const Piece& piece = scene_.plan.pieces[i];
     if (body_of_def_[static_cast<std::size_t>(piece.body)] != body) continue;
     const Ring& ring = piece.outline.outer;
-    const double away = ring.empty() || inside(at, ring) ? 0 : distance(at, ring);
+    const double away = ring.empty() || contains(ring, at) ? 0 : distance(at, ring);
     if (nearest < 0 || away < least) {
       nearest = static_cast<int>(i);
       least = away;

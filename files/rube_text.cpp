@@ -128,7 +128,7 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, int body_a
   item["anchorB"] = vector(b.local(j.anchor));
   item["refAngle"] = b.angle - a.angle;
   const auto along = [&](const b2Vec2& axis) {
-    item["localAxisA"] = vector(a.turned_back({axis.x, axis.y}));
+    item["localAxisA"] = vector(a.rotation.inverse({axis.x, axis.y}));
   };
   if (std::holds_alternative<b2WeldJointDef>(*def)) {
     const double I = reduced_inertia(plan, j);

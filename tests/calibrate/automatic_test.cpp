@@ -11,13 +11,14 @@
 #include "axis.h"
 #include "convex.h"
 #include "ductile/box2d.h"
+#include "ductile/plane.h"
 #include "moments.h"
-#include "plane.h"
 #include "scenes.h"
 #include "split.h"
 
 namespace {
 using namespace ductile;
+using namespace ductile::calibration;
 
 constexpr double E = 210e9, density = 7800, g = 9.81, kappa_G = 5.0 / 6 * E / 2.6;
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "plane.h"
+#include "ductile/plane.h"
 #include "scenes.h"
 
 namespace {

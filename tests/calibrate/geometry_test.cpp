@@ -7,13 +7,14 @@
 #include "convex.h"
 #include "ductile/box2d.h"
 #include "moments.h"
-#include "plane.h"
+#include "orientation.h"
 #include "random_outlines.h"
 #include "scenes.h"
 #include "split.h"
 
 namespace {
 using namespace ductile;
+using namespace ductile::calibration;
 
 Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place) {
   return Splitter().split(outline, cuts, place);

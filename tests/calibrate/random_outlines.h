@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "plane.h"
+#include "ductile/plane.h"
 #include "split.h"
 
 namespace ductile {
@@ -112,12 +112,12 @@ inline Outline random_outline(Random& random) {
   return outline;
 }
 
-inline std::vector<Cut> random_cuts(Random& random, const Outline& outline) {
+inline std::vector<calibration::Cut> random_cuts(Random& random, const Outline& outline) {
   // Through pairs of points of the outline (vertices, so that cuts meet them exactly, or middles),
   // lengthened.
   std::vector<Point> points = outline.outer;
   for (const Ring& hole : outline.holes) points.insert(points.end(), hole.begin(), hole.end());
-  std::vector<Cut> cuts;
+  std::vector<calibration::Cut> cuts;
   const int n = static_cast<int>(random() % 6);
   const Point along = points[random() % points.size()] - points[random() % points.size()];
   for (int i = 0; i < n; ++i) {

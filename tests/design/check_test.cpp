@@ -5,7 +5,7 @@
 
 #include "ductile/design.h"
 #include "ductile/files.h"
-#include "plane.h"
+#include "ductile/plane.h"
 #include "structures.h"
 
 namespace {

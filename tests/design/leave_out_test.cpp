@@ -9,8 +9,8 @@
 #include "around.h"
 #include "ductile/design.h"
 #include "ductile/files.h"
+#include "ductile/plane.h"
 #include "ductile/scene_list.h"
-#include "plane.h"
 #include "response.h"
 #include "structures.h"
 
