@@ -68,7 +68,7 @@ struct Structure::Impl {
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
   std::vector<dynamics::Orphan> orphans;  // since the last update()
-  int last_node = 0;            // of new_node(): negative, so that a game's own are others
+  int last_node = 0;                      // of new_node(): negative, so that a game's own are others
   StepReport worst;  // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
  private:
