@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "clock.h"
+#include "ductile/clock.h"
 
 namespace ductile {
 

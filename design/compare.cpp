@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clock.h"
+#include "ductile/clock.h"
 
 namespace ductile {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <numbers>
 
+#include "bodies.h"
 #include "case.h"
-#include "joint/bodies.h"
-#include "joint/parkes.h"
+#include "parkes.h"
 #include "structures.h"
 
 namespace ductile::report {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "case.h"
-#include "clock.h"
+#include "ductile/clock.h"
 #include "structures.h"
 
 namespace ductile::report {

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "case.h"
-#include "clock.h"
+#include "ductile/clock.h"
 #include "structures.h"
 
 namespace ductile::report {

@@ -11,9 +11,9 @@
 #include <random>
 
 #include "case.h"
-#include "clock.h"
+#include "ductile/clock.h"
 #include "ductile/profiles.h"
-#include "section/oracle.h"
+#include "oracle.h"
 
 namespace ductile::report {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "../joint/bodies.h"
+#include "bodies.h"
 #include "ductile/ledger.h"
 #include "ductile/problem.h"
 #include "ductile/simulation.h"
