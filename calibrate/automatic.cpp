@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <queue>
+#include <utility>
 
 #include "axis.h"
 #include "convex.h"

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "ductile/plane.h"

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "ductile/calibrate.h"
 #include "strip.h"

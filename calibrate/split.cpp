@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "moments.h"
 #include "orientation.h"

@@ -1,7 +1,11 @@
 #include "strip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "ductile/plane.h"
 #include "ductile/rolled.h"

@@ -1,6 +1,7 @@
 #include "touching.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ductile/plane.h"
 

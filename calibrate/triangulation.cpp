@@ -1,9 +1,11 @@
 #include "triangulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "moments.h"
 #include "orientation.h"

@@ -5,7 +5,11 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "ductile/box2d.h"
 #include "ductile/plane.h"

@@ -1,6 +1,7 @@
 #include "around.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ductile/plane.h"
 

@@ -1,8 +1,11 @@
 #include "bars.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "ductile/plane.h"
 #include "yield.h"

@@ -8,6 +8,9 @@
 // force and within n⁻⁴ of the buckling load.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "equilibrium.h"
 
 namespace ductile {

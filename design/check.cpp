@@ -1,8 +1,12 @@
 // Elastic statics: what every joint carries, and which yields first.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "ductile/design.h"
 #include "elastic_path.h"

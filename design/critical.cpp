@@ -1,6 +1,7 @@
 // The elastic critical load.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "ductile/design.h"
 #include "ductile/plane.h"

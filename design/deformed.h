@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "ductile/design.h"
 #include "equilibrium.h"

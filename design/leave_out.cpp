@@ -1,8 +1,12 @@
 // What a plan can do without: chosen from bounds, confirmed by running it with and without.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "compare.h"
 #include "ductile/design.h"

@@ -7,8 +7,12 @@
 #include <glpk.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "deformed.h"
 #include "ductile/design.h"

@@ -1,6 +1,7 @@
 #include "merge.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ductile/plane.h"
 #include "groups.h"

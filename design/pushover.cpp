@@ -7,6 +7,10 @@
 // that are there), or on the way to the next.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "buckling.h"
 #include "deformed.h"

@@ -1,6 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "built_plan.h"
 #include "ductile/definitions.h"

@@ -1,6 +1,7 @@
 // What Box2D makes of a plan, for those who write it down.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "ductile/box2d.h"

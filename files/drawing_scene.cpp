@@ -3,6 +3,10 @@
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ductile/files.h"
 

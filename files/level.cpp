@@ -1,7 +1,10 @@
 #include "ductile/level.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "ductile/files.h"
 #include "rube.h"

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "svg_path.h"
 

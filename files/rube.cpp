@@ -5,9 +5,13 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace ductile::rube {
 

@@ -6,6 +6,7 @@
 
 #include <box2d/box2d.h>
 
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>

@@ -2,9 +2,14 @@
 // between them; what comes out is written back into the scene.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "built_plan.h"
 #include "ductile/files.h"

@@ -1,5 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "built_plan.h"
 #include "ductile/definitions.h"

@@ -1,4 +1,11 @@
+#include <array>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ductile/files.h"
 #include "ductile/rolled.h"

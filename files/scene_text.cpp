@@ -1,8 +1,11 @@
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "ductile/files.h"
 #include "json.h"

@@ -1,4 +1,9 @@
 #include "section_file.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
 #include "ductile/files.h"
 
 namespace ductile {

@@ -1,6 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ductile/files.h"
 #include "svg_document.h"

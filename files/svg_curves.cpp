@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "svg_path.h"
 

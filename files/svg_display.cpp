@@ -1,6 +1,11 @@
 // The walk through a drawing in the order in which a browser paints it.
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "svg_document.h"
 

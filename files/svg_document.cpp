@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace ductile::svg {
 namespace {

@@ -1,6 +1,11 @@
 // The area that a shape paints: fill and stroke, within its clips and masks.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "svg_document.h"
 #include "svg_stroke.h"

@@ -1,7 +1,10 @@
 #include "svg_stroke.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace ductile::svg {
 namespace {

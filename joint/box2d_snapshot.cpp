@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "blocks.h"
 #include "reveal.h"

@@ -1,6 +1,9 @@
 #include "hessian.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "kinematics.h"
 

@@ -1,7 +1,9 @@
 #include "interior_point.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace ductile::dynamics {

@@ -9,6 +9,7 @@
 // that N and M may take, and q = s_Q / hQ_max. docs/theory/interior_point.md derives the rounds.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "hessian.h"

@@ -1,9 +1,11 @@
 // The phases of an island in b2World::Step, and the components that its joints form.
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "structure.h"
 

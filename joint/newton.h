@@ -6,6 +6,7 @@
 // With a fresh factor a round is a Newton step, and within one regime it ends at the solution.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hessian.h"

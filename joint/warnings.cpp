@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "structure.h"
 

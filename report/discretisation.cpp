@@ -2,9 +2,13 @@
 // rigid-plastic theory.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bodies.h"
 #include "case.h"

@@ -1,8 +1,11 @@
 // Interaction: what ignoring N–M–Q, as the paper does, costs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "case.h"
 #include "ductile/section.h"

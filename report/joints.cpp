@@ -8,6 +8,10 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "case.h"
 #include "ductile/clock.h"

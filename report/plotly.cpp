@@ -2,7 +2,9 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "ductile/files.h"
 #include "ductile/report.h"

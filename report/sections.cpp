@@ -9,6 +9,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "case.h"
 #include "ductile/clock.h"

@@ -2,6 +2,8 @@
 // M_ref) runs along the yield curve; since dF/ds0 = −G, the curve's slope is dM_ref/dN = s0 − s_ref.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "section_data.h"
 

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ductile/curves.h"
 

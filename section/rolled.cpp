@@ -6,6 +6,7 @@
 #include <charconv>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "rolled_tables.h"
 

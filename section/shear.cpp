@@ -23,8 +23,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "section_data.h"
 

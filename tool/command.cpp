@@ -6,6 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ductile/files.h"
 #include "ductile/level.h"

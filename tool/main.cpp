@@ -1,5 +1,9 @@
 #include <cstdio>
+#include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "command.h"
 

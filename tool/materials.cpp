@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+#include <string>
+
 #include "command.h"
 
 namespace ductile::tool {

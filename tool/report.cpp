@@ -1,5 +1,9 @@
 #include "ductile/report.h"
 
+#include <filesystem>
+#include <memory>
+#include <string>
+
 #include "command.h"
 #include "progress.h"
 

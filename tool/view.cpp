@@ -1,5 +1,8 @@
 #include "ductile/view.h"
 
+#include <memory>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "command.h"

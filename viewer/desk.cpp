@@ -3,8 +3,12 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
+#include <initializer_list>
+#include <optional>
 
 #include "pick.h"
 #include "quantity.h"

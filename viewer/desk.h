@@ -2,8 +2,12 @@
 // workbench's; here is how it is looked at.
 #pragma once
 
+#include <filesystem>
+#include <initializer_list>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "canvas.h"
 #include "diagram.h"

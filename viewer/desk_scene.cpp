@@ -1,7 +1,10 @@
 // The left side of the desk: which scene, how it is run, what is drawn of it, what is thrown at it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "desk.h"
 

@@ -1,6 +1,8 @@
 #include "hand.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pick.h"
 

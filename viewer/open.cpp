@@ -1,6 +1,10 @@
 #include "open.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ductile/files.h"
 #include "ductile/level.h"

@@ -1,6 +1,8 @@
 // Colours and small strokes that the drawing layer shares.
 #pragma once
 
+#include <cstdint>
+
 #include <imgui.h>
 
 #include "ductile/colours.h"

@@ -1,6 +1,7 @@
 #include "pick.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ductile/colours.h"
 

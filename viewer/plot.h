@@ -1,6 +1,7 @@
 // Values over time, and what one joint can carry, as small drawings between the controls.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -8,9 +8,13 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "desk.h"
 #include "ductile/files.h"

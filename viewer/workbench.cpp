@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "ductile/files.h"
 #include "ductile/scene_list.h"

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ductile/box2d.h"
 #include "ductile/calibrate.h"
