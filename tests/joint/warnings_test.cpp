@@ -69,8 +69,8 @@ TEST(Warnings, OfFixturesThatAreTooSmall) {
   EXPECT_SAYS(only(structure), "a fixture of 0.0150 m");
 }
 
-// Supports that are moved apart leave no pose that keeps the gaps: the joints take what is missing as plastic,
-// 1 m in all, and store none of it.
+// Supports that are moved apart leave no pose that keeps the gaps: the joints take what is missing as
+// plastic, 1 m in all, and store none of it.
 TEST(Pushes, ThatNoPoseCanFollowStrainNothing) {
   Beam beam({.pieces = 1, .gravity = 0});
   b2Body* support = add_box(beam.world, {.x = 21, .type = b2_staticBody});
