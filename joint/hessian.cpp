@@ -114,9 +114,11 @@ void Hessian::refactor(const System& system, bool turn_inertias) {
   }
   for (const TurnInertia& t : system.turn_inertias) {
     if (!turn_inertias) break;
-    ldlt_.diagonal(t.a).a[8] += t.inertia;
-    ldlt_.diagonal(t.b).a[8] += t.inertia;
-    ldlt_.block(t.block).a[8] -= t.inertia;
+    // As in of_body(): what does not rotate is no unknown.
+    const bool a_turns = system.bodies[z(t.a)].inertia > 0, b_turns = system.bodies[z(t.b)].inertia > 0;
+    if (a_turns) ldlt_.diagonal(t.a).a[8] += t.inertia;
+    if (b_turns) ldlt_.diagonal(t.b).a[8] += t.inertia;
+    if (a_turns && b_turns) ldlt_.block(t.block).a[8] -= t.inertia;
   }
   ldlt_.factor();
 }
