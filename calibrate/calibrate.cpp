@@ -17,6 +17,7 @@
 #include "caps.h"
 #include "ductile/fields.h"
 #include "ductile/plane.h"
+#include "ductile/strip_line.h"
 #include "fundamental.h"
 #include "moments.h"
 #include "split.h"
@@ -41,28 +42,10 @@ Ring placed(const Frame& frame, Ring ring) {
   return ring;
 }
 
-// From end to end of the outline through its centroid, along the axis about which its area is most slender;
-// in the direction of x, then of y.
-std::array<Point, 2> long_axis(const Outline& outline) {
-  const AreaMoments m = moments(outline);
-  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
-  const Point u = std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1};
-  double low = 0, high = 0;
-  for (const Point& p : outline.outer) {
-    low = std::min(low, dot(p - m.centroid, u));
-    high = std::max(high, dot(p - m.centroid, u));
-  }
-  return {m.centroid + low * u, m.centroid + high * u};
-}
-
 // The direction in which a body's strip runs, in the world.
 Point strip_direction(const BodyDef& body) {
-  std::array<Point, 2> line = body.along;
-  if (body.cuts.size() > 1)
-    line = {middle(body.cuts.front()[0], body.cuts.front()[1]),
-            middle(body.cuts.back()[0], body.cuts.back()[1])};
-  if (line[0] == line[1]) line = long_axis(body.outline);
-  return frame_of(body).rotation * (line[1] - line[0]);
+  const auto [from, to] = strip_line(body);
+  return frame_of(body).rotation * (to - from);
 }
 
 // --- what is wrong with a scene ---

@@ -10,6 +10,7 @@
 #include "ductile/plane.h"
 #include "ductile/rolled.h"
 #include "ductile/shear.h"
+#include "ductile/strip_line.h"
 #include "moments.h"
 
 namespace ductile::calibration {
@@ -78,6 +79,18 @@ double hardening(const Material& m) { return std::max(1.0, m.ultimate_stress / m
 
 }  // namespace
 
+std::array<Point, 2> long_axis(const Outline& outline) {
+  const AreaMoments m = moments(outline);
+  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
+  const Point u = std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1};
+  double low = 0, high = 0;
+  for (const Point& p : outline.outer) {
+    low = std::min(low, dot(p - m.centroid, u));
+    high = std::max(high, dot(p - m.centroid, u));
+  }
+  return {m.centroid + low * u, m.centroid + high * u};
+}
+
 Strip::Strip(const BodyDef& body) : body_(&body) {
   if (body.material) {
     fracture_strain_ = body.material->fracture_strain;
@@ -142,3 +155,15 @@ std::optional<double> Strip::profile_height() const {
 double Strip::excess_inertia(double area) const { return excess_inertia_per_area_ * area; }
 
 }  // namespace ductile::calibration
+
+namespace ductile {
+
+std::array<Point, 2> strip_line(const BodyDef& body) {
+  std::array<Point, 2> line = body.along;
+  if (body.cuts.size() > 1)
+    line = {middle(body.cuts.front()[0], body.cuts.front()[1]),
+            middle(body.cuts.back()[0], body.cuts.back()[1])};
+  return line[0] == line[1] ? calibration::long_axis(body.outline) : line;
+}
+
+}  // namespace ductile

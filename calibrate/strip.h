@@ -1,6 +1,7 @@
 // What a body offers to a cut across it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,10 @@ struct Strength {
   double farther = 0;             ///< m, from the plastic neutral axis to the fibre farthest from it
   double height = 0;              ///< m
 };
+
+/// From end to end of an outline through its centroid, along the axis about which its area is most slender;
+/// in the direction of x, then of y.
+std::array<Point, 2> long_axis(const Outline& outline);
 
 /// A body seen as the strip that it is drawn as: a rectangle of the body's depth at every cut, or its
 /// profile.

@@ -1,14 +1,14 @@
 #include "ductile/targets.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <utility>
 
+#include "buckling.h"
 #include "ductile/plane.h"
 #include "equilibrium.h"
+#include "seek.h"
 
 namespace ductile {
 namespace {
@@ -23,37 +23,6 @@ Material& material_of(SceneDef& scene, const std::string& name) {
   BodyDef& body = body_of(scene, name);
   if (!body.material) throw InvalidInput({{"body '" + name + "'", "has no material", "give it one"}});
   return *body.material;
-}
-
-// "M of wall-beam/0": the joint that yields first, and its row that is used most.
-std::string governing(const Plan& plan, const StaticCheck& check) {
-  if (check.first_to_yield.empty()) return "nothing: no joint has a limit";
-  const auto first = static_cast<std::size_t>(check.first_to_yield.front());
-  const auto& usage = check.joints[first].usage;
-  const std::array rows{std::pair(usage.N, "N"), std::pair(usage.Q, "Q"), std::pair(usage.M, "M")};
-  const auto most = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return !(a.first >= b.first);  // NaN, of an unlimited row, is least
-  });
-  return std::string(most->second) + " of " + plan.joints[first].name;
-}
-
-// The factor x with result(x) = target, of a result that grows with x about as a power of it: Newton in
-// logarithms, with the power from the last two.
-double factor_for(double target, const std::function<double(double)>& result,
-                  const std::function<std::string()>& why_not) {
-  double x = 1, f = result(x), power = 1;
-  for (int i = 0; i < 60 && f > 0 && f < unlimited; ++i) {
-    const double missing = target / f;
-    if (std::abs(missing - 1) < 1e-10) return x;
-    const double step = std::clamp(std::pow(missing, 1 / power), 1.0 / 16, 16.0), next = x * step;
-    if (!(next > 1e-12 && next < 1e12)) break;
-    const double value = result(next);
-    power = std::clamp(std::log(value / f) / std::log(step), 0.05, 10.0);
-    x = next;
-    f = value;
-  }
-  throw InvalidInput(
-      {{"target", "no number reaches it: " + why_not(), "change what governs, or the target"}});
 }
 
 Answer for_reserve(const SceneDef& scene, double reserve,
@@ -106,24 +75,16 @@ std::size_t joint_named(const Plan& plan, const std::string& name) {
   return static_cast<std::size_t>(found - plan.joints.begin());
 }
 
-// Of the slowest mode: the least ω² of ω² x = K x (M = 1 in Equilibrium's unknowns), by inverse iteration
-// from the structure's own pieces, and Σ c (B x)² of its joints.
-Mode slowest(const Plan& plan, const Equilibrium& statics, int column) {
-  if (column < 0) throw InvalidInput({{"target", "nothing holds the body", "join or support it"}});
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(statics.B.cols());
-  for (int i = 0; i < 3; ++i) x[column + i] = 1 + 0.1 * i;  // no symmetry that a mode lacks
-  double square = 0;                                        // ω²
-  for (int round = 0; round < 10'000; ++round) {
-    x.normalize();
-    const Eigen::VectorXd y = statics.motions(x);
-    const double now = 1 / x.dot(y), change = std::abs(now - square);
-    if (!(y.norm() > 0)) break;
-    x = y;
-    square = now;
-    if (change < 1e-13 * now) break;
-  }
-  x.normalize();
-  const Eigen::VectorXd elongation = statics.B * x;
+// Of the structures that have a part in `start`: the least ω² of K x = ω² x (M = 1 in Equilibrium's
+// unknowns), which is the buckling load of K_g = −1, and Σ c (B x)² of its joints.
+Mode slowest(const Plan& plan, const Equilibrium& statics, const Eigen::VectorXd& start) {
+  if (statics.is_mechanism())
+    throw InvalidInput({{"target", "the structure moves without strain", "hold it"}});
+  Eigen::SparseMatrix<double> minus_mass(start.size(), start.size());
+  minus_mass.setIdentity();
+  minus_mass *= -1;
+  const Buckle vibration = buckling(statics, minus_mass, start);
+  const Eigen::VectorXd elongation = statics.B * vibration.mode.normalized();
   double damping = 0;
   for (Eigen::Index row = 0; row < elongation.size(); ++row) {
     const PlannedJoint& j = plan.joints[static_cast<std::size_t>(row / 3)];
@@ -132,7 +93,7 @@ Mode slowest(const Plan& plan, const Equilibrium& statics, int column) {
       damping +=
           j.damping_ratio * k / (std::numbers::pi * j.damping_frequency) * elongation[row] * elongation[row];
   }
-  const double omega = std::sqrt(square);
+  const double omega = 1 / std::sqrt(vibration.inverse_factor);
   return {omega / (2 * std::numbers::pi), damping / (2 * omega)};
 }
 
@@ -197,15 +158,20 @@ Answer youngs_modulus_for_rotation_at_yield(const SceneDef& scene, const std::st
       "rotation of " + joint + " at yield");
 }
 
+Mode slowest_mode(const Plan& plan) {
+  const Equilibrium statics(plan);
+  return slowest(plan, statics, any_motion(statics));
+}
+
 Mode slowest_mode(const Plan& plan, const std::string& body) {
   const Equilibrium statics(plan);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(statics.B.cols());
   for (std::size_t i = 0; i < plan.pieces.size(); ++i)
-    if (plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)].name == body && statics.column[i] >= 0) {
-      if (statics.is_mechanism())
-        throw InvalidInput({{"target", "the structure moves without strain", "hold it"}});
-      return slowest(plan, statics, statics.column[i]);
-    }
-  throw InvalidInput({{"target", "nothing holds '" + body + "'", "join it to what stands still"}});
+    if (plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)].name == body && statics.column[i] >= 0)
+      start.segment<3>(statics.column[i]) = Eigen::Vector3d(1, 1.1, 1.2);  // no symmetry that a mode lacks
+  if (start.isZero(0))
+    throw InvalidInput({{"target", "nothing holds '" + body + "'", "join it to what stands still"}});
+  return slowest(plan, statics, start);
 }
 
 Answer youngs_modulus_for_frequency(const SceneDef& scene, const std::string& body, double frequency) {

@@ -64,6 +64,11 @@ Json json(const Piece& piece, const Plan& plan) {
   return object;
 }
 
+/// θ = M/k, rad: how far it turns before it yields; infinite where nothing limits it, 0 where it is rigid.
+double elastic_rotation(const PlannedJoint& joint) {
+  return joint.M == unlimited ? unlimited : joint.M == 0 ? 0 : joint.M / joint.stiffness.M;
+}
+
 Json json(const PlannedJoint& joint, const Plan& plan) {
   Json object{{"name", joint.name},
               {"between", {piece_name(plan, joint.a), piece_name(plan, joint.b)}},
@@ -74,6 +79,7 @@ Json json(const PlannedJoint& joint, const Plan& plan) {
   fields::for_each(fields::stiffness, [&](const auto& field) {
     object["stiffness"][field.key] = number(joint.stiffness.*field.member);
   });
+  object["elastic_rotation"] = number(elastic_rotation(joint));
   object["governed_by"] = plan.reasons[static_cast<std::size_t>(joint.governed_by)];
   return object;
 }
@@ -103,12 +109,14 @@ std::string table(const Plan& plan, const std::string& scene) {
   for (const PlannedJoint& joint : plan.joints) widest = std::max(widest, joint.name.size());
   std::string text = fmt::format("{}: {} bodies, {} pieces of {:.6g} kg in all, {} joints\n\n", scene,
                                  plan.bodies.size(), plan.pieces.size(), mass, plan.joints.size());
-  text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  governed by\n", "joint", widest,
-                      "N [N]", "Nc [N]", "Q [N]", "M [N m]", "M_reverse", "max_rot. [rad]");
+  text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  governed by\n",
+                      "joint", widest, "N [N]", "Nc [N]", "Q [N]", "M [N m]", "M_reverse", "k [N m/rad]",
+                      "M/k [rad]", "max_rot. [rad]");
   for (const PlannedJoint& joint : plan.joints) {
-    text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n", joint.name, widest,
-                        shown(joint.N), shown(joint.Nc), shown(joint.Q), shown(joint.M),
-                        shown(joint.M_reverse), shown(joint.max_rotation), joint.governed_by + 1);
+    text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n", joint.name,
+                        widest, shown(joint.N), shown(joint.Nc), shown(joint.Q), shown(joint.M),
+                        shown(joint.M_reverse), shown(joint.stiffness.M), shown(elastic_rotation(joint)),
+                        shown(joint.max_rotation), joint.governed_by + 1);
   }
   text += '\n';
   for (const SplitError& split : plan.split_errors) {

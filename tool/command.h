@@ -23,6 +23,7 @@ void add_calibrate(CLI::App& app, std::string& output);
 void add_simulate(CLI::App& app, std::string& output);
 void add_check(CLI::App& app, std::string& output);
 void add_limit(CLI::App& app, std::string& output);
+void add_design(CLI::App& app, std::string& output);
 void add_report(CLI::App& app, std::string& output);
 void add_view(CLI::App& app, std::string& output);
 

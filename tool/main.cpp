@@ -39,8 +39,9 @@ int run(int argc, char** argv) {
       "Every command prints a table, or with --json one JSON object. Exit 0: done, 1: our failure, 2: bad "
       "input.");
   std::string output;
-  for (const auto add : {tool::add_section, tool::add_materials, tool::add_calibrate, tool::add_simulate,
-                         tool::add_check, tool::add_limit, tool::add_report, tool::add_view}) {
+  for (const auto add :
+       {tool::add_section, tool::add_materials, tool::add_calibrate, tool::add_simulate, tool::add_check,
+        tool::add_limit, tool::add_design, tool::add_report, tool::add_view}) {
     add(app, output);
   }
   try {

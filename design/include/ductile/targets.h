@@ -5,7 +5,9 @@
 // instead.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "ductile/design.h"
 
@@ -44,6 +46,8 @@ struct Mode {
 };
 /// Throws InvalidInput where nothing holds the body, or it may move without strain.
 Mode slowest_mode(const Plan& plan, const std::string& body);
+/// The slowest of all structures of the plan that are held.
+Mode slowest_mode(const Plan& plan);
 
 /// E, Pa, of a body, with which its structure's slowest vibration has that frequency, Hz.
 Answer youngs_modulus_for_frequency(const SceneDef& scene, const std::string& body, double frequency);
@@ -55,5 +59,50 @@ Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double 
 /// The least number of equal pieces of a body with which the displacement at a point under the scene's loads
 /// is within that relative error of what it is without pieces (Richardson's extrapolation from 64 and 128).
 Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, double error);
+
+/// What a scene as a whole shows.
+enum class Measure {
+  reserve,       ///< StaticCheck::reserve
+  collapse,      ///< LimitAnalysis::load_factor
+  displacement,  ///< m, the largest of any corner of a piece, under the scene's loads, elastic
+  rotation,      ///< rad, the largest elastic rotation of a joint, |M|/k
+  frequency,     ///< Hz, Mode::frequency of the slowest of all structures
+  damping,       ///< Mode::damping_ratio of the same
+  mass,          ///< kg, of all that moves
+};
+double measured(const Plan& plan, Measure measure);
+
+/// A scene that reaches a target.
+struct Reach {
+  double value = 0;    ///< of the first body, or the index of the candidate
+  double reached = 0;  ///< the measure
+  SceneDef scene;
+};
+
+/// A number of a body that may change; of a material, in its profile as well.
+enum class Property {
+  depth,         ///< m; of bodies without profile
+  yield_stress,  ///< Pa; with f_c, τ_y and f_u in the same ratios
+  youngs_modulus,
+  damping_ratio,
+};
+
+/// The scene in which that property of these bodies (indices, at least one), of each in proportion to what it
+/// is, brings the measure to the target, within 1e-9. Throws InvalidInput where no factor does.
+Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Property property, Measure measure,
+            double target);
+
+/// The first of the scenes with at least that reserve, collapse load, frequency or damping; at most that
+/// displacement, rotation or mass. Throws InvalidInput where none is.
+Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target);
+/// The lightest of them; of equally light ones the first.
+Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target);
+
+/// Draws a body that is one straight strip with another profile: its outline, cuts, and the supports and
+/// loads on it are stretched across the strip, about its middle line, to the profile's height. What touches
+/// it on its sides, a column under a girder, does so no more where the height changes: join such bodies at
+/// points.
+void set_profile(SceneDef& scene, std::size_t body, std::vector<Region> profile,
+                 const std::string& name = "");
 
 }  // namespace ductile

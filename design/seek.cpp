@@ -1,0 +1,39 @@
+#include "seek.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ductile {
+
+std::string governing(const Plan& plan, const StaticCheck& check) {
+  if (check.first_to_yield.empty()) return "nothing: no joint has a limit";
+  const auto first = static_cast<std::size_t>(check.first_to_yield.front());
+  const auto& usage = check.joints[first].usage;
+  const std::array rows{std::pair(usage.N, "N"), std::pair(usage.Q, "Q"), std::pair(usage.M, "M")};
+  const auto most = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return !(a.first >= b.first);  // NaN, of an unlimited row, is least
+  });
+  return std::string(most->second) + " of " + plan.joints[first].name;
+}
+
+// Newton in logarithms, with the power from the last two.
+double factor_for(double target, const std::function<double(double)>& result,
+                  const std::function<std::string()>& why_not, double power) {
+  double x = 1, f = result(x);
+  for (int i = 0; i < 60 && f > 0 && f < unlimited; ++i) {
+    const double missing = target / f;
+    if (std::abs(missing - 1) < 1e-10) return x;
+    const double step = std::clamp(std::pow(missing, 1 / power), 1.0 / 16, 16.0), next = x * step;
+    if (!(next > 1e-12 && next < 1e12)) break;
+    const double value = result(next), seen = std::log(value / f) / std::log(step);
+    if (!(std::abs(seen) > 1e-6)) break;  // something else governs
+    power = std::copysign(std::clamp(std::abs(seen), 0.05, 10.0), power);
+    x = next;
+    f = value;
+  }
+  throw InvalidInput(
+      {{"target", "no number reaches it: " + why_not(), "change what governs, or the target"}});
+}
+
+}  // namespace ductile

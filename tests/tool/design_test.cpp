@@ -1,0 +1,73 @@
+#include <cmath>
+
+#include "run.h"
+
+namespace {
+using namespace ductile;
+using nlohmann::json;
+
+const std::string bracket = R"({"gravity": [0,0],
+  "bodies": [{"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+             {"name": "beam", "outline": [[0,0],[4,0],[4,0.3],[0,0.3]], "depth": 0.02, "material": "S235",
+              "split": {"pieces": 4}}],
+  "joints": [{"between": ["wall","beam"]}],
+  "loads": [{"body": "beam", "at": [4,0.3], "force": [0,-30e3]}]})";
+
+class DesignCommand : public testing::Test {
+ protected:
+  Folder folder;
+  std::string scene = folder.write("bracket.scene.json", bracket);
+  Ran design(const std::string& rest) { return run("design " + scene + " " + rest); }
+};
+
+// b h²/4 f_y = 1.5 · 30 kN · 4 m, and `check` of what it writes says so.
+TEST_F(DesignCommand, AReserveByDepth) {
+  const std::string out = (folder / "out.scene.json").string();
+  const Ran ran = design("--for reserve=1.5 --by depth --json --out " + out);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NEAR(ran.json()["value"].get<double>(), 1.5 * 30e3 * 4 * 4 / 0.09 / 235e6, 1e-9);
+  EXPECT_NEAR(ran.json()["reached"].get<double>(), 1.5, 1e-8);
+  EXPECT_NEAR(run("check " + out + " --json").json()["reserve"].get<double>(), 1.5, 1e-8);
+}
+
+// W_pl f_y of the tables' IPE: 484 cm³ of IPE 270 are 113.7 kN m, 628 cm³ of IPE 300 147.6 kN m; 132 are
+// needed.
+TEST_F(DesignCommand, TheLightestProfileOfASeries) {
+  const std::string out = (folder / "out.scene.json").string();
+  const Ran ran = design("--for collapse=1.1 --by profile --among HEA,IPE --json --out " + out);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["value"], "IPE 300");
+  EXPECT_NEAR(ran.json()["reached"].get<double>() / (628.4e-6 * 235e6 / 120e3), 1, 1e-3);
+  EXPECT_NEAR(run("limit " + out + " --json").json()["load_factor"].get<double>(),
+              ran.json()["reached"].get<double>(), 1e-9);
+}
+
+// 1.5 · 120 kN m over 450 cm³ are 400 MPa.
+TEST_F(DesignCommand, AMaterialOfAList) {
+  EXPECT_EQ(design("--for reserve=1.5 --by material --json").json()["value"], "S420");
+  EXPECT_EQ(design("--for reserve=1.5 --by material --among S460,S420 --json").json()["value"], "S460");
+}
+
+TEST_F(DesignCommand, PiecesAndNumbers) {
+  const json pieces = design("--for displacement=0.07 --by pieces --among 2,4,8,16 --json").json();
+  EXPECT_TRUE(pieces["value"].is_number_integer());
+  EXPECT_LE(pieces["reached"].get<double>(), 0.07);
+  EXPECT_NEAR(design("--for damping=0.1 --by damping_ratio --json").json()["value"].get<double>(), 0.1, 1e-6);
+  EXPECT_NEAR(design("--for mass=100 --by depth --json").json()["reached"].get<double>(), 100, 1e-6);
+  EXPECT_NE(design("--for frequency=5 --by E").out.find("frequency of 5 Hz"), std::string::npos);
+}
+
+TEST_F(DesignCommand, BadInput) {
+  for (const char* wrong :
+       {"--for reserve --by depth", "--for reserve=-1 --by depth", "--for reserve=nan --by depth",
+        "--for strength=2 --by depth", "--for reserve=2 --by colour",
+        "--for reserve=2 --by depth --body nobody", "--for reserve=2 --by depth --among 1,2",
+        "--for reserve=2 --by profile", "--for reserve=2 --by profile --among IPE301",
+        "--for reserve=2 --by profile --among nothing.section.json",
+        "--for reserve=2 --by material --among cheese", "--for reserve=2 --by pieces --among 1.5",
+        "--for reserve=99 --by material", "--for frequency=50 --by depth",
+        "--for rotation=0.01 --by depth --body wall"})
+    expect_bad_input(design(wrong));
+}
+
+}  // namespace
