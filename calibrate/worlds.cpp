@@ -141,7 +141,8 @@ Built build_bodies(b2World& world, const Plan& plan) {
         polygons.back() = shapes(in_its_body);
       }
       const bool dynamic = piece.part_of < 0 && plan.is_dynamic(static_cast<int>(polygons.size()) - 1);
-      for (const double value : {piece.mass, piece.inertia})
+      // As in Box2D, a piece of no inertia does not turn.
+      for (const double value : {piece.mass, piece.inertia == 0 ? piece.mass : piece.inertia})
         if (dynamic &&
             !(value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()))
           throw InvalidInput({{"piece '" + piece.name + "'",

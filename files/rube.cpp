@@ -246,7 +246,8 @@ void remove_custom(Json& item, const std::string& name) {
 
 bool is_scene(const Json& json) {
   if (!json.is_object() || json.contains("bodies") || json.contains("regions")) return false;
-  for (const char* key : {"body", "joint", "image", "stepsPerSecond", "warmStarting"}) {
+  for (const char* key :
+       {"body", "joint", "image", "stepsPerSecond", "warmStarting", "metaworld", "metabody"}) {
     if (json.contains(key)) return true;
   }
   return false;

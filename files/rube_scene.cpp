@@ -14,6 +14,7 @@
 #include "built_plan.h"
 #include "ductile/files.h"
 #include "rube.h"
+#include "rube_outline.h"
 #include "section_file.h"
 
 namespace ductile::rube {
@@ -62,8 +63,10 @@ class Reader {
   std::optional<Material> material(const Item& item);
   bool outline(const Body& body, BodyDef& to);
   void take_part(int body);
+  void take_part(int body, BodyDef definition);
   void take_part_if_it_can(int body);
   BodyDef definition(const Body& body);
+  BodyDef definition(const Body& body, BodyDef to);
   void joint(int index, const Value& value);
   void values(int index, const Item& item, int a, int b);
   std::string unique(std::string name);
@@ -102,6 +105,13 @@ std::optional<Material> Reader::material(const Item& item) {
   return m;
 }
 
+void place(Outline& outline, const Frame& frame) {
+  for (Point& p : outline.outer) p = frame.world(p);
+  for (Ring& hole : outline.holes) {
+    for (Point& p : hole) p = frame.world(p);
+  }
+}
+
 /// In world coordinates. False where the fixtures do not make one.
 bool Reader::outline(const Body& body, BodyDef& to) {
   const Item item(body.value);
@@ -123,15 +133,15 @@ bool Reader::outline(const Body& body, BodyDef& to) {
       to.at = body.frame.world(solid[0]->points[0]);
       return true;
     }
-    const auto outline = polygons.size() == solid.size() ? joined(polygons) : std::nullopt;
-    if (!outline || outline->outer.empty()) return false;
+    auto outline = polygons.size() == solid.size() ? joined(polygons) : std::nullopt;
+    if (!outline || outline->outer.empty()) {
+      const auto areas = covered(body);
+      if (areas.size() != 1) return false;
+      outline = areas[0];
+    }
     to.outline = *outline;
   }
-  const auto place = [&](Ring& ring) {
-    for (Point& p : ring) p = body.frame.world(p);
-  };
-  place(to.outline.outer);
-  for (Ring& hole : to.outline.holes) place(hole);
+  place(to.outline, body.frame);
   return true;
 }
 
@@ -146,12 +156,17 @@ std::string Reader::unique(std::string name) {
 }
 
 BodyDef Reader::definition(const Body& body) {
-  const Item item(body.value);
   BodyDef to;
-  to.type = body.type;
   if (!outline(body, to))
     body.value.wrong("has fixtures that do not make one outline",
                      "draw it as one polygon or one circle, or give its outline as \"ductile.outline\"");
+  return definition(body, std::move(to));
+}
+
+/// The same of a body whose outline is known.
+BodyDef Reader::definition(const Body& body, BodyDef to) {
+  const Item item(body.value);
+  to.type = body.type;
   to.material = material(item);
   to.depth = item.custom_number("ductile.depth", positive).value_or(1);
   if (const auto profile = embedded(item, "ductile.profile", problems_))
@@ -179,28 +194,45 @@ BodyDef Reader::definition(const Body& body) {
   return to;
 }
 
-void Reader::take_part(int index) {
-  const Body& body = bodies_[static_cast<std::size_t>(index)];
-  def_of_body_[static_cast<std::size_t>(index)] = static_cast<int>(def_.bodies.size());
-  def_.bodies.push_back(definition(body));
-  def_.bodies.back().name = unique(body.name);
+void Reader::take_part(int index) { take_part(index, definition(bodies_[static_cast<std::size_t>(index)])); }
+
+void Reader::take_part(int index, BodyDef definition) {
+  int& first = def_of_body_[static_cast<std::size_t>(index)];
+  if (first < 0) first = static_cast<int>(def_.bodies.size());
+  definition.name = unique(bodies_[static_cast<std::size_t>(index)].name);
+  def_.bodies.push_back(std::move(definition));
   body_of_def_.push_back(index);
 }
 
-/// What ductile does not calibrate is in the plan all the same, where build() could make it.
-void Reader::take_part_if_it_can(int index) {
-  BodyDef trial;
-  if (is_ground(index) || !outline(bodies_[static_cast<std::size_t>(index)], trial)) return;
+/// Could build() make it?
+bool can_be_built(const BodyDef& body) {
+  if (body.circle > 0) return body.circle >= 2 * b2_linearSlop;
+  if (!validate(body.outline).empty()) return false;
   try {
-    if (trial.circle == 0) {
-      if (!validate(trial.outline).empty()) return;
-      shapes(Piece{.outline = trial.outline});
-    } else if (trial.circle < 2 * b2_linearSlop) {
-      return;
-    }
-    take_part(index);
+    shapes(Piece{.outline = body.outline});
+    return true;
   } catch (const InvalidInput&) {  // too thin
+    return false;
   }
+}
+
+/// What ductile does not calibrate is in the plan all the same, where build() could make it: ground in
+/// several parts as several bodies.
+void Reader::take_part_if_it_can(int index) {
+  const Body& body = bodies_[static_cast<std::size_t>(index)];
+  if (is_ground(index)) return;
+  if (BodyDef whole; outline(body, whole)) {
+    if (can_be_built(whole)) take_part(index, definition(body, std::move(whole)));
+    return;
+  }
+  if (body.type != BodyType::static_body) return;
+  std::vector<BodyDef> parts;
+  for (Outline& area : covered(body)) {
+    place(area, body.frame);
+    parts.push_back({.outline = std::move(area)});
+    if (!can_be_built(parts.back())) return;
+  }
+  for (BodyDef& part : parts) take_part(index, definition(body, std::move(part)));
 }
 
 bool Reader::is_ground(int body) const {
@@ -346,7 +378,9 @@ void Reader::write_bodies() {
       const Point c = body.mass_center;
       piece.mass = body.mass;
       piece.center = body.frame.world(c);
-      piece.inertia = std::max(0.0, body.inertia - body.mass * (c.x * c.x + c.y * c.y));
+      // As in Box2D, a body of no inertia does not turn.
+      const bool turns = !item.boolean("fixedRotation");
+      piece.inertia = turns ? std::max(0.0, body.inertia - body.mass * (c.x * c.x + c.y * c.y)) : 0;
     }
   }
 }
@@ -446,6 +480,10 @@ void Reader::list_what_is_beyond() {
 }  // namespace
 
 Scene read(const Json& json, const std::string& name) {
+  if (json.contains("metaworld") || json.contains("metabody")) {
+    throw InvalidInput({{name, "is a project of the R.U.B.E. editor, not a level",
+                         "export it from there as JSON (File > Export)"}});
+  }
   Problems problems(name);
   Scene scene;
   scene.json = json;

@@ -365,6 +365,51 @@ INSTANTIATE_TEST_SUITE_P(
                "ductile.axis"}),
     [](const auto& info) { return info.param.name; });
 
+/// What commands run of a level: a box of 0.6 m × 1 m that falls from its centre's height of 2 m.
+Plan falling_on(const std::string& ground, const std::string& more = "") {
+  std::vector<Problem> beyond;
+  Plan plan = parse_plan(R"({"gravity": {"x": 0, "y": -10}, "body": [
+      {"name": "ground", "type": 0, "position": 0, "fixture": [)" + ground + R"(]},
+      {"name": "box", "type": 2, "position": {"x": 0, "y": 2}, "massData-mass": 3, "massData-I": 0.34)" + more + R"(,
+       "fixture": [{"density": 5, "polygon": {"vertices": {"x": [-0.3, 0.3, 0.3, -0.3], "y": [-0.5, -0.5, 0.5, 0.5]}}}]}]})",
+                         "level.json", ".", &beyond);
+  EXPECT_TRUE(beyond.empty()) << beyond.front().what;
+  return plan;
+}
+
+TEST(Plan, ChainsEdgesAndOverlappingFixturesAreGround) {
+  for (const char* ground : {R"({"chain": {"vertices": {"x": [-10, 10], "y": [0, 0]}}})",
+                             R"({"chain": {"vertices": {"x": [-10, -3, 3, 10], "y": [4, 0, 0, 4]}}})",
+                             R"({"edge": {"vertices": {"x": [-10, 10], "y": [0, 0]}}})",
+                             R"({"polygon": {"vertices": {"x": [-5, 1, 1, -5], "y": [-1, -1, 0, 0]}}},
+                                {"polygon": {"vertices": {"x": [-1, 5, 5, -1], "y": [-2, -2, 0, 0]}}})",
+                             R"({"polygon": {"vertices": {"x": [-5, -0.1, -0.1, -5], "y": [-1, -1, 0, 0]}}},
+                                {"polygon": {"vertices": {"x": [0.1, 5, 5, 0.1], "y": [-1, -1, 0, 0]}}})"}) {
+    const Plan plan = falling_on(ground);
+    b2World world({0, -10});
+    const Built built = build_bodies(world, plan);
+    for (int i = 0; i < 180; ++i) world.Step(1 / 60.f, 8, 3);
+    // At rest within Box2D's slop of the ground's face; a chain's is half of its strip's 0.025 m above its line.
+    EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5, 0.0125 + 0.02) << ground;
+    EXPECT_NEAR(built.bodies.back()->GetLinearVelocity().Length(), 0, 1e-3) << ground;
+  }
+}
+
+TEST(Plan, ABodyOfFixedRotationDoesNotTurn) {
+  const Plan plan = falling_on(R"({"polygon": {"vertices": {"x": [0.2, 5, 5, 0.2], "y": [-1, -1, 0, 0]}}})",
+                               R"(, "fixedRotation": true)");
+  b2World world({0, -10});
+  const Built built = build_bodies(world, plan);
+  for (int i = 0; i < 60; ++i) world.Step(1 / 60.f, 8, 3);
+  EXPECT_EQ(built.bodies.back()->GetAngle(), 0);
+  EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5, 0.02);  // on the ground's corner, 0.2 m off its centre
+}
+
+TEST(Rube, AProjectOfTheEditorIsToldAsSuch) {
+  EXPECT_NE(error_of(R"({"metaworld": {"metabody": []}})").find("is a project of the R.U.B.E. editor"),
+            std::string::npos);
+}
+
 TEST(Level, OfASceneFileAndItsDrawing) {
   b2World world({0, 0});
   Level level = load(world, DUCTILE_SOURCE_DIR "/scenes/harbour_crane.scene.json");
