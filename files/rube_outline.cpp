@@ -1,7 +1,10 @@
 #include "rube_outline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "overlay.h"
 #include "svg_stroke.h"
