@@ -10,6 +10,7 @@
 #include "rube_world.h"
 
 namespace ductile::rube {
+
 b2Joint* make_joint(b2World& world, const Item& item, const std::vector<b2Body*>& made,
                     const std::vector<b2Joint*>& others) {
   const std::string type = item.text("type");
