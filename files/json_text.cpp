@@ -64,8 +64,8 @@ JsonText::Entry JsonText::find(const Path& path) const {
   const Entry parent = find(path.parent_pointer());
   const Container of = container(parent.value);
   if (text_[of.open] == '[') return of.entries.at(std::stoul(path.back()));
-  const auto found =
-      std::find_if(of.entries.begin(), of.entries.end(), [&](const Entry& e) { return e.key == path.back(); });
+  const auto found = std::find_if(of.entries.begin(), of.entries.end(),
+                                  [&](const Entry& e) { return e.key == path.back(); });
   return found == of.entries.end() ? Entry{} : *found;
 }
 
@@ -78,8 +78,8 @@ void JsonText::add(std::size_t at, const std::string& entry) {
   }
   const Entry& last = of.entries.back();
   const std::size_t line = text_.rfind('\n', last.begin);
-  const bool own_line = line != std::string::npos && line > of.open &&
-                        text_.find_first_not_of(" \t", line + 1) == last.begin;
+  const bool own_line =
+      line != std::string::npos && line > of.open && text_.find_first_not_of(" \t", line + 1) == last.begin;
   text_.insert(last.end, "," + (own_line ? text_.substr(line, last.begin - line) : " ") + entry);
 }
 

@@ -2,8 +2,8 @@
 // comments.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,9 +29,9 @@ class JsonText {
  private:
   /// A member of an object or an element of an array.
   struct Entry {
-    std::string key;                    // empty for an element
-    std::size_t begin = 0;              // of the key or the element
-    std::size_t value = 0, end = 0;     // of the value
+    std::string key;                 // empty for an element
+    std::size_t begin = 0;           // of the key or the element
+    std::size_t value = 0, end = 0;  // of the value
   };
   struct Container {
     std::size_t open = 0, close = 0;  // the brackets

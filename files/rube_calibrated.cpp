@@ -77,7 +77,8 @@ void Reader::write_bodies() {
     if (def.pieces > 1 || def.automatic) {
       Json copy = body.value.json();
       copy["name"] = (body.name.empty() ? def.name : body.name) + "/" + std::to_string(number);
-      for (const char* done : {"ductile.pieces", "ductile.outline", "ductile.loads"}) remove_custom(copy, done);
+      for (const char* done : {"ductile.pieces", "ductile.outline", "ductile.loads"})
+        remove_custom(copy, done);
       write_piece(copy, plan, static_cast<int>(i), *built.built.bodies[i], body.frame);
       write_loads(copy, plan, static_cast<int>(i), body.frame);
       if (number == 0)
@@ -110,7 +111,8 @@ void Reader::redirect() {
     if (!of.has(key)) return;
     const int body = of.integer(key, -1, static_cast<int>(bodies_.size()) - 1, -1);
     const int piece =
-        body < 0 ? -1 : piece_at(body, bodies_[static_cast<std::size_t>(body)].frame.world(of.vector(anchor)));
+        body < 0 ? -1
+                 : piece_at(body, bodies_[static_cast<std::size_t>(body)].frame.world(of.vector(anchor)));
     if (piece >= 0) item[key] = scene_.bodies[static_cast<std::size_t>(piece)];
   };
   const auto joints = top.list("joint"), images = top.list("image");

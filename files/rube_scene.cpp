@@ -37,8 +37,7 @@ Outline outline_of(const BodyDef& body) {
 /// The body whose section a joint has: one that moves before one that does not, then the smaller one.
 const BodyDef& smaller(const BodyDef& a, const BodyDef& b) {
   const auto rank = [](const BodyDef& body) {
-    return std::pair(body.type != BodyType::dynamic_body,
-                     std::abs(doubled_area(outline_of(body).outer)));
+    return std::pair(body.type != BodyType::dynamic_body, std::abs(doubled_area(outline_of(body).outer)));
   };
   return rank(b) < rank(a) ? b : a;
 }

@@ -26,8 +26,8 @@ void for_each_edge(const Outline& outline, const Visit& visit) {
 struct Shape {
   double area = 0;
   Point centroid;
-  Point axis{1, 0};  // the long one
-  double extent = 0;      // along the axis
+  Point axis{1, 0};        // the long one
+  double extent = 0;       // along the axis
   double slenderness = 1;  // ratio of the radii of gyration
 
   explicit Shape(const Ring& ring) {

@@ -44,8 +44,8 @@ Json json(const b2Fixture& fixture, const Frame& piece, const Frame& body) {
   return item;
 }
 
-/// Box2D 2.3 (LibGDX, cocos2d-x) welds vertices that are nearer than √(0.0025) m, as it takes half of its slop of
-/// 0.005 m for the square of a distance, and asserts that three are left.
+/// Box2D 2.3 (LibGDX, cocos2d-x) welds vertices that are nearer than √(0.0025) m, as it takes half of its
+/// slop of 0.005 m for the square of a distance, and asserts that three are left.
 bool is_taken_by_2_3(const b2Fixture& fixture) {
   if (fixture.GetType() != b2Shape::e_polygon) return true;
   const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());

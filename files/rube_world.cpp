@@ -13,8 +13,8 @@
 namespace ductile::rube {
 namespace {
 
-/// None where Box2D would not take it. A chain has one side, to the right of its direction: `backwards` it has
-/// the other one.
+/// None where Box2D would not take it. A chain has one side, to the right of its direction: `backwards` it
+/// has the other one.
 std::unique_ptr<b2Shape> shape(const Fixture& fixture, bool backwards = false) {
   std::vector<Point> points = fixture.points;
   if (backwards) std::reverse(points.begin(), points.end());

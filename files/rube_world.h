@@ -25,8 +25,8 @@ class World {
     std::multimap<std::string, b2Body*> bodies;
     std::multimap<std::string, b2Joint*> joints;
   };
-  /// The scene with the joints of `plan`, which is that of the scene: in the structure, or as the stock joints
-  /// of stock_def() where that is null.
+  /// The scene with the joints of `plan`, which is that of the scene: in the structure, or as the stock
+  /// joints of stock_def() where that is null.
   Built make(b2World& world, const Plan& plan, Structure* structure, Names* names = nullptr) const;
 
  private:

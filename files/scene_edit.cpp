@@ -84,7 +84,8 @@ class SceneEdit {
       file_["materials"] = nlohmann::json::object();
     }
     std::string name;
-    for (int n = 2; name.empty() || file_["materials"].contains(name); ++n) name = like + " " + std::to_string(n);
+    for (int n = 2; name.empty() || file_["materials"].contains(name); ++n)
+      name = like + " " + std::to_string(n);
     file_["materials"][name] = nullptr;
     text_.set(Path("/materials") / name, material_json(material));
     fresh_.emplace_back(name, material);
@@ -119,7 +120,7 @@ class SceneEdit {
     std::size_t j = 0;
     for (std::size_t i = 0; i < was.size(); ++i) {
       for (std::size_t k = j; k < is.size(); ++k) {
-        const bool same = was[i].contains("name") ? is[k].value("name", "") == was[i]["name"]
+        const bool same = was[i].contains("name")   ? is[k].value("name", "") == was[i]["name"]
                           : was.size() == is.size() ? k == i
                                                     : is[k] == was[i];
         if (!same) continue;

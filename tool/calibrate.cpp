@@ -220,9 +220,9 @@ void add_calibrate(CLI::App& app, std::string& output) {
   CLI::App* command = app.add_subcommand("calibrate", "Split a scene's bodies and calibrate their joints");
   add_scene(command, options->scene);
   auto* to = command
-      ->add_option("--to", options->to,
-                   "print definitions: json, box2d, cpp or rube; or the scene file itself")
-      ->check(CLI::IsMember({"json", "box2d", "cpp", "rube", "scene"}));
+                 ->add_option("--to", options->to,
+                              "print definitions: json, box2d, cpp or rube; or the scene file itself")
+                 ->check(CLI::IsMember({"json", "box2d", "cpp", "rube", "scene"}));
   command
       ->add_option("--as", options->as,
                    "what a joint that may yield is in players without ductile (hinge): a revolute joint with "

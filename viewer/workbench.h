@@ -31,8 +31,8 @@ class Workbench {
   void open_neighbour(int by);
   /// Whether there is a scene to edit and save; a R.U.B.E. level has none.
   bool editable() const { return editable_; }
-  /// What was not edited stays in the file as it stood. Throws std::system_error; InvalidInput where it is not
-  /// editable.
+  /// What was not edited stays in the file as it stood. Throws std::system_error; InvalidInput where it is
+  /// not editable.
   void save(const std::filesystem::path& file);
   /// Puts another scene in the place of this one and runs it from the start; undo() takes it back. Throws
   /// InvalidInput, with everything as it was. `continued`: it replaces the last edit, as a slider does while

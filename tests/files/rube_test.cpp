@@ -508,8 +508,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 Plan falling_on(const std::string& ground, const std::string& more = "") {
   return parse_plan(R"({"gravity": {"x": 0, "y": -10}, "body": [
-      {"name": "ground", "type": 0, "position": 0, "fixture": [)" + ground + R"(]},
-      {"name": "box", "type": 2, "position": {"x": 0, "y": 2}, "massData-mass": 3, "massData-I": 0.34)" + more + R"(,
+      {"name": "ground", "type": 0, "position": 0, "fixture": [)" +
+                    ground + R"(]},
+      {"name": "box", "type": 2, "position": {"x": 0, "y": 2}, "massData-mass": 3, "massData-I": 0.34)" +
+                    more + R"(,
        "fixture": [{"density": 5, "polygon": {"vertices": {"x": [-0.3, 0.3, 0.3, -0.3], "y": [-0.5, -0.5, 0.5, 0.5]}}}]}]})");
 }
 
@@ -540,7 +542,8 @@ TEST(Plan, ABodyOfFixedRotationDoesNotTurn) {
   const Built built = build_stock(world, plan);
   for (int i = 0; i < 60; ++i) world.Step(1 / 60.f, 8, 3);
   EXPECT_EQ(built.bodies.back()->GetAngle(), 0);
-  EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5, 0.02);  // on the ground's corner, 0.2 m off its centre
+  EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5,
+              0.02);  // on the ground's corner, 0.2 m off its centre
 }
 
 TEST(Plan, BringsRopesSensorsAndTurnedBodiesAlong) {
@@ -552,7 +555,8 @@ TEST(Plan, BringsRopesSensorsAndTurnedBodiesAlong) {
   turned["gravity"] = {{"x", 0}, {"y", 10}};
   for (json& body : turned["body"]) {
     if (body["position"].is_object()) {
-      body["position"]["x"] = -(body["position"]["x"].is_string() ? 2.0 : body["position"]["x"].get<double>());
+      body["position"]["x"] =
+          -(body["position"]["x"].is_string() ? 2.0 : body["position"]["x"].get<double>());
       body["position"]["y"] = -body["position"]["y"].get<double>();
     }
     body["angle"] = 3.14159265;

@@ -184,7 +184,9 @@ INSTANTIATE_TEST_SUITE_P(
       "split": { "pieces": 4 })",
                  ""}}},
         Edited{"a_shared_material",
-               [](SceneDef& s) { steel_of(s, {0, 1}, 4e8); },
+               [](SceneDef& s) {
+                 steel_of(s, {0, 1}, 4e8);
+               },
                {{"350e6", "400000000.0"}}},
         Edited{"a_material_of_one_body",
                [](SceneDef& s) { steel_of(s, {1}, 4e8); },
@@ -200,13 +202,18 @@ INSTANTIATE_TEST_SUITE_P(
                {{R"({ "pieces": 4 })", R"({ "pieces": 4 },
       "joint": {"moment":5.0})"}}},
         Edited{"gravity",
-               [](SceneDef& s) { s.gravity = {0, -1}; },
+               [](SceneDef& s) {
+                 s.gravity = {0, -1};
+               },
                {{"-1e3] } ]", "-1e3] } ],\n  \"gravity\": [0.0,-1.0]"}}},
         Edited{"an_outline",
-               [](SceneDef& s) { s.bodies[2].outline.outer[2] = {1, 3}; },
+               [](SceneDef& s) {
+                 s.bodies[2].outline.outer[2] = {1, 3};
+               },
                {{"[[0, 0], [1, 0],\n                                 [1, 1]]",
                  "[[0.0,0.0],[1.0,0.0],[1.0,3.0]]"}}},
-        Edited{"a_load_less", [](SceneDef& s) { s.loads.clear(); },
+        Edited{"a_load_less",
+               [](SceneDef& s) { s.loads.clear(); },
                {{",\n  \"loads\": [ { \"body\": \"box\", \"at\": [0.9, 0.5], \"force\": [0, -1e3] } ]", ""}}},
         Edited{"a_load_more",
                [](SceneDef& s) {

@@ -33,9 +33,9 @@ Level load(b2World& world, const std::filesystem::path& file, const StructureDef
 Level load_text(b2World& world, std::string_view text, const std::string& name = "level",
                 const std::filesystem::path& folder = ".", const StructureDef& def = {});
 
-/// The plan of such a text: calibrated, for commands and tools that work on plans. Built in a world, that of a
-/// R.U.B.E. scene brings all of it along (Plan::make): ropes, motors, sensors. `beyond`, if given, becomes the
-/// list of joints that the plan itself knows nothing of, and statics therefore leaves out.
+/// The plan of such a text: calibrated, for commands and tools that work on plans. Built in a world, that of
+/// a R.U.B.E. scene brings all of it along (Plan::make): ropes, motors, sensors. `beyond`, if given, becomes
+/// the list of joints that the plan itself knows nothing of, and statics therefore leaves out.
 Plan parse_plan(std::string_view text, const std::string& name = "level",
                 const std::filesystem::path& folder = ".", std::vector<Problem>* beyond = nullptr);
 
