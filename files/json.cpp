@@ -162,9 +162,7 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
     problems.check();
   }
   Builder builder(text, problems);
-  constexpr bool strict = true, ignore_comments = true;
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, strict,
-                            ignore_comments);
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
   problems.check();
   return std::move(builder.root);
 }

@@ -114,7 +114,6 @@ Fixture read_fixture(const Value& value) {
 Body read_body(const Value& value) {
   constexpr BodyType types[] = {BodyType::static_body, BodyType::kinematic_body, BodyType::dynamic_body};
   Body body{.value = value};
-  if (!value.json().is_object()) value.wrong("is " + value.shown(), "write an object, {...}");
   const Item item(value);
   body.name = item.text("name");
   body.type = types[item.integer("type", 0, 2)];
@@ -247,8 +246,7 @@ void remove_custom(Json& item, const std::string& name) {
 
 bool is_scene(const Json& json) {
   if (!json.is_object() || json.contains("bodies") || json.contains("regions")) return false;
-  for (const char* key :
-       {"body", "joint", "image", "stepsPerSecond", "warmStarting", "metaworld", "metabody"}) {
+  for (const char* key : {"body", "joint", "image", "stepsPerSecond", "warmStarting"}) {
     if (json.contains(key)) return true;
   }
   return false;

@@ -12,7 +12,7 @@ namespace {
 // Of one step as it was solved.
 double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   const double h = r.law.h, s = j.impulse[i];
-  const double e = (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
+  const double e = strain_of_bias(j, i);
   const double rate = s / j.G[i] - j.bias[i];
   const double limit = std::abs(s) / (h * r.law.spring[i]);
   const double share = r.law.delta[i] < 1 ? (1 + r.law.delta[i]) / 2 : 1;

@@ -59,11 +59,15 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
       continue;
     }
     const double k = r.law.spring[i], delta = r.law.delta[i];
-    const double e = (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
+    const double e = strain_of_bias(j, i);
     const double u = moved_[index][i] - slip[i], p = delta < 1 ? h * j.rate[i] : u;
-    // Rigid rows store what their force stands for: their gap holds constraint drift, too.
-    const double half = e + u / 2, after = is_rigid(r, i) ? j.impulse[i] / (h * k) : e + u;
-    r.stored[i] = k / 2 * (delta < 1 ? half * half + delta * delta * u * u / 4 : after * after);
+    // Implicit rows store what their force stands for: their gap holds constraint drift, too.
+    const double half = e + u / 2, after = is_implicit(r, i) ? j.impulse[i] / (h * k) : e + u;
+    const double third = r.law.third[i];
+    r.stored[i] =
+        k / 2 *
+        (delta < 1 ? half * half + (delta * delta / 4 + third / 2) * u * u + third / 2 * (u + p) * (u + p)
+                   : after * after);
     const double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
     energies.damping += damping;
     const double given = is_driven(r, i) ? -j.impulse[i] / h * slip[i] : 0;

@@ -2,11 +2,9 @@
 // and changes nothing but its own accounts and the records' `stored`.
 //
 // A row takes s·J v̄ from the bodies, v̄ the mean of their velocities before and after the step. With p = h w
-// and u the elastic parts of its motion in the last step and in this one, Newmark's R (row.h) makes of
-// k-times
-//   R (u + p)/2 = Δ[½ (e + u/2)² + ⅛ δ² u²] + δ ((u + p)/2)²
-// a change of what is stored half a step on, and the damping of δ. The slider takes R times its slip. What is
-// left is numerical, row by row: δ beyond the damper's, implicit Euler of rigid rows and heavy dampers, the
+// and u the elastic parts of its motion in the last step and in this one, what R (u + p)/2 changes of what is
+// stored half a step on, and what δ damps, stands in row.h. The slider takes R times its slip. What is left
+// is numerical, row by row: δ beyond the damper's, γ, implicit Euler of rigid rows and heavy dampers, the
 // turning of J.
 #pragma once
 

@@ -94,11 +94,12 @@ void Structure::Impl::join_orphans() {
   }
 }
 
+// No two structures share a body, so its first joint of a structure tells.
 bool Structure::Impl::is_of_another(const b2Body& body) const {
   if (!is_free(&body)) return false;
   for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
     const auto* joint = ElasticPlasticJoint::cast(e->joint);
-    if (joint != nullptr && joint->member_ != nullptr && joint->member_->structure != this) return true;
+    if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure != this;
   }
   return false;
 }

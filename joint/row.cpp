@@ -16,7 +16,8 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
   RowLaw law;
   law.surface = material.surface;
   law.h = h;
-  double shared = 0;
+  double shared = 0;  // δ of all rows that share a yield surface, but of the implicit ones
+  const auto special = [&](unsigned i) { return ((material.slackens | material.driven) >> i & 1u) != 0; };
   for (unsigned i = 0; i < 3; ++i) {
     const double limit = rigid_ratio * m_eff[i];
     if (!(material.stiffness[i] > 0) || !(limit > 0) ||
@@ -30,9 +31,13 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
       // Where bodies turn, J of u and v is right to first order only; a damper that is beyond what the row's
       // own frequency lets the step resolve would store what that misses.
       if (i < 2 && how.delta < 1 && h * h * k > m_eff[i]) delta = std::min(delta, 1.0);
+      if (special(i)) delta = std::max(delta, special_delta);
       delta = std::min(delta, limit / (h * h * k));
-      // Rows that share a yield surface share δ.
-      shared = std::max(shared, delta);
+      if (i < 2 && how.delta < 1 && h * h * k > stiff_ratio * m_eff[i]) {
+        delta = 1;
+      } else {
+        shared = std::max(shared, delta);
+      }
     } else {
       k = limit / (h * h);
     }
@@ -46,11 +51,13 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     const double k = law.spring[i];
     if (!(k > 0)) continue;
     double& delta = law.delta[i];
-    if (material.surface != nullptr && k == material.stiffness[i]) delta = shared;
-    const double beta = delta < 1 ? (1 + delta) * (1 + delta) / 4 : delta;
-    law.G[i] = beta * h * h * k;
-    law.relaxation[i] = 1 / (beta * h);
-    law.carry[i] = delta < 1 ? (beta - delta) / beta : 1 / delta - 1;
+    if (material.surface != nullptr && k == material.stiffness[i] && delta != 1) delta = shared;
+    law.third[i] = delta < 1 && !special(i) ? third_difference : 0;
+    // β − γ
+    const double share = delta < 1 ? (1 + delta) * (1 + delta) / 4 + 1.5 * law.third[i] : delta;
+    law.G[i] = share * h * h * k;
+    law.relaxation[i] = 1 / (share * h);
+    law.carry[i] = delta < 1 ? 1 - delta / share : 1 / delta - 1;
     // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
     const double after = std::min(material.hardening[i], 0.99 * k), H = after * k / (k - after);
     law.after_yield[i] = h * h * H / (h * h * H + law.G[i]);

@@ -1,17 +1,24 @@
 // The law of the three rows of a joint: springs in series with sliders, integrated by Newmark's method.
 //
 // Bodies move by h v, so velocities belong to the middle of a step and the impulse s = h R of a row to its
-// start. With e the elastic strain there, w the elastic rate of the last step, k the stiffness and c the
-// damping:
-//   R = k (e + β h (J v − w) + δ h w)      β = (1 + δ)²/4      δ ≥ c/(kh)
-//   G = β h² k      b = e/(βh) − ((β − δ)/β) w      x = J v + b      s = clamp(G x, −hF⁻, hF⁺)
-// δ = 0 is the average acceleration method: k times the mean (e₋ + 2e + e₊)/4, of second order, stable for
-// any ωh, and without loss. δ > 0 damps a vibration of ω by δωh/2 of critical damping (and by (1 − δ)/(1 + δ)
-// a step what the step cannot resolve), which a damper c = δ k h does, too: so δ is that, and at least a
-// little. A heavier damper is implicit, R = k (e + h J v) + (c − kh)(J v + w'), with w' = ½(J₊ − J)v of the
+// start. With e the elastic strain there, u = h J v what the step adds to it, p and q what the last two steps
+// did, k the stiffness and c the damping:
+//   R = k (e + β (u − p) + δ p − γ (u − 2p + q))      δ ≥ c/(kh)      β = (1 + δ)²/4 + 5γ/2
+// δ = γ = 0 is the average acceleration method: k times the mean (e₋ + 2e + e₊)/4, of second order, stable
+// for any ωh, and without loss, of what rings in stiff rows neither. γ is a third difference: it damps a
+// vibration of ωh = φ by γφ³/2 of critical damping, and what the step cannot resolve by 13 % a step. δ damps
+// by δφ/2, as a damper c = δ k h does, so δ is that. With m = (u + p)/2, a = u − p and a₋ = p − q,
+//   R m/k = Δ[½ (e + u/2)² + ⅛ δ² u² + γ (m² + ¼ u²)] + δ m² + ¼ γ (a + a₋)²
+// all that is stored is positive, and all that is lost: no vibration grows, at any step. (Newmark, J. Eng.
+// Mech. Div. ASCE 85 (1959); β at γ = 0 from Hilber, Hughes & Taylor 1977, eq. 10, α = 0.)
+//
+// A damper heavier than δ = 1 is implicit, R = k (e + u) + (c − kh)(J v + w'), with w' = ½(J₊ − J)v of the
 // last step: what the rows of turning bodies change their direction by must not strain the spring, step by
-// step. δ = 1 is implicit Euler, which rigid rows have. (Newmark, J. Eng. Mech. Div. ASCE 85 (1959); β from
-// Hilber, Hughes & Taylor 1977, eq. 10, α = 0.)
+// step. δ = 1, γ = 0 is implicit Euler, which rigid rows have.
+//
+// In the solver's form, with w = p/h and the trend t = γ (p − q):
+//   G = (β − γ) h² k      b = (e + t)/((β − γ)h) − (1 − δ/(β − γ)) w      x = J v + b
+//   s = clamp(G x, −hF⁻, hF⁺)
 //
 // s is the impulse of the internal force R = s/h (tension positive) that the row takes against the relative
 // velocity Jv; it is the derivative of a convex potential φ(x), quadratic below the cap and linear (or, with
@@ -31,6 +38,18 @@ namespace ductile::dynamics {
 /// size, any E and any step. Below 1e8 a rigid cantilever of 80 pieces is soft enough to overshoot and flow
 /// at 0.999 of its cap when gravity sets in at once; at 1e10 nothing is lost yet in double precision.
 inline constexpr double rigid_ratio = 1e9;
+
+/// Axial and shear springs beyond so many m_eff/h² are integrated by implicit Euler: only chains of 500 and
+/// more of them have a vibration that the step resolves, and what bodies part by as they turn, r(ωh)²/2, must
+/// not ring in them.
+inline constexpr double stiff_ratio = 1e5;
+
+/// δ at least, and γ = 0, of rows that go slack or are driven: what they carry over is not what was before.
+inline constexpr double special_delta = 0.05;
+
+/// γ of springs that the step can integrate: a vibration of 6 Hz at 60 Hz is damped by 0.0017 of critical
+/// damping, of 2 Hz by 0.00007.
+inline constexpr double third_difference = 0.016;
 
 /// What the rows of a joint are made of, axial, shear and rotation.
 struct Material {
@@ -60,6 +79,7 @@ struct RowLaw {
   Rows spring{};       // k, the stiffness that the step can integrate, ≤ that of the material
   Rows damping{};      // c, N s/m or N m s
   Rows delta{};        // δ
+  Rows third{};        // γ
   Rows relaxation{};   // bias per strain e, 1/s
   Rows carry{};        // bias per −w, w the rate that the law carries over
 

@@ -34,6 +34,7 @@ void Solver::begin(double h) {
   motion_.share = 1;
   if (h != step()) prediction_.forget();
   const bool other_laws = laws_.begin(*this, h);
+  if (other_laws) list_special(*this);
   begin_drives(*this, h);
   if (follow_tension(*this, h) || other_laws) hessian_.forget();
 }
@@ -83,12 +84,15 @@ void Solver::advance() {
     if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
     if (keeps_ledger || j.regime != 0 || j.free || j.special) book(j, gap);
-    j.rate = relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]);
+    const Rows rate = std::exchange(j.rate, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
+    for (unsigned i = 0; i < 3; ++i)
+      j.trend[i] = j.carry[i] > 0 ? third_difference * h * (j.rate[i] - rate[i]) : 0;
     for (unsigned i = 0; turns && i < 3; ++i) {
       if (j.carry[i] < 0) {
         j.rate[i] = (j.rate[i] - before_turn[i]) / 2;
       } else if (flows(j.regime, i)) {
         j.rate[i] -= before_turn[i];  // the spring's own rate is none
+        j.trend[i] = 0;
       }
     }
     if (j.special) correct_rates(j, record(j), gap, h);

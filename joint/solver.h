@@ -73,10 +73,7 @@ class Solver : public System {
   double step() const { return laws_.step(); }
 
   /// Caps or stiffness were edited.
-  void laws_changed() {
-    laws_.invalidate();
-    list_special(*this);
-  }
+  void laws_changed() { laws_.invalidate(); }
   /// See StepLaws.
   double& drift_time() { return laws_.drift_time; }
   double drift_time() const { return laws_.drift_time; }

@@ -14,6 +14,18 @@ namespace {
 
 constexpr double turn_guard = 10;   // δ per rad that a body turns in a step
 constexpr double free_turn = 0.01;  // rad a step
+constexpr double least_guard = 0.05;
+
+// What a row is strained beyond what its force tells, m or rad.
+double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
+  return r.gap[i] - j.neutral[i] - j.impulse[i] / (r.law.h * r.law.spring[i]);
+}
+
+// The past may have known what is not finite; this step need not.
+void forget_infinite(Joint& j) {
+  for (unsigned i = 0; i < 3; ++i)
+    if (!std::isfinite(j.rate[i] + j.trend[i])) j.rate[i] = j.trend[i] = 0;
+}
 
 }  // namespace
 
@@ -38,8 +50,9 @@ double StepLaws::deferred_share(System& system, double h) {
     JointRecord& r = system.record(j);
     double now = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      const double d = r.gap[i] - j.neutral[i] - elastic_strain(j, r, i);
-      if (j.G[i] > 0 && is_rigid(r, i) && !is_slack(j, r, i)) now += r.m_eff[i] * d * d;
+      if (!(j.G[i] > 0) || is_slack(j, r, i)) continue;
+      const double d = beyond_force(j, r, i);
+      now += r.m_eff[i] * d * d;
     }
     deferred += h < r.law.h ? now : r.deferred_drift;
     all += now;
@@ -56,11 +69,14 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain) const {
   Rows spring = r.law.spring;
   const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
+  const Rows carry = j.carry;
   set_law(j, r);
   for (unsigned i = 0; i < 3; ++i) {
     // The same force, but none larger than the step: what was rough in a short one would be a blow.
     j.impulse[i] *= std::min(1.0, longer);
     j.rate[i] /= longer;
+    if ((carry[i] < 0) != (j.carry[i] < 0)) j.rate[i] = 0;  // w and w' (row.h) say nothing of each other
+    if (!(r.law.third[i] > 0)) j.trend[i] = 0;
     // What holds nothing any more, as both its bodies are held, forgets its force.
     if (!(r.law.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
     if (!(spring[i] > 0 && r.law.spring[i] > 0) || is_slack(j, r, i)) continue;
@@ -82,7 +98,7 @@ double StepLaws::delta_for(const System& system, double h) const {
   for (std::size_t i = 0; i < system.free; ++i) turn = std::max(turn, std::abs(system.bodies[i].v_free.w));
   const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
   double delta = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
-  if (guard > least_delta) delta += std::exp2(std::ceil(std::log2(guard)));
+  if (guard > least_guard) delta += std::exp2(std::ceil(std::log2(guard)));
   delta = std::min(delta, 1.0);
   const bool as_before = h == h_ && delta <= delta_ && delta > delta_ / 3;
   return as_before ? delta_ : delta;
@@ -100,8 +116,7 @@ bool StepLaws::begin(System& system, double h) {
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
     for (Joint& j : system.joints) {
-      for (double& rate : j.rate)
-        if (!std::isfinite(rate)) rate = 0;
+      forget_infinite(j);
       set_equal_bias(j, system.record(j).gap);
     }
     return false;
@@ -109,16 +124,16 @@ bool StepLaws::begin(System& system, double h) {
   find_gaps(system);
   for (Joint& j : system.joints) {
     JointRecord& r = system.record(j);
-    for (double& rate : j.rate)
-      if (!std::isfinite(rate)) rate = 0;  // the past may have known what is not finite; this step need not
-    Rows strain;
-    for (unsigned i = 0; i < 3; ++i)
-      strain[i] = is_rigid(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
+    forget_infinite(j);
+    Rows strain, waiting{};
+    for (unsigned i = 0; i < 3; ++i) {
+      strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
+      if (drifts && j.G[i] > 0 && !is_slack(j, r, i)) waiting[i] = waits * beyond_force(j, r, i);
+    }
     if (changed) follow_law(j, r, strain);
     for (unsigned i = 0; i < 3; ++i) {
-      double e = r.gap[i] - j.neutral[i];
-      if (!is_slack(j, r, i)) e -= waits * (e - strain[i]);
-      j.bias[i] = j.relaxation[i] * e - j.carry[i] * j.rate[i];
+      const double e = r.gap[i] - j.neutral[i] - waiting[i];
+      j.bias[i] = j.relaxation[i] * (e + j.trend[i]) - j.carry[i] * j.rate[i];
     }
   }
   return changed;

@@ -24,16 +24,13 @@ class StepLaws {
   bool begin(System& system, double h);
   double step() const { return h_; }
 
-  /// δ of rows without a damper. What the step does not resolve loses 10 % of its amplitude a step; a
-  /// vibration of f Hz is damped by δωh/2 of critical damping, 0.0026 for 1 Hz at 60 Hz. At a tenth of it,
-  /// what rings in stiff rows is there seconds later, and becomes force when the step shortens. 1: implicit
-  /// Euler.
-  double least_delta = 0.05;
+  /// δ of rows without a damper, in equal steps of bodies that hardly turn. 1: implicit Euler.
+  double least_delta = 0;
 
   /// Biases of the next step if it is as long.
   static void set_equal_bias(Joint& j, const Rows& gap) {
     for (unsigned i = 0; i < 3; ++i)
-      j.bias[i] = j.relaxation[i] * (gap[i] - j.neutral[i]) - j.carry[i] * j.rate[i];
+      j.bias[i] = j.relaxation[i] * (gap[i] - j.neutral[i] + j.trend[i]) - j.carry[i] * j.rate[i];
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;

@@ -53,6 +53,7 @@ struct Joint {
   Rows G{}, elastic_range{};   // of the law
   Rows relaxation{}, carry{};  // of the law: b of the next step
   Rows rate{};     // w: what the law carries over of the last step's rates, m/s or rad/s; times h₋/h
+  Rows trend{};    // t, m or rad: the share of their change that the law carries over
   Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
   Frame frame;
 };
@@ -117,18 +118,25 @@ Rows force(const Joint& joint, const JointRecord& record);
 /// Whether a row is stiffer than the step can integrate.
 inline bool is_rigid(const JointRecord& r, unsigned i) { return r.law.spring[i] != r.material.stiffness[i]; }
 
+/// Whether a row is integrated by implicit Euler, as rigid and very stiff ones are.
+inline bool is_implicit(const JointRecord& r, unsigned i) { return r.law.delta[i] == 1; }
+
 /// Whether a row that takes one sign took nothing in the last step (drive.h).
 inline bool is_slack(const Joint& j, const JointRecord& r, unsigned i) {
   return (r.material.slackens >> i & 1u) != 0 && j.impulse[i] == 0;
 }
 
-/// The elastic strain at the end of the last step, m or rad: that of the biases, and R/k in rigid rows. The
-/// gap itself may be more there: turning bodies part along their tangents in a step, by r(ωh)²/2, before the
-/// next one brings them back.
+/// The elastic strain e that a row's bias was made of, m or rad.
+inline double strain_of_bias(const Joint& j, unsigned i) {
+  return (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i] - j.trend[i];
+}
+
+/// The elastic strain at the end of the last step, m or rad: that of the biases, and R/k in implicit rows.
+/// The gap itself may be more there: turning bodies part along their tangents in a step, by r(ωh)²/2, before
+/// the next one brings them back.
 inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
   if (!(j.relaxation[i] > 0) || is_slack(j, r, i)) return 0;
-  return is_rigid(r, i) ? j.impulse[i] / (r.law.h * r.law.spring[i])
-                        : (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i];
+  return is_implicit(r, i) ? j.impulse[i] / (r.law.h * r.law.spring[i]) : strain_of_bias(j, i);
 }
 
 }  // namespace ductile::dynamics

@@ -35,17 +35,21 @@ struct Line {
     solver.locate();
     for (Joint& j : solver.joints) j.neutral = solver.record(j).gap;
     before.assign(solver.joints.size(), 0);
+    last_u.assign(solver.joints.size(), 0);
   }
   double strain(const Joint& j) {
     solver.find_gaps();
     return solver.record(j).gap[axial] - j.neutral[axial];
   }
   // Velocities are those of the middle of a step, and so are strains: with e before and e + u after it,
-  // Newmark's method keeps ½ k ((e + u/2)² + δ²u²/4).
+  // Newmark's method keeps ½ k ((e + u/2)² + δ²u²/4), and its third difference γ k (m² + u²/4), where m is
+  // the mean of u and what it was in the step before.
   double stored(const Joint& j) {
     const double u = strain(j) - before[solver.index(j)], middle = strain(j) - u / 2;
-    const double delta = solver.record(j).law.delta[axial];
-    return 1e6 / 2 * (middle * middle + delta * delta * u * u / 4);
+    const double m = (u + last_u[solver.index(j)]) / 2;
+    const RowLaw& law = solver.record(j).law;
+    const double delta = law.delta[axial];
+    return 1e6 * (middle * middle / 2 + delta * delta * u * u / 8 + law.third[axial] * (m * m + u * u / 4));
   }
   double energy() {
     double sum = 0;
@@ -74,7 +78,11 @@ struct Line {
     for (std::size_t i = 0; i < solver.bodies.size(); ++i) {
       solver.bodies[i].v_free = solver.before[i] = solver.bodies[i].v;
     }
-    for (const Joint& j : solver.joints) before[solver.index(j)] = strain(j);
+    for (const Joint& j : solver.joints) {
+      const std::size_t k = solver.index(j);
+      last_u[k] = j.regime == 0 ? strain(j) - before[k] : 0;
+      before[k] = strain(j);
+    }
     solver.begin(h);
     solver.solve(report);
     solver.advance();
@@ -82,6 +90,7 @@ struct Line {
   }
   Solver solver;
   std::vector<double> before;  // strains, m
+  std::vector<double> last_u;  // what the step before added to them: nothing to one that had flowed
 };
 
 // A solve that is cut off may lose energy, never add any; the books go on as if it had not been.

@@ -115,7 +115,6 @@ class Simulation {
 
   void record(const JointEvent& event);
   JointReading read_stock(std::size_t index) const;
-  double turn_of(int piece) const;  // rad, since the start
 
   Plan plan_;
   JointSolver solver_;
