@@ -13,7 +13,9 @@
 namespace ductile {
 namespace {
 
+using Eigen::Matrix2d;
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // A displacement across an arm, to its left, in the joint's (u, v).
@@ -81,8 +83,10 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const PlannedJoint& joint = plan.joints[i];
     if (joint.a >= 0 || stiffest[static_cast<std::size_t>(joint.b)] == 0) continue;
-    const Point from_middle = joint.anchor - plan.carrier(joint.b).center;
-    if (length(from_middle) > 0)
+    const Piece& piece = plan.carrier(joint.b);
+    const Point from_middle = joint.anchor - piece.center;
+    if (length(from_middle) >
+        1e-6 * std::sqrt(piece.inertia / piece.mass))  // else in the middle, but for rounding
       arms[i][1] = {length(from_middle), stiffest[static_cast<std::size_t>(joint.b)], unit(from_middle)};
   }
   return arms;
@@ -131,6 +135,17 @@ Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::
   form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());
   form -= turn * slip.transpose() + slip * turn.transpose();
   form.diagonal() -= Vector3d(a, b, 0);
+  return form;
+}
+
+// The same cubic of one arm: slope θ in the middle of the piece, the chord ψ = (ℓ θ + w)/ℓ, and at the end
+// either no slope, or no moment: β = −α/2, which leaves ℓ α²/5.
+Matrix2d curved_at_support(double length, bool clamped) {
+  const Vector2d turn(1, 0), chord(1, 1 / length), alpha = turn - chord,
+                                                   beta = clamped ? Vector2d(-chord) : Vector2d(-0.5 * alpha);
+  Matrix2d form = length * (chord * chord.transpose() - turn * turn.transpose());
+  form += length / 30 * (4 * alpha * alpha.transpose() + 4 * beta * beta.transpose());
+  form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());
   return form;
 }
 

@@ -28,4 +28,8 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
 Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms,
                        std::array<double, 2> follow);
 
+/// The same of a support's arm, in (θ, w): the turn of its piece, and what its end is to the left of where
+/// the rigid piece would have it. `clamped`: the end does not turn.
+Eigen::Matrix2d curved_at_support(double length, bool clamped);
+
 }  // namespace ductile

@@ -45,6 +45,32 @@ void add_curved(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint
     for (const auto& [column, b] : columns) entries.emplace_back(row, column, a.dot(form * b));
 }
 
+// What acts at the end of a support's arm, the support and loads there, acts on the bent bar, w beside the
+// rigid piece: where the support holds its end, −w is how far the rigid piece is off it.
+void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, const Equilibrium& statics,
+                 std::size_t index, Point force, const std::function<double(const Plan::Load&)>& dead) {
+  const PlannedJoint& joint = plan.joints[index];
+  const Arm& arm = statics.arms()[index][1];
+  if (arm.length == 0) return;
+  const Point across = left(arm.along);
+  const Eigen::VectorXd& k = statics.stiffness();
+  const Index row = 3 * static_cast<Index>(index);
+  const bool along_axis = std::abs(dot(across, joint.axis)) > 0.99;
+  if (!along_axis && std::abs(dot(across, joint.axis)) > 0.01) return;
+  if (k[row + (along_axis ? axial : shear)] == 0) return;
+  double N = -dot(force, arm.along);  // the support pulls its piece back
+  for (const Plan::Load& load : plan.loads)
+    if (load.piece == joint.b && length(load.at - joint.anchor) < 1e-6 * arm.length)
+      N += dead(load) * dot(load.def.force, arm.along);
+  const Eigen::Matrix2d form = N * curved_at_support(arm.length, k[row + rotation] > 0);
+  const int c = statics.column[static_cast<std::size_t>(joint.b)];
+  const auto s = statics.scale(joint.b);
+  const Eigen::Vector2d columns[] = {
+      {0, -s[0] * across.x}, {0, -s[1] * across.y}, {s[2], -s[2] * arm.length}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) entries.emplace_back(c + i, c + j, columns[i].dot(form * columns[j]));
+}
+
 }  // namespace
 
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
@@ -64,8 +90,10 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const PlannedJoint& j = plan.joints[i];
     const double N = forces[3 * static_cast<Index>(i)], Q = forces[3 * static_cast<Index>(i) + 1];
-    if (N == 0 && Q == 0) continue;
     const Point force = N * j.axis + Q * left(j.axis), across = N * left(j.axis) - Q * j.axis;
+    if (!statics.arms().empty() && j.a < 0 && column(j.b) >= 0)
+      add_support(entries, plan, statics, i, force, dead);
+    if (N == 0 && Q == 0) continue;
     std::vector<End> ends;
     for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
       if (column(piece) < 0) continue;

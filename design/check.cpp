@@ -70,9 +70,11 @@ StaticCheck without_state(const Plan& plan, const Equilibrium& statics, double t
 
 StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
                        const LoadCase& load_case, Order order) {
-  const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
-  if (order == Order::first)
-    return check_state(plan, statics, yields, load_case.time, statics.forces(f), statics.motions(f));
+  if (order == Order::first) {
+    const Eigen::VectorXd f = statics.on_pieces(load_case);
+    return check_state(plan, statics, yields, load_case.time, statics.forces(f) + load_case.fixed_end,
+                       statics.motions(f));
+  }
 
   const ElasticPath path(plan, statics, load_case);
   const std::optional<Deformed> now = path.at(1);

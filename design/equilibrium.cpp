@@ -191,17 +191,57 @@ VectorXd Equilibrium::load(const Plan::Load& load) const {
   return f;
 }
 
+// A load between the middle of its piece and a joint bends the arm, a cantilever from the middle (bars.h),
+// beyond what the piece's motion says: the joint is longer by what its end goes. Eccentric loads act by their
+// moment.
+void Equilibrium::bend(const Plan::Load& load, VectorXd& elongation) const {
+  const Point from_middle = load.at - plan_.carrier(load.piece).center;
+  const auto for_each_arm = [&](auto&& visit) {
+    for (std::size_t i = 0; i < arms_.size(); ++i)
+      for (const bool b : {false, true})
+        if ((b ? plan_.joints[i].b : plan_.joints[i].a) == load.piece && arms_[i][b].length > 0)
+          visit(i, b, arms_[i][b]);
+  };
+  Point along;
+  double reach = 0;
+  for_each_arm([&](std::size_t, bool, const Arm& arm) {
+    if (dot(from_middle, arm.along) <= reach) return;
+    reach = dot(from_middle, arm.along);
+    along = arm.along;
+  });
+  for_each_arm([&](std::size_t i, bool b, const Arm& arm) {
+    if (reach == 0 || dot(along, arm.along) < 0.99) return;
+    const double s = std::min(reach, arm.length);
+    const Point n = left(arm.along), aside = from_middle - s * arm.along;
+    const double F = dot(load.def.force, n), M = load.def.moment + cross(aside, load.def.force);
+    const double turn = (M * s + F * s * s / 2) / arm.EI;
+    const double sag = (M * s * s / 2 + F * s * s * s / 3) / arm.EI + turn * (arm.length - s);
+    const PlannedJoint& joint = plan_.joints[i];
+    elongation.segment<3>(3 * static_cast<Index>(i)) +=
+        (b ? 1 : -1) * Eigen::Vector3d(sag * dot(n, joint.axis), sag * dot(n, left(joint.axis)), turn);
+  });
+}
+
 std::vector<LoadCase> Equilibrium::cases() const {
   std::set<double> starts{0};
   for (const Plan::Load& load : plan_.loads)
     if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
   std::vector<LoadCase> result;
   for (const double time : starts) {
-    LoadCase& now = result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols())});
+    LoadCase& now = result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols()), {}});
+    VectorXd elongation = VectorXd::Zero(B.rows());
     for (const Plan::Load& each : plan_.loads)
-      if (each.def.from <= time && each.def.to > time) now.loads += load(each);
+      if (each.def.from <= time && each.def.to > time) {
+        now.loads += load(each);
+        bend(each, elongation);
+      }
+    now.fixed_end = root_.transpose() * (root_ * elongation);
   }
   return result;
+}
+
+VectorXd Equilibrium::on_pieces(const LoadCase& load_case) const {
+  return balanced(load_case.gravity + load_case.loads) - B.transpose() * load_case.fixed_end;
 }
 
 Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }

@@ -19,6 +19,8 @@ namespace ductile {
 struct LoadCase {
   double time = 0;  // s, from when on
   Eigen::VectorXd gravity, loads;
+  Eigen::VectorXd fixed_end;  // by joints' rows: the forces that keep pieces where they are under what bends
+                              // the bars between (fixed-end forces)
 };
 
 /// What gives between the joints: nothing, as in a simulation, or the bars that joints stand for (bars.h).
@@ -51,6 +53,9 @@ class Equilibrium {
   Eigen::VectorXd gravity() const;
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
+  /// All of a case on the pieces: f − Bᵀ fixed_end. What joints carry is then forces() of it, and fixed_end.
+  /// Throws as balanced() does.
+  Eigen::VectorXd on_pieces(const LoadCase& load_case) const;
 
   /// Motions that no joint resists.
   Eigen::Index freedoms() const;
@@ -78,6 +83,7 @@ class Equilibrium {
   Eigen::VectorXd balanced(const Eigen::VectorXd& f) const;
 
  private:
+  void bend(const Plan::Load& load, Eigen::VectorXd& elongation) const;
   void find_loose();
   void fill();
   void set_stiffness();
