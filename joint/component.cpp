@@ -11,7 +11,8 @@
 
 namespace ductile::dynamics {
 
-Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind)
+Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind,
+                     std::span<const Touch> contacts)
     : solver(solver_kind == SolverKind::iterative), members(std::move(enlisted_members)), kind(solver_kind) {
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   std::unordered_map<b2Body*, int> number, degree;
@@ -23,12 +24,21 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       (is_free(body) ? bodies : others).push_back(body);
     }
   }
+  const std::unordered_map<b2Body*, int> joined = degree;
+  for (const Touch& t : contacts) {
+    for (b2Body* body : {t.a(), t.b()}) {
+      if (number.try_emplace(body, 0).second) (is_free(body) ? bodies : others).push_back(body);
+    }
+  }
   const std::size_t free_bodies = bodies.size();
   for (std::size_t i = 0; i < free_bodies; ++i) number[bodies[i]] = static_cast<int>(i);
   std::vector<std::pair<int, int>> edges;
   for (const Member* m : members) {
     b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
     if (is_free(a) && is_free(b)) edges.emplace_back(number[a], number[b]);
+  }
+  for (const Touch& t : contacts) {
+    if (is_free(t.a()) && is_free(t.b())) edges.emplace_back(number[t.a()], number[t.b()]);
   }
   const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
   std::vector<b2Body*> ordered;
@@ -54,13 +64,16 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
     mirror.exact = in_doubles(mirror.given);
     mirror.type = body->GetType();
+    mirror.guest = !joined.contains(body);
     read_mass(i);
     int edges = 0;
     for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
     mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
     put(solver.places[i], relative(mirror.left));
+    by_address_.emplace_back(body, static_cast<int>(i));
   }
 
+  std::sort(by_address_.begin(), by_address_.end());
   bool held_anew = false;
   const auto remember = [&](std::size_t i, const KnownPose& known) {
     held_anew |= freedom(i, free_bodies) < known.freedom;
@@ -85,6 +98,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     m.index = i;
     j.a = number[m.joint->GetBodyA()];
     j.b = number[m.joint->GetBodyB()];
+    anchored_ |= z(j.a) >= free_bodies || z(j.b) >= free_bodies;
     if (!m.fresh) {
       remember(z(j.a), m.known[0]);
       remember(z(j.b), m.known[1]);
@@ -95,6 +109,12 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     j.frame.ax = double{a.x} - from_a.x, j.frame.ay = double{a.y} - from_a.y;
     j.frame.bx = double{b.x} - from_b.x, j.frame.by = double{b.y} - from_b.y;
   }
+  for (const Touch& t : contacts) {
+    const int a = number[t.a()], b = number[t.b()];
+    if (z(a) < free_bodies && z(b) < free_bodies) solver.pairs.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::sort(solver.pairs.begin(), solver.pairs.end());
+  solver.pairs.erase(std::unique(solver.pairs.begin(), solver.pairs.end()), solver.pairs.end());
   solver.form(free_bodies);
   solver.locate();
   // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint

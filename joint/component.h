@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "box2d_contacts.h"
 #include "ductile/joint.h"
 #include "solver.h"
 
@@ -81,6 +82,8 @@ struct Component {
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
+    bool guest = false;    // touches the structure, but no joint of it
+    bool present = true;   // a guest may be elsewhere, or be no more: then `body` must not be asked
   };
   /// Of a body, when a ledger is kept.
   struct Account {
@@ -88,11 +91,14 @@ struct Component {
     b2Velocity lost{};   // velocity that limit_speed() took since
   };
 
-  Component(std::vector<Member*> enlisted, SolverKind kind);
+  /// Of these joints, and of what touches their bodies.
+  Component(std::vector<Member*> enlisted, SolverKind kind, std::span<const Touch> touches);
 
   /// Before a step: where the island has the bodies, and whether they are still what the component was formed
   /// for. Takes their velocities, but where the step may be the last one again.
-  bool look(const b2SolverData& data);
+  bool look(const b2SolverData& data, const IslandContacts& contacts);
+  /// The contact is a row of this step; false where the component was not formed for its bodies.
+  bool touch(Touch touch);
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
@@ -116,6 +122,7 @@ struct Component {
   std::vector<Member*> members;       // as solver.joints
   std::vector<Mirror> mirrors;        // as solver.bodies
   std::vector<Account> accounts;      // likewise
+  std::vector<Touch> touches;         // contacts that are rows of this step
   double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
   SolverKind kind;
   Structure::Impl* structure = nullptr;
@@ -131,13 +138,20 @@ struct Component {
   static bool only_ours(const Mirror& mirror);
   void read_mass(std::size_t body);
   int freedom(std::size_t body, std::size_t free_bodies) const;
+  int index_of(const b2Body* body) const;
   void take(Mirror& mirror, const b2SolverData& data) const;
+  void set_warm_starts_aside();
+  void enter_contacts();
+  void return_contacts();
   void solve(const b2SolverData& data);
   void project(bool try_goal);
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 
   std::vector<Pose> goal;
+  std::vector<Contact> rows_;  // of the touches' points
+  std::vector<std::pair<const b2Body*, int>> by_address_;
+  bool anchored_ = false;  // some joint holds to what does not give
   bool parted_ = false;   // bodies were moved apart while their joint was in no island
   bool alone_ = false;    // no body has a contact or another joint
   bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies

@@ -14,11 +14,19 @@ namespace ductile::dynamics {
 // a cosine and a matrix inverse per joint; so it is a load per body.
 DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 
-bool Component::look(const b2SolverData& data) {
+bool Component::look(const b2SolverData& data, const IslandContacts& contacts) {
+  touches.clear();
+  for (Mirror& m : mirrors) m.present = !m.guest;
+  for (const Touch& t : contacts.touches()) {
+    for (const b2Body* body : {t.a(), t.b()}) {
+      if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = true;
+    }
+  }
   bool masses = true;
   alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
+    if (!m.present) continue;
     if (m.body->GetType() != m.type) return false;
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
@@ -28,6 +36,83 @@ bool Component::look(const b2SolverData& data) {
                                            m.body->GetLocalCenter() == m.local_center);
   }
   return masses;
+}
+
+bool Component::touch(Touch t) {
+  t.in_a = index_of(t.a());
+  t.in_b = index_of(t.b());
+  if (t.in_a < 0 || t.in_b < 0) return false;
+  if (solver.is_free(t.in_a) && solver.is_free(t.in_b)) {
+    const std::pair pair = std::minmax(t.in_a, t.in_b);
+    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair))) return false;
+  }
+  touches.push_back(t);
+  return true;
+}
+
+int Component::index_of(const b2Body* body) const {
+  const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
+  return at != by_address_.end() && at->first == body ? at->second : -1;
+}
+
+// Velocities as they were before the contacts' stored impulses went into them.
+void Component::set_warm_starts_aside() {
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    const b2Vec2 n = v.normal, l{n.y, -n.x};
+    Vec3 &a = mirrors[z(t.in_a)].exact, &b = mirrors[z(t.in_b)].exact;
+    for (int32 k = 0; k < v.count; ++k) {
+      const PointConstraint& p = v.points[k];
+      const double s = p.normal_impulse, t_ = p.tangent_impulse;
+      const double x = s * n.x + t_ * l.x, y = s * n.y + t_ * l.y;
+      a += {v.inverse_mass_a * x, v.inverse_mass_a * y, v.inverse_inertia_a * (p.ra.x * y - p.ra.y * x)};
+      b -= {v.inverse_mass_b * x, v.inverse_mass_b * y, v.inverse_inertia_b * (p.rb.x * y - p.rb.y * x)};
+    }
+  }
+}
+
+void Component::enter_contacts() {
+  rows_.clear();
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    Contact c;
+    c.a = t.in_a;
+    c.b = t.in_b;
+    const Turn to_a = inverse(solver.places[z(c.a)].turn), to_b = inverse(solver.places[z(c.b)].turn);
+    const Turn normal{v.normal.x, v.normal.y};
+    c.normal_a = to_a * normal;
+    c.normal_b = to_b * normal;
+    c.friction = v.friction;
+    c.conveyor = v.conveyor;
+    for (int32 k = 0; k < v.count; ++k) {
+      const PointConstraint& p = v.points[k];
+      const Turn ra = to_a * Turn{p.ra.x, p.ra.y}, rb = to_b * Turn{p.rb.x, p.rb.y};
+      c.ax = ra.c, c.ay = ra.s, c.bx = rb.c, c.by = rb.s;
+      c.bounce = p.bounce;
+      c.normal = p.normal_impulse;
+      c.tangent = p.tangent_impulse;
+      c.id = t.contact->GetManifold()->points[k].id.key;
+      rows_.push_back(c);
+    }
+  }
+  solver.touch(rows_);
+}
+
+// Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
+// be brought back.
+void Component::return_contacts() {
+  auto row = solver.contacts.begin();
+  for (const Touch& t : touches) {
+    for (int32 k = 0; k < t.velocity->count; ++k, ++row) {
+      t.velocity->points[k].normal_impulse = static_cast<float>(row->normal);
+      t.velocity->points[k].tangent_impulse = static_cast<float>(row->tangent);
+    }
+    settle(*t.velocity);
+    const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
+    const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
+    if (anchored_ && !a.guest && yields(b)) hold_a(*t.position);
+    if (anchored_ && !b.guest && yields(a)) hold_b(*t.position);
+  }
 }
 
 // Box2D prepends new joints to a body's list, and one of ours that goes dissolves the component.
@@ -49,6 +134,7 @@ bool Component::as_before(const b2SolverData& data) const {
   if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
   const float slack = this->slack();
   for (const Mirror& m : mirrors) {
+    if (!m.present) continue;
     if (m.type == b2_staticBody) {
       if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
       continue;
@@ -89,14 +175,21 @@ void Component::take(Mirror& m, const b2SolverData& data) const {
 }
 
 void Component::first_velocity(const b2SolverData& data) {
-  resting = as_before(data);
+  resting = touches.empty() && as_before(data);
   if (resting) {
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
-      data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    }
     open = solver.keeps_ledger;  // something may strike it before the step is over
     ++report->resting;
     return;
   }
+  if (at_rest_) {
+    for (Mirror& m : mirrors) {
+      if (m.present && m.type != b2_staticBody) take(m, data);
+    }
+  }
+  set_warm_starts_aside();
   bool moved = std::exchange(parted_, false);
   const auto start_from = [this](std::size_t i) {
     Body& b = solver.bodies[i];
@@ -105,12 +198,17 @@ void Component::first_velocity(const b2SolverData& data) {
   };
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
-    if (m.type == b2_staticBody) {
-      moved |= !same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left);
-      m.exact = {};
+    if (!m.present) {
+      solver.bodies[i].v = solver.bodies[i].v_free = {};
+      continue;
+    }
+    const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
+                                                  : data.positions[m.island_index];
+    if (m.type == b2_staticBody) m.exact = {};
+    if (m.guest && !same(at, m.left)) {
+      put(solver.places[i], relative(m.left = at));
     } else {
-      moved |= !same(data.positions[m.island_index], m.left);
-      if (at_rest_) take(m, data);
+      moved |= !same(at, m.left);
     }
     start_from(i);
   }
@@ -120,6 +218,8 @@ void Component::first_velocity(const b2SolverData& data) {
     // it. Joint by joint, the sweeps do that.
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       Mirror& m = mirrors[i];
+      goal[i] = solver.places[i].pose;
+      if (m.guest) continue;
       const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
                                                     : data.positions[m.island_index];
       goal[i] = same(at, m.left) ? solver.places[i].pose : relative(at);
@@ -132,11 +232,15 @@ void Component::first_velocity(const b2SolverData& data) {
       solver.begin(data.step.dt);
     }
     write_poses(data);
-    for (std::size_t i = 0; i < mirrors.size(); ++i) start_from(i);
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      if (mirrors[i].present) start_from(i);
+    }
   }
   if (solver.keeps_ledger) {
     // b2Body still has the velocities from before gravity.
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      solver.before[i] = {};
+      if (!mirrors[i].present) continue;
       const b2Velocity v =
           accounts[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
@@ -145,6 +249,7 @@ void Component::first_velocity(const b2SolverData& data) {
     open = true;
   }
   if (kind == SolverKind::iterative) solver.warm_start();
+  enter_contacts();
   solve(data);
 }
 
@@ -155,6 +260,7 @@ void Component::next_velocity(const b2SolverData& data) {
   }
   bool touched = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    if (!mirrors[i].present) continue;
     const b2Velocity& now = data.velocities[mirrors[i].island_index];
     b2Velocity& given = mirrors[i].given;
     if (now.v == given.v && now.w == given.w) continue;
@@ -182,6 +288,7 @@ void Component::solve(const b2SolverData& data) {
     solver.sweep();
   }
   give(data);
+  return_contacts();
   ++report->solves;
   report->rounds += solved.rounds;
   report->factorisations += solved.factorisations;
@@ -200,21 +307,29 @@ void Component::give(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     m.exact = into_world(solver.places[i].turn, solver.bodies[i].v);
-    data.velocities[m.island_index] = m.given = in_floats(m.exact);
+    m.given = in_floats(m.exact);
+    if (m.present) data.velocities[m.island_index] = m.given;
   }
 }
 
 void Component::position(const b2SolverData& data) {
   if (alone_ && !resting) return write_poses(data);
   if (alone_) {
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i)
-      data.positions[mirrors[i].island_index] = mirrors[i].left;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      if (mirrors[i].present) data.positions[mirrors[i].island_index] = mirrors[i].left;
+    }
     return;
   }
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    goal[i] = solver.places[i].pose;
+    if (!mirrors[i].present) continue;
     b2Position& at = data.positions[mirrors[i].island_index];
     const bool kept = same(at, mirrors[i].left);
+    if (mirrors[i].guest && !kept) {
+      put(solver.places[i], goal[i] = relative(mirrors[i].left = at));
+      continue;
+    }
     goal[i] = kept ? solver.places[i].pose : relative(at);
     pushed |= !kept;
     at = mirrors[i].left;
@@ -232,7 +347,7 @@ void Component::position(const b2SolverData& data) {
 
 void Component::write_poses(const b2SolverData& data) {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    data.positions[mirrors[i].island_index] = mirrors[i].left = box2d_pose(i);
+    if (mirrors[i].present) data.positions[mirrors[i].island_index] = mirrors[i].left = box2d_pose(i);
   }
 }
 
@@ -295,6 +410,7 @@ void Component::advance(const b2SolverData& data) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       const Body& b = solver.bodies[i];
       const Mirror& m = mirrors[i];
+      if (!m.present) continue;
       const Vec3 by_others =
           b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
       alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
@@ -306,10 +422,10 @@ void Component::advance(const b2SolverData& data) {
   // Where nothing else moves them, position() tells it, if it is called at all.
   const bool later = alone_ && data.step.positionIterations > 0;
   for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
-    if (mirrors[i].type != b2_staticBody) mirrors[i].left = box2d_pose(i);
-    kinematic |= mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
+    if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
+    kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
-  at_rest_ = kind == SolverKind::direct && alone && !kinematic && solver.at_rest();
+  at_rest_ = kind == SolverKind::direct && touches.empty() && alone && !kinematic && solver.at_rest();
 }
 
 double Component::close_ledger() {
@@ -318,10 +434,10 @@ double Component::close_ledger() {
   double clamped = 0;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const Mirror& m = mirrors[i];
+    solver.before[i] = {};
+    if (i >= solver.free_bodies() || m.guest) continue;
     const b2Vec2 v = m.body->GetLinearVelocity();
     const float w = m.body->GetAngularVelocity();
-    solver.before[i] = {};
-    if (i >= solver.free_bodies()) continue;
     solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
     b2Velocity lost = accounts[i].lost;

@@ -36,6 +36,7 @@ void Hessian::analyse(System& system) {
   for (const Joint& j : system.joints) {
     if (system.is_free(j.a) && system.is_free(j.b)) edges.emplace_back(j.a, j.b);
   }
+  edges.insert(edges.end(), system.pairs.begin(), system.pairs.end());
   ldlt_.analyse(static_cast<int>(system.free), edges);
   for (Joint& j : system.joints) {
     j.block =
@@ -68,12 +69,13 @@ void Hessian::factor_tangents(System& system, bool secants) {
 }
 
 void Hessian::factor_holding(System& system, int changed) {
+  const std::size_t own = system.own();
   bool holds_already = factored_ == Factored::holding || (factored_ != Factored::nothing && changed == 0);
   for (const Joint& j : system.joints) {
     JointRecord& r = system.record(j);
     Rows stiff;
     for (unsigned i = 0; i < 3; ++i) {
-      const bool holds = j.G[i] > 0 && !flows(j.regime, i);
+      const bool holds = j.G[i] > 0 && !flows(j.regime, i) && system.index(j) < own;
       stiff[i] = !holds ? 0 : is_rigid(r, i) ? j.G[i] : rigid_ratio * r.m_eff[i];
     }
     holds_already &= r.tangent.nn == stiff[0] && r.tangent.qq == stiff[1] && r.tangent.mm == stiff[2] &&

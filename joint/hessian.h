@@ -1,6 +1,7 @@
 // H = M + Jᵀ D J with D = ds/dx, its factor, and what is known of that factor.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -22,6 +23,8 @@ class Hessian {
  public:
   /// Finds the pattern, and each joint's block in it. Allocates.
   void analyse(System& system);
+  /// The block of two free bodies in the pattern.
+  int block(int a, int b) const { return ldlt_.slot(std::max(a, b), std::min(a, b)); }
   void forget() { factored_ = Factored::nothing; }
   /// Another step: bodies have moved.
   void begin_step();

@@ -114,6 +114,8 @@ void InteriorPoint::start(const System& system) {
     for (unsigned i = 0; i < 3; ++i) energy += m_eff[i] * bias[i] * bias[i];
   }
   bounds_.clear();
+  locals_.resize(system.joints.size());
+  best_.resize(system.joints.size());
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
     const JointRecord& r = system.records[k];
@@ -208,7 +210,7 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
       outcome.gap = now.gap();
       for (std::size_t k = 0; k < best_.size(); ++k) best_[k] = current(k);
     }
-    outcome.tolerance = tunables.tolerance * scale + now.rounding;
+    outcome.tolerance = (system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance) * scale + now.rounding;
     if (outcome.gap <= tunables.goal * scale + now.rounding || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
 

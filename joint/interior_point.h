@@ -24,6 +24,8 @@ struct InteriorPointTunables {
   double goal = 1e-18;
   /// Likewise: the gap that will do, where rounding does not let it become less.
   double tolerance = 1e-12;
+  /// Likewise with contacts, whose caps of friction are not known as well either: velocities good to 1e-4.
+  double contact_tolerance = 1e-8;
   /// Share of the bounds that the impulses of the last step are drawn within: further out, the first rounds
   /// go but small steps.
   double inside = 0.9;

@@ -44,12 +44,16 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   const int last = data.step.velocityIterations;
   if (velocity_calls_ == last) return;
   if (velocity_calls_++ == 0) {
+    choose_contacts(data);
     bool fits = !incomplete_;
-    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data);
-    if (!fits) {
+    for (Component* c : active_)
+      fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_);
+    if (!fits || !distribute_contacts()) {
       form();
-      for (Component* c : active_) c->look(data);
+      for (Component* c : active_) c->look(data, contacts_);
+      distribute_contacts();
     }
+    hold_bullets();
     for (Component* c : active_) c->first_velocity(data);
     if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->alone(); })) {
       report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
@@ -65,6 +69,32 @@ void Structure::Impl::velocity(const b2SolverData& data) {
     c->advance(data);
     look_for_breaks(*c);
   }
+}
+
+// Those that are rows of this step's problem. A body that a structure has joints on is a piece.
+void Structure::Impl::choose_contacts(const b2SolverData& data) {
+  contacts_.clear();
+  if (def.solver != SolverKind::direct) return;
+  contacts_.read(*world, data);
+  const auto is_ours = [this](b2Body* body) {
+    for (b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) {
+      const ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(e->joint);
+      if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure == this;
+    }
+    return false;
+  };
+  const auto may_take = [this](b2Body* body) {
+    return body->GetType() != b2_dynamicBody || (is_free(body) && !is_of_another(*body));
+  };
+  contacts_.choose(is_ours, may_take);
+}
+
+bool Structure::Impl::distribute_contacts() {
+  for (const Touch& t : contacts_.touches()) {
+    const auto takes = [&t](Component* c) { return c->touch(t); };
+    if (std::none_of(active_.begin(), active_.end(), takes)) return false;
+  }
+  return true;
 }
 
 void Structure::Impl::position(const b2SolverData& data) {
@@ -96,11 +126,32 @@ void Structure::Impl::form() {
       root[std::max(other, mine)] = std::min(other, mine);
     }
   }
+  // What touches hangs together, too. Of bodies without joints, by way of those that they touch.
+  const std::span<const Touch> touches = contacts_.touches();
+  for (const Touch& t : touches) {
+    if (!is_free(t.a()) || !is_free(t.b())) continue;
+    const auto a = first_joint.find(t.a()), b = first_joint.find(t.b());
+    if (a == first_joint.end() && b == first_joint.end()) continue;
+    if (a == first_joint.end()) {
+      first_joint.emplace(t.a(), b->second);
+    } else if (b == first_joint.end()) {
+      first_joint.emplace(t.b(), a->second);
+    } else {
+      const std::size_t one = find(a->second), other = find(b->second);
+      root[std::max(one, other)] = std::min(one, other);
+    }
+  }
   std::vector<std::vector<Member*>> groups(all.size());
+  std::vector<std::vector<Touch>> touched(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
-  for (auto& group : groups) {
+  for (const Touch& t : touches) {
+    const auto joint = first_joint.find(is_free(t.a()) ? t.a() : t.b());
+    if (joint != first_joint.end()) touched[find(joint->second)].push_back(t);
+  }
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    auto& group = groups[k];
     if (group.empty()) continue;
-    components.push_back(std::make_unique<Component>(std::move(group), def.solver));
+    components.push_back(std::make_unique<Component>(std::move(group), def.solver, touched[k]));
     Component* c = components.back().get();
     c->structure = this;
     c->report = &report;

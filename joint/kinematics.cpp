@@ -30,7 +30,7 @@ Rows locate(Joint& j, const Place& a, const Place& b) {
 
 void find_gaps(System& system) {
   if (std::exchange(system.gaps_known, true)) return;
-  for (Joint& j : system.joints) system.record(j).gap = locate(j, system.places);
+  for (Joint& j : system.own_joints()) system.record(j).gap = locate(j, system.places);
 }
 
 void locate_all(System& system) {

@@ -26,9 +26,9 @@ void Ledger::form(const System& system) {
 }
 
 void Ledger::open(System& system, std::span<const Vec3> before, double h) {
-  joints_ = system.joints;
+  joints_.assign(system.own_joints().begin(), system.own_joints().end());
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+  for (std::size_t k = 0; k < system.own(); ++k) {
     const Joint& j = system.joints[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
     const Rows v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);

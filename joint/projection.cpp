@@ -22,7 +22,7 @@ double reach_of(const System& system) {
     const Pose& p = system.places[i].pose;
     reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   }
-  for (const Joint& j : system.joints) {
+  for (const Joint& j : system.own_joints()) {
     for (const double arm : {j.frame.ax, j.frame.ay, j.frame.bx, j.frame.by})
       reach = std::max(reach, std::abs(arm));
   }
@@ -54,7 +54,7 @@ double Projection::pull(const System& system, std::span<const Pose> goal) {
 // ½ Σ G (gap − kept)² over the rows that hold; its gradient is added to g_.
 double Projection::strain(System& system) {
   double sum = 0;
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+  for (std::size_t k = 0; k < system.own(); ++k) {
     Joint& j = system.joints[k];
     const Coupling& D = system.records[k].tangent;
     const Rows gap = locate(j, system.places), G{D.nn, D.qq, D.mm};
@@ -173,7 +173,7 @@ bool Projection::close_gaps(Work& work) {
 // Rows that flow, and gaps that could not be kept (supports that were moved apart), take their new place as
 // neutral: a push stores no energy.
 void Projection::take_neutral(System& system, bool kept, double trifle, double rounding) const {
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+  for (std::size_t k = 0; k < system.own(); ++k) {
     Joint& j = system.joints[k];
     JointRecord& r = system.records[k];
     for (unsigned i = 0; i < 3; ++i) {

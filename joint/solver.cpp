@@ -39,6 +39,18 @@ void Solver::begin(double h) {
   if (follow_tension(*this, h) || other_laws) hessian_.forget();
 }
 
+void Solver::touch(std::span<const Contact> now) {
+  if (now.empty() && contacts.empty()) return;
+  if (!enter_contacts(*this, now, step())) {
+    hessian_.forget();
+    newton_.forget();
+  }
+  for (std::size_t k = own(); k < joints.size(); ++k) {
+    Joint& j = joints[k];
+    j.block = is_free(j.a) && is_free(j.b) ? hessian_.block(j.a, j.b) : -1;
+  }
+}
+
 bool Solver::solve(SolveReport& report) {
   const bool predicted = std::exchange(predicted_, false) && !last_.flows;
   Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
@@ -48,6 +60,17 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
+  // Friction knows its caps a round late. At rest and in even motion the first is right.
+  for (int round = 0; round < 8 && !contacts.empty(); ++round) {
+    read_contacts(*this);
+    const Lag lag = lag_friction(*this, round);
+    if (!lag.again) break;
+    if (lag.other_rows) hessian_.forget();
+    newton_.forget();
+    solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
+    solution.moved = true;
+  }
+  read_contacts(*this);
   last_ = solution.at;
   return solution.moved;
 }
@@ -77,7 +100,7 @@ void Solver::advance() {
   }
   remember_turn_rates(*this, turned_);
   if (predicted_) prediction_.fit();
-  for (Joint& j : joints) {
+  for (Joint& j : own_joints()) {
     // The rate in the rows' direction at the step's start, where it tells what their turning makes of it.
     Rows before_turn{};
     const bool turns = j.regime != 0 || j.overdamped;
@@ -132,7 +155,7 @@ bool Solver::at_rest() {
     // Moving on by h v changes a row's impulse by so much at most.
     const std::span<Vec3> change = newton_.scratch();
     std::fill(change.begin(), change.end(), Vec3{});
-    for (const Joint& j : joints) {
+    for (const Joint& j : own_joints()) {
       Rows s = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
       for (unsigned i = 0; i < 3; ++i) s[i] *= j.G[i] * j.relaxation[i] * step();
       add_transposed(j, s, change[z(j.a)], change[z(j.b)]);

@@ -6,6 +6,7 @@
 //                    records; changed masses            allocates, nothing after it does
 //   locate()         put() of any body                  gaps and J anew
 //   begin(h)         form, locate, advance              laws and biases of a step of h seconds
+//   touch(contacts)  begin                          their rows
 //   push(i, Δv*)     solve, in the same step            another velocity changed
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
 //                    or push
@@ -23,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "contact_rows.h"
 #include "drive.h"
 #include "ledger.h"
 #include "newton.h"
@@ -48,6 +50,8 @@ class Solver : public System {
   void begin(double h);
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
   void push(std::size_t body, const Vec3& change) { newton_.push(*this, body, change); }
+  /// Contacts of this step, after begin() and before its first solve. `pairs` has them.
+  void touch(std::span<const Contact> contacts);
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
   void scale(double share);

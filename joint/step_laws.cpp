@@ -46,7 +46,7 @@ double StepLaws::deferred_share(System& system, double h) {
   if (share == 1) return 0;
   find_gaps(system);
   double deferred = 0, all = 0;
-  for (const Joint& j : system.joints) {
+  for (const Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     double now = 0;
     for (unsigned i = 0; i < 3; ++i) {
@@ -115,14 +115,14 @@ bool StepLaws::begin(System& system, double h) {
   if (!changed && !drifts) {
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
-    for (Joint& j : system.joints) {
+    for (Joint& j : system.own_joints()) {
       forget_infinite(j);
       set_equal_bias(j, system.record(j).gap);
     }
     return false;
   }
   find_gaps(system);
-  for (Joint& j : system.joints) {
+  for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
     Rows strain, waiting{};

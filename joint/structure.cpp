@@ -116,6 +116,8 @@ void Structure::Impl::update() {
   if (watch == nullptr || telling_) return;
   if (world->IsLocked())
     throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
+  let_bullets_go();
+  if (def.solver == SolverKind::direct && !world->GetSubStepping()) meet_guests();
   if (std::exchange(stepped_, false)) {
     worst.bounds_hit += report.bounds_hit;
     worst.parted += report.parted;
@@ -166,7 +168,7 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, {}, orphans, last_node};
+  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, {}, orphans, last_node, bullets_};
   s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
@@ -191,6 +193,7 @@ void Structure::Impl::restore(const State& s) {
   told_ = 0;
   orphans = s.orphans;
   last_node = s.last_node;
+  bullets_ = s.bullets;
   broke_ = true;  // update() looks for itself
   enlisted_.clear();
   active_.clear();

@@ -73,6 +73,12 @@ struct Structure::Impl {
 
  private:
   void form();
+  void choose_contacts(const b2SolverData& data);
+  bool distribute_contacts();
+  // first_touch.cpp
+  void meet_guests();
+  void hold_bullets();
+  void let_bullets_go();
   void dissolve(dynamics::Component& component);
   void look_for_breaks(dynamics::Component& component);
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
@@ -86,6 +92,8 @@ struct Structure::Impl {
   std::uint64_t batch_ = 0;
   int velocity_calls_ = 0;
   bool enlisting_ = false;
+  dynamics::IslandContacts contacts_;
+  std::vector<b2Body*> bullets_;  // that are none until update()
   bool incomplete_ = false;  // some enlisted joint is in no component
   bool stepped_ = true;      // since the last update()
   bool broke_ = false;       // some joint, since then
@@ -118,6 +126,7 @@ struct Structure::Impl::State {
   std::vector<Pending> pending;
   std::vector<dynamics::Orphan> orphans;
   int last_node;
+  std::vector<b2Body*> bullets;
 };
 
 }  // namespace ductile

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "pose.h"
@@ -89,15 +91,29 @@ struct JointRecord {
   Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
 };
 
+/// A point of contact. Arms and normal are in the bodies' own frames.
+struct Contact {
+  int a = 0, b = 0;                       // bodies
+  double ax = 0, ay = 0, bx = 0, by = 0;  // the point from the centres of mass, m
+  Turn normal_a, normal_b;
+  double bounce = 0;    // b: normal velocity that restitution asks for, m/s
+  double conveyor = 0;  // τ, m/s
+  double friction = 0;  // μ
+  double normal = 0, tangent = 0;  // impulses, N s: where to start, and of the last solve; normal ≥ 0 presses
+  std::uint64_t id = 0;  // of the same point in the next step
+};
+
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
 /// (static and kinematic bodies) are prescribed.
 struct System {
   std::vector<Body> bodies;
   std::vector<Place> places;  // of the bodies
-  std::vector<Joint> joints;
+  std::vector<Joint> joints;               // the structure's own, then rows of contacts
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them
   std::vector<int> driven;                 // joints
+  std::vector<Contact> contacts;           // whose rows follow the structure's own joints
+  std::vector<std::pair<int, int>> pairs;  // bodies that contacts may join: part of the pattern of H
   std::size_t free = 0;                    // bodies
   double mass = 0;                         // of all free bodies, kg
   bool gaps_known = false;                 // no pose was moved since they were found
@@ -106,6 +122,10 @@ struct System {
   const JointRecord& record(const Joint& joint) const { return records[index(joint)]; }
   JointRecord& record(const Joint& joint) { return records[index(joint)]; }
   std::size_t index(const Joint& joint) const { return static_cast<std::size_t>(&joint - joints.data()); }
+  /// How many joints are the structure's own; they.
+  std::size_t own() const { return joints.size() - contacts.size(); }
+  std::span<Joint> own_joints() { return {joints.data(), own()}; }
+  std::span<const Joint> own_joints() const { return {joints.data(), own()}; }
   bool is_free(int body) const { return z(body) < free; }
 
   /// Inverse masses, m_eff and the total mass, of so many free bodies.

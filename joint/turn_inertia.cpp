@@ -42,7 +42,7 @@ TurnInertia& of(System& system, const Joint& j) {
 
 bool follow_tension(System& system, double h) {
   bool changed = false;
-  for (const Joint& j : system.joints) {
+  for (const Joint& j : system.own_joints()) {
     if (j.block < 0 || j.frame.line) continue;
     const double need = needed(system, j, h);
     if (need == 0 && system.turn_inertias.empty()) continue;
@@ -68,7 +68,7 @@ bool follow_tension(System& system, double h) {
 
 bool raise_to_tension(System& system, double h) {
   bool raised = false;
-  for (const Joint& j : system.joints) {
+  for (const Joint& j : system.own_joints()) {
     if (j.block < 0 || j.frame.line) continue;
     const double need = needed(system, j, h);
     if (need == 0) continue;

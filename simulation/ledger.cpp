@@ -73,7 +73,7 @@ EnergyLedger::EnergyLedger(b2World& world, std::span<b2Joint* const> judged)
   each(world_.GetBodyList(), [&](b2Body& body) { origins_.emplace(&body, body.GetWorldCenter()); });
   last_ = mechanical();
   start_ = last_ + stored_in_springs();
-  sum_up(nullptr);
+  after_update(nullptr);
 }
 
 double EnergyLedger::mechanical() const {
@@ -117,16 +117,15 @@ void EnergyLedger::before_step(double dt, const std::vector<AppliedLoad>& loads)
   sums_.external += mechanical() - last_;
 }
 
-void EnergyLedger::after_step(const Structure* structure) {
+void EnergyLedger::after_step() {
   each(world_.GetBodyList(), [&](b2Body& body) {
     if (const auto motion = motions_.find(&body); motion != motions_.end()) account(body, motion->second);
   });
   each(world_.GetJointList(), [&](b2Joint& joint) { account(joint); });
   last_ = mechanical();
-  sum_up(structure);
 }
 
-void EnergyLedger::sum_up(const Structure* structure) {
+void EnergyLedger::after_update(const Structure* structure) {
   now_ = sums_;
   each(world_.GetBodyList(), [&](b2Body& body) {
     if (is_dynamic(body)) now_.kinetic += kinetic(body, speed_of(body));

@@ -53,8 +53,9 @@ void Simulation::step() {
   time_ += dt;
   last_step_us_ = took.count();
   if (++steps_ >= first_timed_step) step_us_.push_back(last_step_us_);
+  if (ledger_) ledger_->after_step();
   if (structure_) structure_->update();
-  if (ledger_) ledger_->after_step(structure());
+  if (ledger_) ledger_->after_update(structure());
 }
 
 void Simulation::record(const JointEvent& event) {

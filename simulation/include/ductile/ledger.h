@@ -57,8 +57,10 @@ class EnergyLedger final : public b2ContactListener {
 
   /// Just before b2World::Step, after the forces were applied: `loads` are those.
   void before_step(double dt, const std::vector<AppliedLoad>& loads);
-  /// After Step, and after Structure::update() where there is a structure.
-  void after_step(const Structure* structure);
+  /// After Step, before Structure::update(), which puts back what met a piece on its way.
+  void after_step();
+  /// After Structure::update(), or without a structure.
+  void after_update(const Structure* structure);
 
   const Energy& energy() const { return now_; }
   /// Energy that has changed hands so far: what an error is to be small against.
@@ -94,7 +96,6 @@ class EnergyLedger final : public b2ContactListener {
   void account(b2Body& body, const Motion& motion);
   void account(b2Joint& joint);
   double clamped(b2Body& body, const Motion& motion, Speed& after) const;
-  void sum_up(const Structure* structure);
   double mechanical() const;
   double stored_in_springs() const;
 

@@ -1,0 +1,123 @@
+// The contacts of the island that b2World is solving: where Box2D's contact solver keeps them, which of them
+// are rows of a structure's problem, and how their impulses are handed back. Written against Box2D 2.4.1.
+//
+// Between b2Joint::InitVelocityConstraints and the first b2Joint::SolveVelocityConstraints the world's stack
+// allocator holds the island (bodies, contacts, joints, velocities, positions), the search stack, and the
+// constraints of positions and of velocities, in this order. All that is assumed of them is checked; where
+// it is not so, no contact is a row, and contacts push pieces as they do any body.
+//
+// What Box2D is left with gets its impulse and infinite masses: its own iterations then change neither, and
+// StoreImpulses, PostSolve and the next warm start find the impulse that the structure's problem has.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <span>
+#include <vector>
+
+namespace ductile::dynamics {
+
+/// A point of b2ContactVelocityConstraint.
+struct PointConstraint {
+  b2Vec2 ra, rb;  // from the centres of mass, world axes
+  float normal_impulse, tangent_impulse, normal_mass, tangent_mass, bounce;
+};
+
+/// Laid out as b2ContactVelocityConstraint.
+struct VelocityConstraint {
+  PointConstraint points[b2_maxManifoldPoints];
+  b2Vec2 normal;  // from A to B
+  b2Mat22 normal_mass, K;
+  int32 a, b;  // indices in the island
+  float inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
+  float friction, restitution, threshold, conveyor;
+  int32 count, index;
+};
+
+/// Laid out as b2ContactPositionConstraint.
+struct PositionConstraint {
+  b2Vec2 points[b2_maxManifoldPoints], normal, point;
+  int32 a, b;
+  float inverse_mass_a, inverse_mass_b;
+  b2Vec2 center_a, center_b;
+  float inverse_inertia_a, inverse_inertia_b;
+  b2Manifold::Type type;
+  float radius_a, radius_b;
+  int32 count;
+};
+
+/// One contact of the island.
+struct Touch {
+  b2Contact* contact;
+  VelocityConstraint* velocity;
+  PositionConstraint* position;
+  int in_a = -1, in_b = -1;  // its bodies in a component
+
+  b2Body* a() const { return contact->GetFixtureA()->GetBody(); }
+  b2Body* b() const { return contact->GetFixtureB()->GetBody(); }
+};
+
+/// The contacts of the island at hand; none where an assumption does not hold.
+class IslandContacts {
+ public:
+  void read(b2World& world, const b2SolverData& data);
+  /// Leaves those that touch a body for which is_piece is true, of bodies that may_take; and where all that
+  /// can be reached of these by contacts are few points, these too.
+  template <class IsPiece, class MayTake>
+  void choose(const IsPiece& is_piece, const MayTake& may_take);
+  std::span<const Touch> touches() const { return touches_; }
+  void clear() { touches_.clear(); }
+
+ private:
+  static constexpr std::size_t few = 40;  // points
+
+  std::vector<Touch> touches_, chosen_;
+  std::vector<char> reached_, taken_;
+  std::size_t body_count_ = 0;  // that the island has room for
+};
+
+/// Takes the impulses that a constraint's points hold as they are: no iteration changes them or a velocity.
+void settle(VelocityConstraint& constraint);
+
+/// The island's body moves by no contact in the iterations of positions.
+inline void hold_a(PositionConstraint& p) { p.inverse_mass_a = p.inverse_inertia_a = 0; }
+inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia_b = 0; }
+
+template <class IsPiece, class MayTake>
+void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take) {
+  chosen_.clear();
+  taken_.assign(touches_.size(), 0);
+  reached_.assign(body_count_, 0);
+  const auto reached = [&](int32 body) -> char& { return reached_[static_cast<std::size_t>(body)]; };
+  const auto moves = [](const b2Body* body) { return body->GetType() == b2_dynamicBody; };
+  std::size_t points = 0;
+  // Hop by hop: contacts of pieces, then of what these touch.
+  for (bool first = true;; first = false) {
+    const std::size_t before = chosen_.size(), points_before = points;
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      const Touch& t = touches_[k];
+      b2Body *a = t.a(), *b = t.b();
+      const auto from = [&](b2Body* body, int32 index) {
+        return moves(body) && (first ? is_piece(body) : reached(index) == 1);
+      };
+      if (taken_[k] != 0 || !(from(a, t.velocity->a) || from(b, t.velocity->b))) continue;
+      if (!may_take(a) || !may_take(b)) continue;
+      taken_[k] = 1;
+      chosen_.push_back(t);
+      points += static_cast<std::size_t>(t.velocity->count);
+    }
+    if (!first && points > few) {
+      chosen_.resize(before);
+      points = points_before;
+      break;
+    }
+    if (chosen_.size() == before) break;
+    for (std::size_t k = before; k < chosen_.size(); ++k) {
+      if (moves(chosen_[k].a())) reached(chosen_[k].velocity->a) = 1;
+      if (moves(chosen_[k].b())) reached(chosen_[k].velocity->b) = 1;
+    }
+  }
+  touches_.swap(chosen_);
+}
+
+}  // namespace ductile::dynamics

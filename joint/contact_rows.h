@@ -1,0 +1,35 @@
+// Contacts as rows of the one problem: non-penetration and Coulomb friction at a point of two bodies.
+//
+// A contact is two rows at its point, along the normal n from A to B and along n's left:
+//   λ = G max(0, b − n·v)      t = clamp(G (τ + l·v), −c, c), c = μ λ of the round before
+// with v the velocity of B against A, b what restitution asks for, τ the speed of a conveyor. For given c
+// that is a row with one cap 0 and the other infinite and one of caps ±c: f stays convex (objective.h).
+// Friction whose cap depends on λ at once would not be; the rounds are the lagged fixed point of A. Castro,
+// F. Permenter, X. Han, IEEE Trans. Robotics 39 (2023), and of M. Jean, Comput. Methods Appl. Mech. Engrg.
+// 177 (1999).
+//
+// Contact rows follow the structure's joints in System::joints. They have no gap, no law in time and no
+// material: what integrates, books or projects joints leaves them out (System::own).
+#pragma once
+
+#include <span>
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H is
+/// not theirs. Their blocks of H are the caller's to set.
+bool enter_contacts(System& system, std::span<const Contact> contacts, double h);
+
+/// Takes the impulses of the last solve.
+void read_contacts(System& system);
+
+/// After a solve: caps of friction from its normal impulses, averaged with those before where three rounds
+/// were not enough. Whether the solve is to be done again, and whether H has other rows.
+struct Lag {
+  bool again = false, other_rows = false;
+};
+Lag lag_friction(System& system, int round);
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,317 @@
+// Contacts with a structure: rest, impact, restitution, friction, and what Box2D is told of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "beam.h"
+#include "bodies.h"
+
+namespace ductile {
+namespace {
+
+constexpr double dt = 1.0 / 60;
+constexpr BeamDef light{.pieces = 10, .length = 10, .height = 0.2, .density = 500};  // 100 kg a piece
+constexpr double piece_mass = 100;
+
+struct Body {
+  double x = 0, bottom = 0.1, size = 0.5, mass = piece_mass;
+  double friction = 0.6, restitution = 0;
+};
+
+b2Body* add(b2World& world, const Body& d) {
+  b2Body* body = add_box(world, {.x = d.x, .y = d.bottom + d.size / 2 + 0.01, .width = d.size, .height = d.size,
+                                 .mass = d.mass, .group = 0, .friction = d.friction});
+  body->GetFixtureList()->SetRestitution(static_cast<float>(d.restitution));
+  return body;
+}
+
+/// Sums up what PostSolve tells, by the contact's other body than the guest.
+struct Impulses : b2ContactListener {
+  explicit Impulses(const b2Body* body) : guest(body) {}
+  // Poses have moved on by the time of PostSolve.
+  void PreSolve(b2Contact* contact, const b2Manifold*) override {
+    b2WorldManifold manifold;
+    contact->GetWorldManifold(&manifold);
+    normals[contact] = manifold.normal;
+  }
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+    const bool is_b = contact->GetFixtureB()->GetBody() == guest;
+    if (!is_b && contact->GetFixtureA()->GetBody() != guest) return;
+    const b2Vec2 n = normals[contact], t{n.y, -n.x};
+    for (int i = 0; i < impulse->count; ++i) {
+      const double sign = is_b ? 1 : -1;
+      x += sign * (impulse->normalImpulses[i] * n.x + impulse->tangentImpulses[i] * t.x);
+      y += sign * (impulse->normalImpulses[i] * n.y + impulse->tangentImpulses[i] * t.y);
+    }
+  }
+  const b2Body* guest;
+  std::map<b2Contact*, b2Vec2> normals;
+  double x = 0, y = 0;
+};
+
+class Resting : public testing::TestWithParam<double> {};
+
+// Root moment: the weights of pieces and block times their arms.
+TEST_P(Resting, BlockOfAnyMassIsCarried) {
+  const double ratio = GetParam();
+  Beam beam(light);
+  b2Body* block = add(beam.world, {.x = 9.5, .mass = ratio * piece_mass});
+  Impulses told(block);
+  beam.world.SetContactListener(&told);
+  beam.run(10);
+  const double moment = beam.root_moment() - block->GetMass() * light.gravity * block->GetWorldCenter().x;
+  EXPECT_NEAR(beam.joints.front()->force(rotation), moment, 1e-6 * -moment);
+  EXPECT_LT(block->GetLinearVelocity().Length(), 1e-4);
+  EXPECT_EQ(beam.bounds_hit, 0);
+  told.x = told.y = 0;
+  beam.run(1);
+  const double weight = block->GetMass() * light.gravity;
+  EXPECT_NEAR(told.y, weight, 1e-5 * weight);
+  EXPECT_NEAR(told.x, 0, 1e-5 * weight);
+  EXPECT_EQ(beam.structure.report().solves, 1);  // of the last step
+}
+INSTANTIATE_TEST_SUITE_P(OfPieces, Resting, testing::Values(1.0, 10.0, 100.0, 1000.0, 10000.0));
+
+class Stack : public testing::TestWithParam<double> {};
+
+TEST_P(Stack, OfFiveIsCarried) {
+  Beam beam(light);
+  double moment = 0, height = 0.1;
+  for (int i = 0; i < 5; ++i) {
+    b2Body* block = add(beam.world, {.x = 9.5, .bottom = height, .mass = GetParam() * piece_mass});
+    height += 0.51;
+    moment -= block->GetMass() * light.gravity * 9.5;
+  }
+  beam.run(10);
+  moment += beam.root_moment();
+  EXPECT_NEAR(beam.joints.front()->force(rotation), moment, 1e-5 * -moment);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+INSTANTIATE_TEST_SUITE_P(OfPieces, Stack, testing::Values(1.0, 10.0, 100.0));
+
+class TipImpact : public testing::TestWithParam<std::tuple<double, bool>> {};
+
+// At all speeds and ten phases of the step the block stays on its side of the beam.
+TEST_P(TipImpact, NeverGoesThrough) {
+  const auto [ratio, bullet] = GetParam();
+  for (const double speed : {3.0, 10.0, 30.0, 60.0}) {
+    for (int phase = 0; phase < 10; ++phase) {
+      BeamDef def = light;
+      def.youngs_modulus = 210e9;
+      def.moment_cap = 2 * def.density * def.height * def.gravity * def.length * def.length / 2;
+      Beam beam(def);
+      b2Body* block = add(beam.world, {.x = 9.5, .bottom = 1 + 0.1 * phase * speed * dt, .mass = ratio * piece_mass});
+      block->SetLinearVelocity(vec(0, -speed));
+      block->SetBullet(bullet);
+      double deepest = 1;
+      for (int i = 0; i < 60; ++i) {
+        beam.run(dt);
+        const b2Vec2 at = beam.pieces.back()->GetLocalPoint(block->GetWorldCenter());
+        if (std::abs(at.x) < 0.5) deepest = std::min(deepest, double{at.y});
+      }
+      EXPECT_GT(deepest, 0.1) << speed << ", " << phase;
+      EXPECT_EQ(block->IsBullet(), bullet);
+      EXPECT_EQ(beam.bounds_hit, 0);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(OfPieces, TipImpact,
+                         testing::Combine(testing::Values(1.0, 10.0, 100.0, 1000.0), testing::Bool()));
+
+class Restitution : public testing::TestWithParam<std::tuple<double, double>> {};
+
+// In free flight: v' = e v between the block and the piece it hits, and no momentum is lost.
+TEST_P(Restitution, PartsAsAsked) {
+  const auto [share, ratio] = GetParam();
+  const double speed = 3;
+  BeamDef def = light;
+  def.pieces = 3;
+  def.length = 3;
+  def.gravity = 0;
+  Beam beam(def);
+  beam.world.DestroyJoint(beam.joints.front());
+  b2Body* block = add(beam.world, {.x = 1.5, .bottom = 0.4, .mass = ratio * piece_mass, .restitution = share});
+  block->SetLinearVelocity(vec(0, -speed));
+  beam.run(0.5);
+  const b2Body* struck = beam.pieces[1];
+  EXPECT_NEAR(block->GetLinearVelocity().y - struck->GetLinearVelocityFromWorldPoint(block->GetPosition()).y,
+              share * speed, 1e-4 * speed);
+  double momentum = block->GetMass() * block->GetLinearVelocity().y;
+  for (const b2Body* piece : beam.pieces) momentum += piece->GetMass() * piece->GetLinearVelocity().y;
+  EXPECT_NEAR(momentum, -block->GetMass() * speed, 1e-5 * block->GetMass() * speed);
+}
+INSTANTIATE_TEST_SUITE_P(Shares, Restitution,
+                         testing::Combine(testing::Values(0.0, 0.5, 1.0), testing::Values(1.0, 10.0, 100.0)));
+
+class Friction : public testing::TestWithParam<std::tuple<double, double, double>> {};
+
+// On a slope: holds where tan α < μ, otherwise a = g (sin α − μ cos α).
+TEST_P(Friction, HoldsOrSlides) {
+  const auto [friction, slope, ratio] = GetParam();
+  const double angle = std::atan(slope), g = 10;
+  BeamDef def = light;
+  def.pieces = 1;
+  def.length = 10;
+  def.density = 50;
+  Beam beam(def);
+  beam.world.SetGravity(vec(g * std::sin(angle), -g * std::cos(angle)));
+  for (b2Body* piece : beam.pieces) piece->GetFixtureList()->SetFriction(static_cast<float>(friction));
+  b2Body* block = add(beam.world, {.x = 2, .mass = ratio * piece_mass, .friction = friction});
+  beam.run(1);
+  const double before = block->GetLinearVelocity().x;
+  beam.run(0.5);
+  const double a = (block->GetLinearVelocity().x - before) / 0.5;
+  const double expected = std::max(0.0, g * (std::sin(angle) - friction * std::cos(angle)));
+  EXPECT_NEAR(a, expected, 1e-3 * g * 0.1);
+  if (expected == 0) {
+    EXPECT_NEAR(block->GetPosition().x, 2, 0.01);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Slopes, Friction,
+                         testing::Combine(testing::Values(0.2, 0.5), testing::Values(0.1, 0.19, 0.21, 0.45, 0.55),
+                                          testing::Values(1.0, 100.0)));
+
+// Momentum of the guest: what PostSolve told, and its weight; in every step of a fall onto the beam.
+TEST(Contacts, TellTheImpulsesThatTheyHad) {
+  BeamDef def = light;
+  def.youngs_modulus = 210e9;
+  Beam beam(def);
+  b2Body* block = add(beam.world, {.x = 7.3, .bottom = 0.5, .mass = 3 * piece_mass});
+  block->SetLinearVelocity(vec(1, -2));
+  Impulses told(block);
+  beam.world.SetContactListener(&told);
+  for (int i = 0; i < 200; ++i) {
+    const b2Vec2 before = block->GetLinearVelocity();
+    told.x = told.y = 0;
+    beam.world.Step(static_cast<float>(dt), 8, 3);
+    const b2Vec2 after = block->GetLinearVelocity();
+    const double size = block->GetMass() * (1 + std::abs(told.y) / block->GetMass());
+    EXPECT_NEAR(block->GetMass() * (after.x - before.x), told.x, 1e-5 * size) << i;
+    EXPECT_NEAR(block->GetMass() * (after.y - before.y + light.gravity * dt), told.y, 1e-5 * size) << i;
+    beam.structure.update();
+  }
+}
+
+// Kinetic, potential and elastic energy less all that was taken: contacts take, they never give.
+TEST(Contacts, GiveNoEnergy) {
+  for (const double restitution : {0.0, 0.5}) {
+    for (const double mass : {1.0, 20.0}) {
+      BeamDef def = light;
+      def.youngs_modulus = 210e9;
+      def.damping_time = 0;
+      Beam beam(def);
+      beam.run(1);
+      b2Body* block = add(beam.world, {.x = 8.2, .bottom = 2, .mass = mass * piece_mass, .restitution = restitution});
+      const auto energy = [&] {
+        double sum = beam.structure.energy().elastic + beam.structure.energy().numerical;
+        for (const b2Body* b = beam.world.GetBodyList(); b != nullptr; b = b->GetNext()) {
+          const b2Vec2 v = b->GetLinearVelocity();
+          const double I = b->GetInertia(), w = b->GetAngularVelocity();
+          sum += b->GetMass() * (v.LengthSquared() / 2.0 + light.gravity * (b->GetWorldCenter().y - v.y * dt / 2)) +
+                 I * w * w / 2;
+        }
+        return sum;
+      };
+      beam.run(dt);
+      const double scale = block->GetMass() * light.gravity * 2;
+      // Corrections of overlap lift what comes down on an edge of its own.
+      const double lifted = restitution > 0 && mass > 1 ? 2e-2 : 2e-3;
+      double least = energy();
+      for (int i = 0; i < 600; ++i) {
+        beam.run(dt);
+        const double now = energy();
+        EXPECT_LT(now, least + lifted * scale) << restitution << ", " << mass << ", step " << i;
+        least = std::min(least, now);
+      }
+    }
+  }
+}
+
+// Two structures' worth of joints in one Structure: a free frame lands on a held beam, and is carried.
+TEST(Contacts, JoinStructuresThatTouch) {
+  Beam beam(light);
+  std::vector<b2Body*> raft;
+  for (int i = 0; i < 3; ++i) {
+    raft.push_back(add_box(beam.world, {.x = 6.0 + i, .y = 0.5, .width = 1, .height = 0.5, .mass = 2000, .group = -2}));
+    if (i == 0) continue;
+    ElasticPlasticJointDef joint;
+    joint.Initialize(raft[static_cast<std::size_t>(i) - 1], raft.back(), vec(5.5 + i, 0.5), {1, 0});
+    beam.structure.create_joint(joint);
+  }
+  beam.run(10);
+  double moment = beam.root_moment();
+  for (const b2Body* b : raft) moment -= b->GetMass() * light.gravity * b->GetWorldCenter().x;
+  EXPECT_NEAR(beam.joints.front()->force(rotation), moment, 1e-5 * -moment);
+  EXPECT_EQ(beam.bounds_hit, 0);
+}
+
+// A load that rests lets the structure sleep, and is woken with it.
+TEST(Contacts, Sleep) {
+  Beam beam(light);
+  beam.world.SetAllowSleeping(true);
+  b2Body* block = add(beam.world, {.x = 9.5, .mass = 100 * piece_mass});
+  beam.run(10);
+  EXPECT_FALSE(block->IsAwake());
+  EXPECT_FALSE(beam.pieces.front()->IsAwake());
+  beam.joints.front()->set_caps(rotation, 0, 0);
+  beam.run(1);
+  EXPECT_LT(block->GetPosition().y, -0.5);
+}
+
+// A guest may go without a word.
+TEST(Contacts, OfBodiesThatAreDestroyed) {
+  Beam beam(light);
+  for (int i = 0; i < 20; ++i) {
+    b2Body* block = add(beam.world, {.x = 9.5, .mass = 10 * piece_mass});
+    beam.run(0.2);
+    beam.world.DestroyBody(block);
+    if (i % 3 == 0) beam.run(0.1);
+  }
+  beam.run(2);
+  EXPECT_NEAR(beam.joints.front()->force(rotation), beam.root_moment(), -1e-6 * beam.root_moment());
+}
+
+// A belt of speed τ: friction brings a block to it with μ g, and carries it on.
+TEST(Contacts, MoveBelts) {
+  struct Belt : b2ContactListener {
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+      const bool block_is_a = contact->GetFixtureA()->GetBody()->GetMass() < 200;
+      contact->SetTangentSpeed(block_is_a ? 2.0f : -2.0f);
+    }
+  } belt;
+  BeamDef def = light;
+  def.pieces = 1;
+  Beam beam(def);
+  beam.world.SetContactListener(&belt);
+  beam.pieces.front()->GetFixtureList()->SetFriction(0.3f);
+  b2Body* block = add(beam.world, {.x = 5, .mass = piece_mass, .friction = 0.3});
+  beam.run(0.5);
+  EXPECT_NEAR(std::abs(block->GetLinearVelocity().x), 0.3 * light.gravity * 0.5, 0.1);
+  beam.run(0.8);
+  EXPECT_NEAR(std::abs(block->GetLinearVelocity().x), 2, 1e-3);
+}
+
+// Disabled contacts are none: what rises goes through a beam that lets it, and then rests on it.
+TEST(Contacts, DisabledOnesLetPass) {
+  struct OneWay : b2ContactListener {
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+      for (const b2Fixture* f : {contact->GetFixtureA(), contact->GetFixtureB()}) {
+        const b2Body* body = f->GetBody();
+        if (body == block && body->GetPosition().y < 0.3f) contact->SetEnabled(false);
+      }
+    }
+    const b2Body* block = nullptr;
+  } one_way;
+  Beam beam(light);
+  b2Body* block = add(beam.world, {.x = 8.5, .bottom = -3, .mass = 10 * piece_mass});
+  one_way.block = block;
+  beam.world.SetContactListener(&one_way);
+  block->SetLinearVelocity({0, 12});
+  beam.run(6);
+  EXPECT_NEAR(block->GetPosition().y, 0.1 + 0.25, 0.02);
+}
+
+}  // namespace
+}  // namespace ductile
