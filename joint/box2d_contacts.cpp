@@ -62,7 +62,8 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
   for (std::size_t k = 0; k < count; ++k) {
     const Touch touch{.contact = contact[k], .velocity = velocity + k, .position = position + k};
     if (is_settled(*touch.velocity)) continue;
-    if (!is_as_assumed(touch, static_cast<int32>(k), island, static_cast<int32>(capacity))) return touches_.clear();
+    if (!is_as_assumed(touch, static_cast<int32>(k), island, static_cast<int32>(capacity)))
+      return touches_.clear();
     touches_.push_back(touch);
   }
 }

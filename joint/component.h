@@ -82,8 +82,8 @@ struct Component {
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
-    bool guest = false;    // touches the structure, but no joint of it
-    bool present = true;   // a guest may be elsewhere, or be no more: then `body` must not be asked
+    bool guest = false;   // touches the structure, but no joint of it
+    bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
   };
   /// Of a body, when a ledger is kept.
   struct Account {
@@ -152,9 +152,9 @@ struct Component {
   std::vector<Contact> rows_;  // of the touches' points
   std::vector<std::pair<const b2Body*, int>> by_address_;
   bool anchored_ = false;  // some joint holds to what does not give
-  bool parted_ = false;   // bodies were moved apart while their joint was in no island
-  bool alone_ = false;    // no body has a contact or another joint
-  bool at_rest_ = false;  // the next step will be this one if nothing else touches the bodies
+  bool parted_ = false;    // bodies were moved apart while their joint was in no island
+  bool alone_ = false;     // no body has a contact or another joint
+  bool at_rest_ = false;   // the next step will be this one if nothing else touches the bodies
 };
 
 inline Joint& Member::data() { return component != nullptr ? component->solver.joints[index] : own; }

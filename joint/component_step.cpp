@@ -44,7 +44,8 @@ bool Component::touch(Touch t) {
   if (t.in_a < 0 || t.in_b < 0) return false;
   if (solver.is_free(t.in_a) && solver.is_free(t.in_b)) {
     const std::pair pair = std::minmax(t.in_a, t.in_b);
-    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair))) return false;
+    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair)))
+      return false;
   }
   touches.push_back(t);
   return true;

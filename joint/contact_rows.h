@@ -18,8 +18,8 @@
 
 namespace ductile::dynamics {
 
-/// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H is
-/// not theirs. Their blocks of H are the caller's to set.
+/// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H
+/// is not theirs. Their blocks of H are the caller's to set.
 bool enter_contacts(System& system, std::span<const Contact> contacts, double h);
 
 /// Takes the impulses of the last solve.

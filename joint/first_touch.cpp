@@ -3,8 +3,8 @@
 // its way is put back to where it did, and the next step finds a contact as it should be.
 //
 // Box2D does so for bullets, but then lets the two meet alone, the piece without its structure. So a bullet
-// that is near a piece is none while the world steps. Sub-stepping, Box2D is at it between two calls of Step, and
-// is left alone. Written against Box2D 2.4.1.
+// that is near a piece is none while the world steps. Sub-stepping, Box2D is at it between two calls of Step,
+// and is left alone. Written against Box2D 2.4.1.
 
 #include <box2d/b2_time_of_impact.h>
 
@@ -91,7 +91,8 @@ void Structure::Impl::meet_guests() {
     each_near(*c, [&](const b2Contact& contact, b2Body& piece, b2Body& guest) {
       if (contact.IsTouching() || !guest.IsAwake()) return;
       const b2Sweep& s = dynamics::of(guest, b2Body_m_sweep{});
-      if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop && std::abs(s.a - s.a0) < b2_angularSlop)
+      if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
+          std::abs(s.a - s.a0) < b2_angularSlop)
         return;
       if (guest.IsBullet()) piece.SetAwake(true);
       const float share = way_to(contact, piece, guest);
@@ -103,7 +104,8 @@ void Structure::Impl::meet_guests() {
     const auto earlier = [&m](const Meeting& o) {
       return o.guest == m.guest && (o.share < m.share || (o.share == m.share && &o < &m));
     };
-    if (std::none_of(meetings.begin(), meetings.end(), earlier)) put_back(*m.guest, m.share, world->GetGravity());
+    if (std::none_of(meetings.begin(), meetings.end(), earlier))
+      put_back(*m.guest, m.share, world->GetGravity());
   }
 }
 

@@ -210,7 +210,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
       outcome.gap = now.gap();
       for (std::size_t k = 0; k < best_.size(); ++k) best_[k] = current(k);
     }
-    outcome.tolerance = (system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance) * scale + now.rounding;
+    outcome.tolerance =
+        (system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance) * scale + now.rounding;
     if (outcome.gap <= tunables.goal * scale + now.rounding || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
 

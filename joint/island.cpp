@@ -46,8 +46,7 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   if (velocity_calls_++ == 0) {
     choose_contacts(data);
     bool fits = !incomplete_;
-    for (Component* c : active_)
-      fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_);
+    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_);
     if (!fits || !distribute_contacts()) {
       form();
       for (Component* c : active_) c->look(data, contacts_);

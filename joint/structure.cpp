@@ -168,7 +168,8 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def, watch, next_id, {}, {}, report, worst, batch_, stepped_, gone_, {}, orphans, last_node, bullets_};
+  State s{def,    watch,    next_id, {}, {},      report,    worst,
+          batch_, stepped_, gone_,   {}, orphans, last_node, bullets_};
   s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {

@@ -94,9 +94,9 @@ struct Structure::Impl {
   bool enlisting_ = false;
   dynamics::IslandContacts contacts_;
   std::vector<b2Body*> bullets_;  // that are none until update()
-  bool incomplete_ = false;  // some enlisted joint is in no component
-  bool stepped_ = true;      // since the last update()
-  bool broke_ = false;       // some joint, since then
+  bool incomplete_ = false;       // some enlisted joint is in no component
+  bool stepped_ = true;           // since the last update()
+  bool broke_ = false;            // some joint, since then
 
   JointEnergy gone_;  // of components and joints that are no more
 

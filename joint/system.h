@@ -96,18 +96,18 @@ struct Contact {
   int a = 0, b = 0;                       // bodies
   double ax = 0, ay = 0, bx = 0, by = 0;  // the point from the centres of mass, m
   Turn normal_a, normal_b;
-  double bounce = 0;    // b: normal velocity that restitution asks for, m/s
-  double conveyor = 0;  // τ, m/s
-  double friction = 0;  // μ
+  double bounce = 0;               // b: normal velocity that restitution asks for, m/s
+  double conveyor = 0;             // τ, m/s
+  double friction = 0;             // μ
   double normal = 0, tangent = 0;  // impulses, N s: where to start, and of the last solve; normal ≥ 0 presses
-  std::uint64_t id = 0;  // of the same point in the next step
+  std::uint64_t id = 0;            // of the same point in the next step
 };
 
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
 /// (static and kinematic bodies) are prescribed.
 struct System {
   std::vector<Body> bodies;
-  std::vector<Place> places;  // of the bodies
+  std::vector<Place> places;               // of the bodies
   std::vector<Joint> joints;               // the structure's own, then rows of contacts
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them

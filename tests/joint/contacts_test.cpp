@@ -21,8 +21,13 @@ struct Body {
 };
 
 b2Body* add(b2World& world, const Body& d) {
-  b2Body* body = add_box(world, {.x = d.x, .y = d.bottom + d.size / 2 + 0.01, .width = d.size, .height = d.size,
-                                 .mass = d.mass, .group = 0, .friction = d.friction});
+  b2Body* body = add_box(world, {.x = d.x,
+                                 .y = d.bottom + d.size / 2 + 0.01,
+                                 .width = d.size,
+                                 .height = d.size,
+                                 .mass = d.mass,
+                                 .group = 0,
+                                 .friction = d.friction});
   body->GetFixtureList()->SetRestitution(static_cast<float>(d.restitution));
   return body;
 }
@@ -102,7 +107,8 @@ TEST_P(TipImpact, NeverGoesThrough) {
       def.youngs_modulus = 210e9;
       def.moment_cap = 2 * def.density * def.height * def.gravity * def.length * def.length / 2;
       Beam beam(def);
-      b2Body* block = add(beam.world, {.x = 9.5, .bottom = 1 + 0.1 * phase * speed * dt, .mass = ratio * piece_mass});
+      b2Body* block =
+          add(beam.world, {.x = 9.5, .bottom = 1 + 0.1 * phase * speed * dt, .mass = ratio * piece_mass});
       block->SetLinearVelocity(vec(0, -speed));
       block->SetBullet(bullet);
       double deepest = 1;
@@ -132,7 +138,8 @@ TEST_P(Restitution, PartsAsAsked) {
   def.gravity = 0;
   Beam beam(def);
   beam.world.DestroyJoint(beam.joints.front());
-  b2Body* block = add(beam.world, {.x = 1.5, .bottom = 0.4, .mass = ratio * piece_mass, .restitution = share});
+  b2Body* block =
+      add(beam.world, {.x = 1.5, .bottom = 0.4, .mass = ratio * piece_mass, .restitution = share});
   block->SetLinearVelocity(vec(0, -speed));
   beam.run(0.5);
   const b2Body* struck = beam.pieces[1];
@@ -170,7 +177,8 @@ TEST_P(Friction, HoldsOrSlides) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Slopes, Friction,
-                         testing::Combine(testing::Values(0.2, 0.5), testing::Values(0.1, 0.19, 0.21, 0.45, 0.55),
+                         testing::Combine(testing::Values(0.2, 0.5),
+                                          testing::Values(0.1, 0.19, 0.21, 0.45, 0.55),
                                           testing::Values(1.0, 100.0)));
 
 // Momentum of the guest: what PostSolve told, and its weight; in every step of a fall onto the beam.
@@ -203,13 +211,15 @@ TEST(Contacts, GiveNoEnergy) {
       def.damping_time = 0;
       Beam beam(def);
       beam.run(1);
-      b2Body* block = add(beam.world, {.x = 8.2, .bottom = 2, .mass = mass * piece_mass, .restitution = restitution});
+      b2Body* block =
+          add(beam.world, {.x = 8.2, .bottom = 2, .mass = mass * piece_mass, .restitution = restitution});
       const auto energy = [&] {
         double sum = beam.structure.energy().elastic + beam.structure.energy().numerical;
         for (const b2Body* b = beam.world.GetBodyList(); b != nullptr; b = b->GetNext()) {
           const b2Vec2 v = b->GetLinearVelocity();
           const double I = b->GetInertia(), w = b->GetAngularVelocity();
-          sum += b->GetMass() * (v.LengthSquared() / 2.0 + light.gravity * (b->GetWorldCenter().y - v.y * dt / 2)) +
+          sum += b->GetMass() *
+                     (v.LengthSquared() / 2.0 + light.gravity * (b->GetWorldCenter().y - v.y * dt / 2)) +
                  I * w * w / 2;
         }
         return sum;
@@ -234,7 +244,8 @@ TEST(Contacts, JoinStructuresThatTouch) {
   Beam beam(light);
   std::vector<b2Body*> raft;
   for (int i = 0; i < 3; ++i) {
-    raft.push_back(add_box(beam.world, {.x = 6.0 + i, .y = 0.5, .width = 1, .height = 0.5, .mass = 2000, .group = -2}));
+    raft.push_back(
+        add_box(beam.world, {.x = 6.0 + i, .y = 0.5, .width = 1, .height = 0.5, .mass = 2000, .group = -2}));
     if (i == 0) continue;
     ElasticPlasticJointDef joint;
     joint.Initialize(raft[static_cast<std::size_t>(i) - 1], raft.back(), vec(5.5 + i, 0.5), {1, 0});
