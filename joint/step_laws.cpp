@@ -15,6 +15,7 @@ namespace {
 constexpr double turn_guard = 10;   // δ per rad that a body turns in a step
 constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
+constexpr double hold_time = 0.5;  // s that δ is kept beyond its need
 
 // What a row is strained beyond what its force tells, m or rad.
 double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
@@ -91,8 +92,9 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain) const {
 }
 
 // δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
-// turn far in a step, in which rows take another direction; by powers of two, so that factors last.
-double StepLaws::delta_for(const System& system, double h) const {
+// turn far in a step, in which rows take another direction; by powers of two, and for half a second at
+// least, so that factors last.
+double StepLaws::delta_for(const System& system, double h) {
   if (least_delta == 1) return 1;
   double turn = 0;
   for (std::size_t i = 0; i < system.free; ++i) turn = std::max(turn, std::abs(system.bodies[i].v_free.w));
@@ -100,8 +102,12 @@ double StepLaws::delta_for(const System& system, double h) const {
   double delta = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
   if (guard > least_guard) delta += std::exp2(std::ceil(std::log2(guard)));
   delta = std::min(delta, 1.0);
-  const bool as_before = h == h_ && delta <= delta_ && delta > delta_ / 3;
-  return as_before ? delta_ : delta;
+  if (h == h_ && delta <= delta_ && delta_ > least_delta) {
+    unneeded_ = delta > delta_ / 3 ? 0 : unneeded_ + h;
+    if (unneeded_ < hold_time) return delta_;
+  }
+  unneeded_ = 0;
+  return delta;
 }
 
 bool StepLaws::begin(System& system, double h) {

@@ -38,11 +38,12 @@ class StepLaws {
  private:
   double deferred_share(System& system, double h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain) const;
-  double delta_for(const System& system, double h) const;
+  double delta_for(const System& system, double h);
 
   double h_ = 0;
-  bool known_ = false;  // the laws are those of h_, caps and stiffness
-  double delta_ = 1;    // of the laws
+  bool known_ = false;   // the laws are those of h_, caps and stiffness
+  double delta_ = 1;     // of the laws
+  double unneeded_ = 0;  // s that it was more than three times what was needed
 };
 
 }  // namespace ductile::dynamics

@@ -1,0 +1,156 @@
+// Motion at the rate of games: damping that is what was asked for, ductility, the order in time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "beam.h"
+
+namespace ductile {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// ωL² √(m/EI) of a cantilever's first mode.
+constexpr double first_mode = 3.5160153;
+
+struct Decay {
+  double ratio, first_peak;
+};
+
+// Of the tip's fall below where it comes to rest, over periods after gravity sets in at once. The peaks of
+// the whole fall, of parabolas through three steps, are those of the first mode: the second has 2 % of it.
+Decay decay(double frequency, int pieces, double ratio, double rate) {
+  BeamDef def{.pieces = pieces, .gravity = 1};
+  const double inertia = std::pow(def.height, 3) / 12, mass = def.density * def.height;
+  const double omega = 2 * pi * frequency, per_modulus = first_mode * first_mode * inertia / mass;
+  def.youngs_modulus = omega * omega * std::pow(def.length, 4) / per_modulus;
+  def.damping_time = 2 * ratio / omega;
+  Beam beam(def);
+  const auto tip = [&] { return double{beam.pieces.back()->GetWorldCenter().y}; };
+  const double start = tip(), h = 1 / rate;
+  std::vector<double> y{0, 0}, peaks, valleys;
+  const int periods = 9;
+  for (double t = 0; t < periods / frequency; t += h) {
+    beam.world.Step(static_cast<float>(h), 8, 3);
+    beam.structure.update();
+    y.push_back(start - tip());
+    const double a = y[y.size() - 3], b = y[y.size() - 2], c = y.back();
+    const double vertex = b + (c - a) * (c - a) / (8 * (2 * b - a - c));
+    if (b > a && b >= c) peaks.push_back(vertex);
+    if (b < a && b <= c && !peaks.empty()) valleys.push_back(vertex);
+  }
+  // Of swings from valley to peak: rest cancels.
+  const auto swing = [&](std::size_t i) { return peaks[i + 1] - valleys[i]; };
+  const int n = 6;
+  EXPECT_GT(valleys.size(), std::size_t{n});
+  EXPECT_GT(peaks.size(), std::size_t{n} + 1);
+  const double decrement = std::log(swing(0) / swing(n)) / n;
+  return {decrement / std::sqrt(4 * pi * pi + decrement * decrement), peaks[0]};
+}
+
+TEST(Motion, ACantileverIsDampedAsAsked) {
+  for (const double frequency : {0.5, 2.0, 6.0}) {
+    for (const int pieces : {6, 40}) {
+      for (const double ratio : {0.0, 0.02, 0.05}) {
+        SCOPED_TRACE(testing::Message() << frequency << " Hz, " << pieces << " pieces, " << ratio);
+        const Decay at_60 = decay(frequency, pieces, ratio, 60);
+        EXPECT_NEAR(at_60.ratio, ratio, std::max(0.002, 0.1 * ratio));
+        if (pieces > 6) continue;
+        EXPECT_NEAR(at_60.first_peak, decay(frequency, pieces, ratio, 4000).first_peak,
+                    0.04 * at_60.first_peak);
+      }
+    }
+  }
+}
+
+// A mass on an elastic-plastic spring, and the force that sets in at once: Biggs, Introduction to Structural
+// Dynamics (1964), 2.7: ductility 1/(2 (1 − F/R)) for F ≥ R/2.
+struct Oscillator {
+  explicit Oscillator(double period, double cap = unlimited) : world(b2Vec2_zero), structure(world) {
+    world.SetAllowSleeping(false);
+    b2BodyDef def;
+    b2Body* ground = world.CreateBody(&def);
+    def.type = b2_dynamicBody;
+    def.position.Set(1, 0);
+    body = world.CreateBody(&def);
+    const b2MassData mass{1000, {0, 0}, 100};
+    body->SetMassData(&mass);
+    stiffness = 1000 * 4 * pi * pi / (period * period);
+    ElasticPlasticJointDef joint;
+    joint.Initialize(ground, body, {0, 0}, {1, 0});
+    joint.rows[axial] = {.stiffness = stiffness, .cap = cap, .cap_reverse = cap};
+    structure.create_joint(joint);
+  }
+  double step(double h, double force = 0) {
+    body->ApplyForceToCenter({static_cast<float>(force), 0}, true);
+    world.Step(static_cast<float>(h), 8, 3);
+    structure.update();
+    return body->GetWorldCenter().x - 1;
+  }
+  b2World world;
+  Structure structure;
+  b2Body* body;
+  double stiffness;
+};
+
+TEST(Motion, ASuddenForceReachesTheDuctilityOfTheClosedForm) {
+  for (const double share : {0.5, 0.6, 0.75, 0.9}) {
+    constexpr double cap = 1000;
+    Oscillator mass(1, cap);
+    double most = 0;
+    for (int i = 0; i < 240; ++i) most = std::max(most, mass.step(1.0 / 60, share * cap));
+    EXPECT_NEAR(most / (cap / mass.stiffness), 1 / (2 * (1 - share)), 0.002 / (2 * (1 - share))) << share;
+  }
+}
+
+// u = ½ h v of the leapfrog's start apart, x(t) = v/ω sin ωt: the error falls with h² at least.
+TEST(Motion, IsOfSecondOrder) {
+  const auto error = [](double rate) {
+    Oscillator mass(1);
+    mass.body->SetLinearVelocity({1, 0});
+    double x = 0;
+    for (int i = 0; i < static_cast<int>(1.25 * rate); ++i) x = mass.step(1 / rate);
+    return std::abs(x - 1 / (2 * pi));  // at a peak, a late phase shows only to second order: 1.25 periods
+  };
+  const double coarse = error(60), fine = error(120);
+  EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
+}
+
+TEST(Motion, OneJointSwingsAtItsFrequencyAndRatio) {
+  for (const double frequency : {1.0, 3.0, 6.0}) {
+    for (const double ratio : {0.0, 0.02, 0.1, 0.2}) {
+      Oscillator mass(1 / frequency);
+      ElasticPlasticJointDef joint;
+      b2Body* ground = mass.structure.joints()[0]->GetBodyA();
+      mass.world.DestroyJoint(mass.structure.joints()[0]);
+      joint.Initialize(ground, mass.body, {0, 0}, {1, 0});
+      joint.rows[axial] = {.stiffness = mass.stiffness,
+                           .damping = 2 * ratio * mass.stiffness / (2 * pi * frequency)};
+      mass.structure.create_joint(joint);
+      mass.body->SetLinearVelocity({1, 0});
+      std::vector<double> x{0}, crossings, peaks;
+      for (int i = 0; i < 600; ++i) {
+        x.push_back(mass.step(1.0 / 60));
+        const std::size_t n = x.size();
+        if (x[n - 2] < 0 && x[n - 1] >= 0) crossings.push_back(i - x[n - 1] / (x[n - 1] - x[n - 2]));
+        if (n < 3) continue;
+        const double a = x[n - 3], b = x[n - 2], c = x[n - 1];
+        if (b > a && b >= c && b > 0) peaks.push_back(b + (c - a) * (c - a) / (8 * (2 * b - a - c)));
+      }
+      SCOPED_TRACE(testing::Message() << frequency << " Hz, ratio " << ratio);
+      const double damped = std::sqrt(1 - ratio * ratio);
+      ASSERT_GT(crossings.size(), 4u);
+      EXPECT_NEAR(180 / (crossings[3] - crossings[0]) / (frequency * damped), 1, 0.05);
+      const double decrement = std::log(peaks[0] / peaks[3]) / 3;
+      const double found = decrement / std::sqrt(4 * pi * pi + decrement * decrement);
+      // A damper that sees the mean rate of two steps, (u + p)/2h, sees sin φ/φ = 1 − φ²/6 of it, φ = ωh.
+      const double phi = 2 * pi * frequency / 60;
+      EXPECT_NEAR(found, ratio * (1 - phi * phi / 6), std::max(0.002, 0.02 * ratio));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ductile
