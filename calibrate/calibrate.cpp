@@ -87,7 +87,12 @@ class Check {
       if (j.at && (j.gap > 0 || j.overrides.elastic || j.overrides.hinge_length || j.overrides.shear_span))
         add(place, "has `gap`, `elastic` or a hinge's length beside `at`",
             "leave them out: a node is rigid, and has no section");
-      if (!j.at && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
+      if (j.across) {
+        finite((*j.across)[0], place, "across");
+        finite((*j.across)[1], place, "across");
+        if ((*j.across)[0] == (*j.across)[1]) add(place, "is across no length", "give two different points");
+        if (j.at) add(place, "has both `at` and `across`", "give one of them: a node has no section");
+      } else if (!j.at && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
         add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
       check(fields::joint, j, place);
       overrides(j.overrides, place);
@@ -336,6 +341,11 @@ class Planner {
     const Outline own = in_world(body);
     for (const JointBetweenDef& j : scene_.joints) {
       if (!is_it(j.a) && !is_it(j.b)) continue;
+      if (j.across) {
+        const Point from = frame.local((*j.across)[0]), to = frame.local((*j.across)[1]);
+        holds.push_back({middle(from, to), j.overrides.moment != 0.0, {from, to}});
+        continue;
+      }
       const std::string& other_name = is_it(j.a) ? j.b : j.a;
       const auto other = std::find_if(scene_.bodies.begin(), scene_.bodies.end(),
                                       [&](const BodyDef& b) { return b.name == other_name; });
@@ -638,6 +648,7 @@ class Planner {
     const double least = 1e-6 * size;
     const double gap = def.gap > 0 ? def.gap : least;
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
+    if (def.across) return join_across(def, overriding);
     const std::size_t before = plan_.joints.size();
     const auto join_within = [&](double distance) {
       for (int i = of_a.first; i < of_a.second; ++i)
@@ -659,6 +670,16 @@ class Planner {
       problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
                            "their edges do not overlap anywhere within " + to_string(gap) + " m",
                            "let the two outlines share part of an edge, or give a larger gap"});
+  }
+
+  // As if the segment were a common edge of the pieces on its sides.
+  void join_across(const JointBetweenDef& def, std::span<const Overriding> overriding) {
+    auto [from, to] = *def.across;
+    const int a = nearest_piece(def.a, middle(from, to)), b = nearest_piece(def.b, middle(from, to));
+    if (dot(right(to - from), plan_.pieces[b].center - plan_.pieces[a].center) < 0) std::swap(from, to);
+    const auto joined_before = std::count_if(plan_.joints.begin(), plan_.joints.end(),
+                                             [&](const PlannedJoint& j) { return j.a == a && j.b == b; });
+    add_joint(a, b, std::array{Touch{from, to}}, static_cast<std::size_t>(joined_before), overriding, {});
   }
 
   static bool near(const Outline& a, const Outline& b, double gap) {

@@ -123,6 +123,11 @@ b2Body* create_ground(b2World& world, const Plan& plan) {
 
 }  // namespace
 
+b2Vec2 local_point(const Built& built, int piece, Point at) {
+  const BodyPlace& place = built.places[static_cast<std::size_t>(piece)];
+  return vector(Rotation(place.angle).inverse(at - Point{place.origin.x, place.origin.y}));
+}
+
 Built build_bodies(b2World& world, const Plan& plan) {
   // Everything that can be refused is made before the world changes.
   std::vector<std::vector<b2PolygonShape>> polygons;
@@ -141,7 +146,8 @@ Built build_bodies(b2World& world, const Plan& plan) {
         polygons.back() = shapes(in_its_body);
       }
       const bool dynamic = piece.part_of < 0 && plan.is_dynamic(static_cast<int>(polygons.size()) - 1);
-      for (const double value : {piece.mass, piece.inertia})
+      // As in Box2D, a piece of no inertia does not turn.
+      for (const double value : {piece.mass, piece.inertia == 0 ? piece.mass : piece.inertia})
         if (dynamic &&
             !(value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()))
           throw InvalidInput({{"piece '" + piece.name + "'",
@@ -219,6 +225,7 @@ Built build_bodies(b2World& world, const Plan& plan) {
       created->CreateFixture(&fixture);
     }
     built.bodies.push_back(created);
+    built.places.push_back({created->GetPosition(), created->GetAngle()});
   }
   set_masses(plan, built);
 
@@ -240,6 +247,7 @@ namespace {
 
 Built build(Structure& structure, b2World& world, const Plan& plan,
             std::vector<ElasticPlasticJointDef> defs) {
+  if (plan.make) return plan.make(world, plan, &structure);
   Built built = build_bodies(world, plan);
   std::map<int, int> nodes;  // of the plan, in the structure
   for (std::size_t i = 0; i < defs.size(); ++i) {
@@ -279,6 +287,7 @@ Built build(Structure& structure, b2World& world, const Plan& plan) {
 }
 
 Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {
+  if (plan.make) return plan.make(world, plan, nullptr);
   Built built = build_bodies(world, plan);
   for (const PlannedJoint& j : plan.joints)
     built.joints.push_back(
@@ -297,7 +306,7 @@ std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Bui
     const double factor = ramp(time - load.def.from, load.def.ramp);
     if (factor == 0) continue;
     b2Body* body = built.bodies[load.piece];
-    const b2Vec2 at = body->GetWorldPoint(vector(load.at - plan.carrier(load.piece).center));
+    const b2Vec2 at = body->GetWorldPoint(local_point(built, load.piece, load.at));
     const AppliedLoad now{body, at, vector(factor * load.def.force),
                           static_cast<float>(factor * load.def.moment)};
     body->ApplyForce(now.force, at, true);

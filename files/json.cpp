@@ -162,7 +162,9 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
     problems.check();
   }
   Builder builder(text, problems);
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
+  constexpr bool strict = true, ignore_comments = true;
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, strict,
+                            ignore_comments);
   problems.check();
   return std::move(builder.root);
 }

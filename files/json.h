@@ -32,8 +32,8 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-/// Throws InvalidInput on text that is not JSON, repeats a key, nests deeper than 64 levels, or has a number
-/// that a double does not hold.
+/// Comments (// and /* */) are skipped. Throws InvalidInput on text that is not JSON, repeats a key, nests
+/// deeper than 64 levels, or has a number that a double does not hold.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 /// Indented, with points, rings and short lists on one line each, as one would write them.

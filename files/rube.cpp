@@ -114,6 +114,7 @@ Fixture read_fixture(const Value& value) {
 Body read_body(const Value& value) {
   constexpr BodyType types[] = {BodyType::static_body, BodyType::kinematic_body, BodyType::dynamic_body};
   Body body{.value = value};
+  if (!value.json().is_object()) value.wrong("is " + value.shown(), "write an object, {...}");
   const Item item(value);
   body.name = item.text("name");
   body.type = types[item.integer("type", 0, 2)];
@@ -246,7 +247,8 @@ void remove_custom(Json& item, const std::string& name) {
 
 bool is_scene(const Json& json) {
   if (!json.is_object() || json.contains("bodies") || json.contains("regions")) return false;
-  for (const char* key : {"body", "joint", "image", "stepsPerSecond", "warmStarting"}) {
+  for (const char* key :
+       {"body", "joint", "image", "stepsPerSecond", "warmStarting", "metaworld", "metabody"}) {
     if (json.contains(key)) return true;
   }
   return false;

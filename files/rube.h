@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/definitions.h"
 #include "ductile/plane.h"
 #include "json.h"
 
@@ -102,13 +103,16 @@ Json vector(Point p);
 
 /// The fields of the joint's stock stand-in, and its values as custom properties; what else stands in `item`
 /// stays.
-void write_joint(Json& item, const Plan& plan, const PlannedJoint& joint, int body_a, int body_b,
-                 const Frame& a, const Frame& b);
+void write_joint(Json& item, const Plan& plan, const PlannedJoint& joint, StockJoint as, int body_a,
+                 int body_b, const Frame& a, const Frame& b);
 /// Mass, and density of the fixtures, of a body as it was built, for one that has that frame.
 void write_mass(Json& item, const b2Body& built, const Frame& frame);
 /// Fixtures and mass of a piece, whose body has that frame. What the first fixture was beyond its shape, all
 /// are.
 void write_piece(Json& item, const Plan& plan, int piece, const b2Body& built, const Frame& frame);
+
+/// The plan's loads on a piece, whose body has that frame, as its "ductile.loads".
+void write_loads(Json& item, const Plan& plan, int piece, const Frame& frame);
 
 /// Does the text hold a R.U.B.E. scene (and not a ductile one)?
 bool is_scene(const Json& json);
@@ -125,6 +129,6 @@ struct Scene {
 };
 
 /// Calibrates what names a material. Throws InvalidInput.
-Scene read(const Json& json, const std::string& name);
+Scene read(const Json& json, const std::string& name, StockJoint as = StockJoint::hinge);
 
 }  // namespace ductile::rube

@@ -44,6 +44,20 @@ Json json(const b2Fixture& fixture, const Frame& piece, const Frame& body) {
   return item;
 }
 
+/// Box2D 2.3 (LibGDX, cocos2d-x) welds vertices that are nearer than √(0.0025) m, as it takes half of its
+/// slop of 0.005 m for the square of a distance, and asserts that three are left.
+bool is_taken_by_2_3(const b2Fixture& fixture) {
+  if (fixture.GetType() != b2Shape::e_polygon) return true;
+  const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
+  std::vector<b2Vec2> kept;
+  for (int i = 0; i < polygon.m_count; ++i) {
+    const b2Vec2 p = polygon.m_vertices[i];
+    const auto near = [&](const b2Vec2& q) { return b2DistanceSquared(p, q) < 0.5f * b2_linearSlop; };
+    if (std::none_of(kept.begin(), kept.end(), near)) kept.push_back(p);
+  }
+  return kept.size() >= 3;
+}
+
 /// As scene files have a material; a built-in one by its name.
 void write_material(Json& item, const Material& material) {
   for (NamedMaterial known : materials::all()) {
@@ -83,7 +97,11 @@ void write_piece(Json& item, const Plan& plan, int index, const b2Body& built, c
   for (const char* shape : {"polygon", "circle", "chain", "loop", "edge"}) common.erase(shape);
   item["fixture"] = Json::array();
   std::size_t vertices = 0;
-  for (const b2Fixture* fixture : fixtures_of(built)) {
+  std::vector<const b2Fixture*> fixtures = fixtures_of(built);
+  // Without slivers that only newer players take: mass and outline do not depend on them.
+  if (std::any_of(fixtures.begin(), fixtures.end(), [](auto* fixture) { return is_taken_by_2_3(*fixture); }))
+    std::erase_if(fixtures, [](auto* fixture) { return !is_taken_by_2_3(*fixture); });
+  for (const b2Fixture* fixture : fixtures) {
     Json entry = common;
     entry.update(json(*fixture, own, frame));
     item["fixture"].push_back(std::move(entry));
@@ -119,11 +137,27 @@ void write_piece(Json& item, const Plan& plan, int index, const b2Body& built, c
   set_custom(item, "ductile.outline", "string", outline.dump());
 }
 
-void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, int body_a, int body_b, const Frame& a,
-                 const Frame& b) {
+void write_loads(Json& item, const Plan& plan, int piece, const Frame& frame) {
+  Json list = Json::array();
+  for (const Plan::Load& load : plan.loads) {
+    if (load.piece != piece) continue;
+    const Point at = frame.local(load.at);
+    Json entry{{"at", {at.x, at.y}}, {"force", {load.def.force.x, load.def.force.y}}};
+    if (load.def.moment != 0) entry["moment"] = load.def.moment;
+    if (load.def.from != 0) entry["from"] = load.def.from;
+    if (load.def.ramp != 0) entry["ramp"] = load.def.ramp;
+    if (load.def.to != unlimited) entry["to"] = load.def.to;
+    list.push_back(std::move(entry));
+  }
+  if (!list.empty()) set_custom(item, "ductile.loads", "string", list.dump());
+}
+
+void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint as, int body_a, int body_b,
+                 const Frame& a, const Frame& b) {
   const double moment = std::min(j.M, j.M_reverse);
   auto def = stock_def(plan, j);
-  if (def && std::holds_alternative<b2WeldJointDef>(*def) && moment > 0 && moment < unlimited)
+  if (as == StockJoint::hinge && def && std::holds_alternative<b2WeldJointDef>(*def) && moment > 0 &&
+      moment < unlimited)
     def = hinge_def(plan, j);
   if (!def) def = b2MotorJointDef();  // carries nothing
   item["name"] = j.name;
@@ -215,7 +249,7 @@ Json wheel_json(const Plan::Wheel& wheel, const b2WheelJoint& joint, const Plan&
 
 namespace ductile {
 
-std::string rube_text(const Plan& plan) {
+std::string rube_text(const Plan& plan, StockJoint as) {
   using namespace rube;
   const BuiltPlan built(plan);
   Json scene{{"gravity", vector(plan.gravity)},
@@ -230,6 +264,7 @@ std::string rube_text(const Plan& plan) {
              {"body", Json::array()},
              {"joint", Json::array()}};
   if (plan.interaction) set_custom(scene, "ductile.interaction", "bool", true);
+  if (plan.gravity_ramp > 0) set_custom(scene, "ductile.gravity_ramp", plan.gravity_ramp);
   const auto add_body = [&](const b2Body& body, const std::string& name) -> Json& {
     return scene["body"].emplace_back(body_json(body, name));
   };
@@ -239,6 +274,7 @@ std::string rube_text(const Plan& plan) {
     Json& item = add_body(*built.built.bodies[i], plan.pieces[i].name);
     const b2Vec2 at = built.built.bodies[i]->GetPosition();
     write_piece(item, plan, piece, *built.built.bodies[i], {{at.x, at.y}});
+    write_loads(item, plan, piece, {{at.x, at.y}});
     if (!body.material && body.profile.empty()) continue;
     if (body.material) write_material(item, *body.material);
     if (body.profile.empty())
@@ -252,7 +288,7 @@ std::string rube_text(const Plan& plan) {
   for (const PlannedJoint& j : plan.joints) {
     const auto frame = [&](int piece) { return piece < 0 ? Frame{} : Frame{plan.carrier(piece).center}; };
     Json item;
-    write_joint(item, plan, j, built.body(j.a), built.body(j.b), frame(j.a), frame(j.b));
+    write_joint(item, plan, j, as, built.body(j.a), built.body(j.b), frame(j.a), frame(j.b));
     scene["joint"].push_back(std::move(item));
   }
   return printed(nlohmann::ordered_json(scene));

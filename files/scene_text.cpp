@@ -55,9 +55,7 @@ void put_strength(Json& object, const Material& material) {
 class MaterialNames {
  public:
   std::string name(const Material& material) {
-    for (const NamedMaterial& known : materials::all()) {
-      if (known.material == material) return std::string(known.name);
-    }
+    if (const auto known = built_in_name(material)) return *known;
     for (std::size_t i = 0; i < own_.size(); ++i) {
       if (own_[i] == material) return own_name(i);
     }
@@ -121,6 +119,7 @@ Json json(const JointBetweenDef& joint) {
   object["between"] = {joint.a, joint.b};
   for (const std::string& name : joint.others) object["between"].push_back(name);
   if (joint.at) object["at"] = json(*joint.at);
+  if (joint.across) object["across"] = json(*joint.across);
   put(object, fields::joint, joint);
   put_overrides(object, joint.overrides);
   return object;
@@ -159,6 +158,13 @@ void put_list(Json& scene, const char* key, const std::vector<T>& list) {
 
 }  // namespace
 
+std::optional<std::string> built_in_name(const Material& material) {
+  for (const NamedMaterial& known : materials::all()) {
+    if (known.material == material) return std::string(known.name);
+  }
+  return std::nullopt;
+}
+
 Json material_json(const Material& material) {
   Json object;
   put_strength(object, material);
@@ -178,7 +184,7 @@ Json section_json(const std::vector<Region>& regions) {
   return Json{{"regions", std::move(list)}};
 }
 
-std::string scene_text(const SceneDef& scene) {
+Json scene_json(const SceneDef& scene) {
   MaterialNames names;
   Json bodies = Json::array();
   for (const BodyDef& body : scene.bodies) bodies.push_back(json(body, names));
@@ -194,7 +200,9 @@ std::string scene_text(const SceneDef& scene) {
   put_list(object, "supports", scene.supports);
   put_list(object, "loads", scene.loads);
   put_list(object, "wheels", scene.wheels);
-  return printed(object);
+  return object;
 }
+
+std::string scene_text(const SceneDef& scene) { return printed(scene_json(scene)); }
 
 }  // namespace ductile

@@ -2,12 +2,18 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "ductile/section.h"
+#include "ductile/calibrate.h"
 
 namespace ductile {
 
+/// None where it is not built in.
+std::optional<std::string> built_in_name(const Material& material);
+
+nlohmann::ordered_json scene_json(const SceneDef& scene);
 nlohmann::ordered_json material_json(const Material& material);
 /// {"regions": […]}
 nlohmann::ordered_json section_json(const std::vector<Region>& regions);

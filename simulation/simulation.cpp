@@ -109,8 +109,7 @@ JointReading Simulation::read_stock(std::size_t index) const {
   const float inv_dt = static_cast<float>(1 / stepping.dt);
   const b2Vec2 force = joint->GetReactionForce(inv_dt);
   // The axis turns with the mean of the two pieces; that of a support stays with the ground.
-  const double turn =
-      planned.a < 0 ? 0 : (joint->GetBodyA()->GetAngle() + joint->GetBodyB()->GetAngle()) / 2.;
+  const double turn = planned.a < 0 ? 0 : (turn_of(planned.a) + turn_of(planned.b)) / 2;
   const double c = std::cos(turn), s = std::sin(turn);
   const Point axis{c * planned.axis.x - s * planned.axis.y, s * planned.axis.x + c * planned.axis.y};
   JointReading reading;
@@ -122,13 +121,17 @@ JointReading Simulation::read_stock(std::size_t index) const {
   return reading;
 }
 
+double Simulation::turn_of(int piece) const {
+  const auto i = static_cast<std::size_t>(piece);
+  return built_.bodies[i]->GetAngle() - built_.places[i].angle;
+}
+
 PieceReading Simulation::piece(std::size_t index) const {
   const b2Body& body = *built_.bodies[index];
-  const Point own = plan_.pieces[index].center, whole = plan_.carrier(static_cast<int>(index)).center;
-  const b2Vec2 p =
-      body.GetWorldPoint({static_cast<float>(own.x - whole.x), static_cast<float>(own.y - whole.y)});
+  const int piece = static_cast<int>(index);
+  const b2Vec2 p = body.GetWorldPoint(local_point(built_, piece, plan_.pieces[index].center));
   const b2Vec2 v = body.GetLinearVelocityFromWorldPoint(p);
-  return {{p.x, p.y}, body.GetAngle(), {v.x, v.y}, body.GetAngularVelocity()};
+  return {{p.x, p.y}, turn_of(piece), {v.x, v.y}, body.GetAngularVelocity()};
 }
 
 double Simulation::time_per_step_us() const {

@@ -24,7 +24,7 @@ namespace {
 
 struct Options {
   SceneFile scene;
-  std::string to, out;
+  std::string to, as = "hinge", out;
   std::vector<std::string> pictures;
   std::optional<double> target_error;
   std::optional<double> leave_out;
@@ -149,8 +149,14 @@ std::string definitions_of(const Plan& plan, const Options& options) {
     return in_file(options.scene, [&] { return cpp_text(plan, function_of(options.scene)); });
   if (options.to == "rube") {  // a scene of its own keeps what no plan holds
     const std::string text = read_text(options.scene.name);
-    return is_rube(text) ? calibrated_rube(text, options.scene)
-                         : in_file(options.scene, [&] { return rube_text(plan); });
+    const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;
+    if (is_rube(text)) return calibrated_rube(text, options.scene, as);
+    if (!plan.loads.empty())
+      fmt::print(stderr,
+                 "warning: {}: loads are written as properties of bodies, which only ductile knows: a game "
+                 "applies them before each step\n",
+                 options.scene.name);
+    return in_file(options.scene, [&] { return rube_text(plan, as); });
   }
   return json(plan).dump(options.json || options.to.empty() ? -1 : 1) + "\n";
 }
@@ -173,12 +179,15 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
 
 std::string run(const Options& options) {
   if (options.to == "scene") {
-    const std::string text = scene_text(scene_of(options.scene, read_text(options.scene.name)));
+    const std::string given = read_text(options.scene.name);
+    const std::filesystem::path beside = options.out.empty() ? options.scene.name : options.out;
+    const std::string text = edited_scene(given, scene_of(options.scene, given), beside.parent_path());
     if (options.out.empty()) return text;
     write_text(options.out, text);
     return "";
   }
-  Plan plan = plan_of(options.scene, options.to.empty() || options.to == "rube", options.target_error);
+  const bool whole = !options.leave_out && (options.to.empty() || options.to == "rube");
+  Plan plan = plan_of(options.scene, whole ? NotInPlan::made : NotInPlan::refused, options.target_error);
   std::string left_out;
   if (options.leave_out) {
     if (!options.to.empty() && options.to != "json")
@@ -210,10 +219,16 @@ void add_calibrate(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("calibrate", "Split a scene's bodies and calibrate their joints");
   add_scene(command, options->scene);
+  auto* to = command
+                 ->add_option("--to", options->to,
+                              "print definitions: json, box2d, cpp or rube; or the scene file itself")
+                 ->check(CLI::IsMember({"json", "box2d", "cpp", "rube", "scene"}));
   command
-      ->add_option("--to", options->to,
-                   "print definitions: json, box2d, cpp or rube; or the scene file itself")
-      ->check(CLI::IsMember({"json", "box2d", "cpp", "rube", "scene"}));
+      ->add_option("--as", options->as,
+                   "what a joint that may yield is in players without ductile (hinge): a revolute joint with "
+                   "a brake, or a weld that never gives way; goes with --to rube")
+      ->needs(to)
+      ->check(CLI::IsMember({"hinge", "weld"}));
   command
       ->add_option("--target-error", options->target_error,
                    "relative displacement error of automatic splits (0.01)")

@@ -88,7 +88,7 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
 }
 
 std::string run(const Options& options) {
-  const Plan plan = plan_of(options.scene);
+  const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Order order = options.second_order ? Order::second : Order::first;
   const Found found = in_file(options.scene, [&] {
     Found all{.check = static_check(plan, order), .critical = critical_load(plan)};

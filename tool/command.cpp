@@ -52,13 +52,17 @@ SceneDef scene_of(const SceneFile& file, const std::string& text) {
                           : parse_scene(text, file.name, std::filesystem::path(file.name).parent_path());
 }
 
-Plan plan_of(const SceneFile& file, bool kept_elsewhere, std::optional<double> target_error) {
+Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target_error) {
   const std::string& scene_file = file.name;
   const std::string text = read_text(scene_file);  // once: it may be a pipe
   if (is_rube(text)) {
     std::vector<Problem> beyond;
     Plan plan = parse_plan(text, scene_file, ".", &beyond);
-    if (!beyond.empty() && !kept_elsewhere) throw InvalidInput(std::move(beyond));
+    if (rest == NotInPlan::made) return plan;
+    plan.make = nullptr;
+    if (!beyond.empty() && rest == NotInPlan::refused) throw InvalidInput(std::move(beyond));
+    for (const Problem& problem : beyond)
+      fmt::print(stderr, "warning: {}: {}: statics leaves it out\n", problem.place, problem.what);
     return plan;
   }
   SceneDef scene = scene_of(file, text);

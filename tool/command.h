@@ -46,11 +46,16 @@ void add_scale(CLI::App* command, double& metres_per_unit);
 /// The scene of a drawing or a scene file, whose text it is; warnings of what was not taken on stderr.
 SceneDef scene_of(const SceneFile& file, const std::string& text);
 
+/// What becomes of a level's joints that no plan holds, as ropes and motors.
+enum class NotInPlan {
+  made,      ///< in the world that is built of the plan, with all that the level says besides
+  left_out,  ///< with a warning on stderr
+  refused,
+};
+
 /// The plan of a drawing or a scene file, with another target error for its automatic splits if one is given,
-/// or of a R.U.B.E. scene; what is wrong with it is said of that file. What of a R.U.B.E. scene no plan can
-/// hold is an error, unless the caller keeps it elsewhere.
-Plan plan_of(const SceneFile& file, bool kept_elsewhere = false,
-             std::optional<double> target_error = std::nullopt);
+/// or of a R.U.B.E. scene; what is wrong with it is said of that file.
+Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target_error = std::nullopt);
 
 /// "ground" for −1.
 std::string piece_name(const Plan& plan, int piece);

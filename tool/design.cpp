@@ -179,7 +179,10 @@ std::string run(const Options& options) {
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
   const Found answer = in_file(options.scene, [&] { return found(scene, bodies, target, options); });
   const double mass = measured(calibrate(answer.reach.scene), Measure::mass);
-  if (!options.out.empty()) write_text(options.out, scene_text(answer.reach.scene));
+  if (!options.out.empty()) {
+    const std::filesystem::path out = options.out;
+    write_text(out, edited_scene(text, answer.reach.scene, out.parent_path()));
+  }
   if (options.json)
     return Json{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}}.dump() + "\n";
   std::string of;

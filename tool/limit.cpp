@@ -66,7 +66,7 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
 }
 
 std::string run(const Options& options) {
-  const Plan plan = plan_of(options.scene);
+  const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Found found = in_file(options.scene, [&] {
     Found all{.limit = limit_analysis(plan, options.fixed_gravity), .critical = critical_load(plan)};
     if (options.second_order) all.pushover = second_order_limit(plan, options.fixed_gravity);

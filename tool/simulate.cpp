@@ -211,7 +211,7 @@ Result run(const Options& options) {
   const JointSolver solver = options.solver == "direct"      ? JointSolver::direct
                              : options.solver == "iterative" ? JointSolver::iterative
                                                              : JointSolver::stock;
-  Plan plan = plan_of(options.scene);
+  Plan plan = plan_of(options.scene, NotInPlan::made);
   std::optional<Simulation> simulation;
   in_file(options.scene, [&] { simulation.emplace(std::move(plan), solver, options.stepping, true); });
   std::optional<History> history;

@@ -32,11 +32,11 @@ Opened scene_of(const Drawing& drawing, const std::filesystem::path& file, doubl
 }
 
 Opened level_of(std::string_view text, const std::filesystem::path& file) {
-  std::vector<Problem> beyond;
-  Plan plan = parse_plan(text, file.string(), file.parent_path(), &beyond);
-  std::string note = "A level is run and looked into here; what it is made of is edited where it comes from.";
-  if (!beyond.empty()) note += " Not shown: " + std::to_string(beyond.size()) + " of its parts.";
-  return {{}, file, std::move(note), std::move(plan)};
+  return {{},
+          file,
+          "A level is run and looked into here; what it is made of is edited where it comes from.",
+          parse_plan(text, file.string(), file.parent_path()),
+          {}};
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ Opened open_file(const std::filesystem::path& file, double metres_per_unit) {
   const std::string text = read_text(file);
   if (is_drawing(text)) return scene_of(Drawing(text, file.string()), file, metres_per_unit);
   if (is_rube(text)) return level_of(text, file);
-  return {parse_scene(text, file.string(), file.parent_path()), file, "", {}};
+  return {parse_scene(text, file.string(), file.parent_path()), file, "", {}, text};
 }
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {

@@ -15,6 +15,7 @@ struct Opened {
   std::filesystem::path file;  ///< where saving goes: the scene file itself, or a new one beside a drawing
   std::string note;            ///< what a user should know of how it was read
   std::optional<Plan> level;   ///< of a R.U.B.E. level, which has no scene to edit
+  std::string text;            ///< of the scene file; empty for others
 };
 
 /// A scene file, a R.U.B.E. level, or a drawing, whose shapes become steel bodies above a floor. Throws

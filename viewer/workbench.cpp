@@ -60,6 +60,7 @@ void Workbench::open(const std::filesystem::path& file, double metres_per_unit) 
   version_ = saved_ = 0;
   warned_.clear();
   file_ = std::move(opened.file);
+  text_ = std::move(opened.text);
   message = std::move(opened.note);
   selected.clear();
   focus.reset();
@@ -103,7 +104,9 @@ void Workbench::require_editable() const {
 
 void Workbench::save(const std::filesystem::path& file) {
   require_editable();
-  write_text(file, scene_text(scene()));
+  std::string text = edited_scene(text_, scene(), file.parent_path());
+  write_text(file, text);
+  text_ = std::move(text);
   file_ = file;
   saved_ = version_;
   before_ = plan();

@@ -31,7 +31,8 @@ class Workbench {
   void open_neighbour(int by);
   /// Whether there is a scene to edit and save; a R.U.B.E. level has none.
   bool editable() const { return editable_; }
-  /// Throws std::system_error; InvalidInput where it is not editable.
+  /// What was not edited stays in the file as it stood. Throws std::system_error; InvalidInput where it is
+  /// not editable.
   void save(const std::filesystem::path& file);
   /// Puts another scene in the place of this one and runs it from the start; undo() takes it back. Throws
   /// InvalidInput, with everything as it was. `continued`: it replaces the last edit, as a slider does while
@@ -93,6 +94,7 @@ class Workbench {
 
   std::vector<std::filesystem::path> scenes_;
   std::filesystem::path file_;
+  std::string text_;  // as it was opened or saved; empty: it was no scene file
   std::vector<SceneDef> versions_;
   std::size_t version_ = 0, saved_ = 0;
   bool editable_ = true;

@@ -1,6 +1,7 @@
 // R.U.B.E. scenes: what we write, what we read, and that nothing gets lost on the way.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,8 @@ json property(const json& item, const std::string& name) {
   }
   return nullptr;
 }
+
+void add(json& item, json property) { item["customProperties"].push_back(std::move(property)); }
 
 std::string error_of(const std::string& text) {
   try {
@@ -177,13 +180,144 @@ TEST(Rube, AFlagSaysWhichJointsAreDuctile) {
   json scene = level();
   scene["joint"][0]["customProperties"].push_back({{"name", "ductile.calibrate"}, {"bool", false}});
   EXPECT_EQ(json::parse(calibrated_rube(scene.dump()))["joint"], scene["joint"]);
-  scene = level();
-  scene["joint"][0]["type"] = "revolute";
-  EXPECT_EQ(json::parse(calibrated_rube(scene.dump()))["joint"], scene["joint"]);  // a hinge is a hinge
-  scene["joint"][0]["customProperties"].push_back({{"name", "ductile.calibrate"}, {"bool", true}});
+  scene["joint"][0]["customProperties"].back()["bool"] = true;
+  scene["joint"][0]["type"] = "revolute";  // as if it were a weld
   scene["joint"][0]["customProperties"].push_back({{"name", "ductile.moment"}, {"float", 5e5}});
   const json after = json::parse(calibrated_rube(scene.dump()));
   EXPECT_EQ(property(after["joint"][0], "ductile.M"), 5e5);
+}
+
+// The section at a joint is that of the plank, 0.5 m high, wherever the bodies stand to one another.
+TEST(Rube, BodiesThatOverlapOrStandApartAreJoinedAcrossTheSmallerOne) {
+  const double M = depth * h * h / 4 * 355e6;
+  for (const double x : {2 - 0.3, 2 + 0.004, 2 + 0.3}) {
+    json scene = level();
+    scene["body"][1]["position"] = {{"x", x}, {"y", 0}};
+    scene["joint"][0]["anchorA"] = {{"x", 0}, {"y", 0.25}};
+    const json joint = json::parse(calibrated_rube(scene.dump()))["joint"][0];
+    EXPECT_NEAR(property(joint, "ductile.M"), M, 1e-6 * M) << x;
+    EXPECT_NEAR(property(joint, "ductile.height"), h, 1e-6) << x;
+    EXPECT_NEAR(property(joint, "ductile.axis")["x"], 1, 1e-6) << x;
+  }
+  // Two welds of one pair: each has its section, here at the plank's end and 1 m from it.
+  json scene = level();
+  scene["body"][1]["position"] = {{"x", 1}, {"y", 0}};
+  scene["joint"].push_back(scene["joint"][0]);
+  scene["joint"][0]["anchorA"] = {{"x", -1}, {"y", 0.25}};
+  scene["joint"][2]["anchorA"] = {{"x", 0}, {"y", 0.25}};
+  const json joints = json::parse(calibrated_rube(scene.dump()))["joint"];
+  ASSERT_EQ(joints.size(), 3u);
+  for (const int i : {0, 2}) EXPECT_NEAR(property(joints[i], "ductile.M"), M, 1e-6 * M) << i;
+  EXPECT_NEAR(joints[2]["anchorA"]["x"], 0, 1e-6);
+  EXPECT_NEAR(joints[2]["anchorA"]["y"], h / 2, 1e-6);
+}
+
+// A tee: its web, 0.2 m wide and 1 m long, hangs on the ceiling; the flange is a fixture of its own, which
+// overlaps the web.
+TEST(Rube, ABodyOfSeveralFixturesHasTheSectionAtItsAnchor) {
+  json scene = level();
+  scene["body"][1]["position"] = 0;
+  const auto box = [](double x0, double x1, double y0, double y1) {
+    return json{{"density", 1},
+                {"polygon", {{"vertices", {{"x", {x0, x1, x1, x0}}, {"y", {y0, y0, y1, y1}}}}}}};
+  };
+  scene["body"][1]["fixture"] = {box(-0.1, 0.1, -2, -0.9), box(-1, 1, -2.2, -1.9)};
+  scene["joint"][0]["anchorA"] = scene["joint"][0]["anchorB"] = {{"x", 0}, {"y", -1}};
+  const double N = depth * 0.2 * 355e6, mass = 7850 * depth * (0.2 * 1 + 2 * 0.3);
+  const json after = json::parse(calibrated_rube(scene.dump()));
+  EXPECT_NEAR(property(after["joint"][0], "ductile.N"), N, 1e-6 * N);
+  EXPECT_NEAR(after["body"][1]["massData-mass"], mass, 1e-6 * mass);
+  // Two fixtures that do not touch are one rigid body of both.
+  scene["body"][1]["fixture"][1] = box(-1, 1, -2.5, -2.2);
+  const double apart = 7850 * depth * (0.2 * 1.1 + 2 * 0.3);
+  EXPECT_NEAR(json::parse(calibrated_rube(scene.dump()))["body"][1]["massData-mass"], apart, 1e-6 * apart);
+  b2World world({0, 0});
+  EXPECT_NEAR(load_text(world, scene.dump()).bodies.find("plank")->second->GetMass(), apart, 1e-6 * apart);
+}
+
+TEST(Rube, ARevoluteJointIsAPinAtItsAnchor) {
+  json scene = level();
+  json& joint = scene["joint"][0];
+  joint["type"] = "revolute";
+  joint["anchorA"] = {{"x", 0}, {"y", 0.1}};
+  joint["anchorB"] = {{"x", -2}, {"y", 0.1}};
+  const double N = depth * h * 355e6;
+  json after = json::parse(calibrated_rube(scene.dump()))["joint"][0];
+  EXPECT_EQ(property(after, "ductile.M"), 0);
+  EXPECT_NEAR(property(after, "ductile.N"), N, 1e-6 * N);
+  EXPECT_EQ(after["type"], "revolute");
+  EXPECT_NEAR(after["anchorA"]["y"], 0.1, 1e-6);
+  EXPECT_NEAR(after["anchorB"]["x"], -2, 1e-6);
+  // A motor that only brakes is its plastic moment, and never wears out.
+  joint["enableMotor"] = true;
+  joint["maxMotorTorque"] = 700;
+  after = json::parse(calibrated_rube(scene.dump()))["joint"][0];
+  EXPECT_EQ(property(after, "ductile.M"), 700);
+  EXPECT_EQ(property(after, "ductile.max_rotation"), "unlimited");
+  EXPECT_EQ(after["maxMotorTorque"], 700);
+  // What drives and limits joints is no matter of material.
+  for (const auto& [key, value] : {std::pair<const char*, json>{"motorSpeed", 1}, {"enableLimit", true}}) {
+    json driven = scene;
+    driven["joint"][0][key] = value;
+    EXPECT_EQ(json::parse(calibrated_rube(driven.dump()))["joint"], driven["joint"]) << key;
+  }
+}
+
+TEST(Rube, LoadsAreProperties) {
+  SceneDef scene;
+  scene.gravity_ramp = 2;
+  scene.bodies = {
+      {.name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}, {}}},
+      {.name = "beam",
+       .outline = {{{0, 0}, {8, 0}, {8, 1}, {0, 1}}, {}},
+       .material = materials::oak,
+       .pieces = 4}};
+  scene.joints = {{.a = "wall", .b = "beam"}};
+  scene.loads = {{.body = "beam", .at = {7.5, 1}, .force = {3, -4}, .from = 1, .ramp = 2, .to = 9},
+                 {.body = "beam", .at = {1, 0.5}, .moment = 5}};
+  const Plan written = calibrate(scene), read = parse_plan(rube_text(written));
+  EXPECT_EQ(read.gravity_ramp, 2);
+  ASSERT_EQ(read.loads.size(), 2u);
+  for (const Plan::Load& load : written.loads) {  // they stand with their bodies
+    const auto same = std::find_if(read.loads.begin(), read.loads.end(),
+                                   [&](const Plan::Load& l) { return l.piece == load.piece; });
+    ASSERT_NE(same, read.loads.end());
+    EXPECT_NEAR(same->at.x, load.at.x, 1e-6);
+    EXPECT_NEAR(same->at.y, load.at.y, 1e-6);
+    EXPECT_EQ(same->def.force, load.def.force);
+    EXPECT_EQ(same->def.moment, load.def.moment);
+    EXPECT_EQ(same->def.from, load.def.from);
+    EXPECT_EQ(same->def.ramp, load.def.ramp);
+    EXPECT_EQ(same->def.to, load.def.to);
+  }
+  // A body that is split takes each load to the piece under it.
+  json split = level();
+  add(split["body"][1], {{"name", "ductile.pieces"}, {"int", 4}});
+  add(split["body"][1], {{"name", "ductile.loads"}, {"string", R"([{"at": [1.5, 0.5], "force": [0, -9]}])"}});
+  const std::string once = calibrated_rube(split.dump());
+  EXPECT_EQ(calibrated_rube(once), once);
+  const Plan plan = parse_plan(once);
+  ASSERT_EQ(plan.loads.size(), 1u);
+  EXPECT_EQ(plan.pieces[static_cast<std::size_t>(plan.loads[0].piece)].name, "plank/3");
+}
+
+TEST(Rube, JointsThatYieldAreHingesOrWelds) {
+  const std::string text = level().dump();
+  const json hinge = json::parse(calibrated_rube(text))["joint"][0],
+             weld = json::parse(calibrated_rube(text, "level", StockJoint::weld))["joint"][0];
+  EXPECT_EQ(hinge["type"], "revolute");
+  EXPECT_EQ(weld["type"], "weld");
+  EXPECT_GT(weld["frequency"], 0);
+  EXPECT_EQ(property(hinge, "ductile.M"), property(weld, "ductile.M"));
+}
+
+TEST(Rube, WhatALevelDoesNotHaveIsNotWritten) {
+  const json nothing = json::parse(R"({"gravity": {"x": 0, "y": -10}, "stepsPerSecond": 60})");
+  EXPECT_EQ(json::parse(calibrated_rube(nothing.dump())), nothing);
+  json bodies = level();
+  bodies.erase("joint");
+  bodies.erase("image");
+  EXPECT_EQ(json::parse(calibrated_rube(bodies.dump())), bodies);
 }
 
 class WhatWeWrite : public testing::TestWithParam<const char*> {};
@@ -300,8 +434,6 @@ TEST_P(SpoiltRube, SaysWhatAndWhere) {
   EXPECT_NE(error.find(GetParam().saying), std::string::npos) << error;
 }
 
-void add(json& item, json property) { item["customProperties"].push_back(std::move(property)); }
-
 INSTANTIATE_TEST_SUITE_P(
     Files, SpoiltRube,
     testing::Values(
@@ -328,17 +460,23 @@ INSTANTIATE_TEST_SUITE_P(
                },
                "ductile.material"},
         Spoilt{"no_depth", [](json& s) { s["body"][1]["customProperties"][1]["float"] = 0; }, "body[1]"},
-        Spoilt{"bodies_apart",
+        Spoilt{"a_body_without_shape",
                [](json& s) {
-                 s["body"][1]["position"] = {{"x", 3}, {"y", 0}};
+                 s["body"][1].erase("fixture");
+                 add(s["joint"][0], {{"name", "ductile.calibrate"}, {"bool", true}});
                },
-               "edges do not overlap"},
-        Spoilt{"overlapping_fixtures",
+               "joint[0]: joins a body without a shape"},
+        Spoilt{"pieces_of_two_parts",
                [](json& s) {
-                 s["body"][1]["fixture"][1]["polygon"]["vertices"]["x"] = {-0.5, 2, 2, -0.5};
+                 s["body"][1]["fixture"][1]["polygon"]["vertices"]["x"] = {0.5, 2, 2, 0.5};
+                 add(s["body"][1], {{"name", "ductile.pieces"}, {"int", 3}});
                },
-               "body"},
-        Spoilt{"joined_twice", [](json& s) { s["joint"].push_back(s["joint"][0]); }, "joint[2]"},
+               "body[1]: is in several parts already"},
+        Spoilt{"a_load_beside_its_body",
+               [](json& s) {
+                 add(s["body"][1], {{"name", "ductile.loads"}, {"string", R"([{"at": [0, 9]}])"}});
+               },
+               "load 0"},
         Spoilt{"axis_of_nothing", [](json& s) { s["joint"][1]["type"] = "prismatic"; },
                "joint[1]: has no axis"},
         Spoilt{"gear_of_ropes",
@@ -364,6 +502,98 @@ INSTANTIATE_TEST_SUITE_P(
                },
                "ductile.axis"}),
     [](const auto& info) { return info.param.name; });
+
+/// What commands run of a level: a box of 0.6 m × 1 m that falls from its centre's height of 2 m.
+// A plan of a level brings all of it into the world.
+
+Plan falling_on(const std::string& ground, const std::string& more = "") {
+  return parse_plan(R"({"gravity": {"x": 0, "y": -10}, "body": [
+      {"name": "ground", "type": 0, "position": 0, "fixture": [)" +
+                    ground + R"(]},
+      {"name": "box", "type": 2, "position": {"x": 0, "y": 2}, "massData-mass": 3, "massData-I": 0.34)" +
+                    more + R"(,
+       "fixture": [{"density": 5, "polygon": {"vertices": {"x": [-0.3, 0.3, 0.3, -0.3], "y": [-0.5, -0.5, 0.5, 0.5]}}}]}]})");
+}
+
+TEST(Plan, ChainsEdgesAndOverlappingFixturesAreGround) {
+  for (const char* ground : {R"({"chain": {"vertices": {"x": [10, -10], "y": [0, 0]}}})",
+                             R"({"chain": {"vertices": {"x": [-10, 10], "y": [0, 0]}}})",
+                             R"({"chain": {"vertices": {"x": [-10, -3, 3, 10], "y": [4, 0, 0, 4]}}})",
+                             R"({"loop": {"vertices": {"x": [-10, 10, 10, -10], "y": [0, 0, 9, 9]}}})",
+                             R"({"edge": {"vertex1": {"x": -10, "y": 0}, "vertex2": {"x": 10, "y": 0}}})",
+                             R"({"polygon": {"vertices": {"x": [-5, 1, 1, -5], "y": [-1, -1, 0, 0]}}},
+                                {"polygon": {"vertices": {"x": [-1, 5, 5, -1], "y": [-2, -2, 0, 0]}}})",
+                             R"({"polygon": {"vertices": {"x": [-5, -0.1, -0.1, -5], "y": [-1, -1, 0, 0]}}},
+                                {"polygon": {"vertices": {"x": [0.1, 5, 5, 0.1], "y": [-1, -1, 0, 0]}}})"}) {
+    const Plan plan = falling_on(ground);
+    EXPECT_GE(plan.pieces.size(), 2u) << "the ground is drawn: " << ground;
+    b2World world({0, 0});
+    Built built;
+    const Structure structure = build(world, plan, {}, &built);
+    for (int i = 0; i < 180; ++i) world.Step(1 / 60.f, 8, 3);
+    EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5, 0.02) << ground;  // within Box2D's slop
+  }
+}
+
+TEST(Plan, ABodyOfFixedRotationDoesNotTurn) {
+  const Plan plan = falling_on(R"({"polygon": {"vertices": {"x": [0.2, 5, 5, 0.2], "y": [-1, -1, 0, 0]}}})",
+                               R"(, "fixedRotation": true)");
+  b2World world({0, 0});
+  const Built built = build_stock(world, plan);
+  for (int i = 0; i < 60; ++i) world.Step(1 / 60.f, 8, 3);
+  EXPECT_EQ(built.bodies.back()->GetAngle(), 0);
+  EXPECT_NEAR(built.bodies.back()->GetPosition().y, 0.5,
+              0.02);  // on the ground's corner, 0.2 m off its centre
+}
+
+TEST(Plan, BringsRopesSensorsAndTurnedBodiesAlong) {
+  json scene = level();
+  scene["body"][1]["fixture"].push_back(
+      {{"sensor", true}, {"circle", {{"center", 0}, {"radius", 9}}}, {"name", "near"}});
+  // Turned by 180 degrees about the origin of the world, and gravity with it: all is as before.
+  json turned = scene;
+  turned["gravity"] = {{"x", 0}, {"y", 10}};
+  for (json& body : turned["body"]) {
+    if (body["position"].is_object()) {
+      body["position"]["x"] =
+          -(body["position"]["x"].is_string() ? 2.0 : body["position"]["x"].get<double>());
+      body["position"]["y"] = -body["position"]["y"].get<double>();
+    }
+    body["angle"] = 3.14159265;
+  }
+  for (const bool stock : {false, true}) {
+    std::array<Point, 2> lamp;
+    for (const int way : {0, 1}) {
+      std::vector<Problem> beyond;
+      const Plan plan = parse_plan((way ? turned : scene).dump(), "level.json", ".", &beyond);
+      EXPECT_EQ(beyond.size(), 1u);  // the rope
+      b2World world({0, 0});
+      Built built;
+      std::optional<Structure> structure;
+      if (stock)
+        built = build_stock(world, plan);
+      else
+        structure.emplace(build(world, plan, {}, &built));
+      EXPECT_EQ(world.GetJointCount(), 2);
+      EXPECT_EQ(structure ? structure->joints().size() : 0, stock ? 0u : 1u);
+      for (int i = 0; i < 600; ++i) {
+        world.Step(1 / 60.f, 8, 3);
+        if (structure) structure->update();
+      }
+      const b2Vec2 at = built.bodies[2]->GetPosition();
+      lamp[static_cast<std::size_t>(way)] = way ? Point{-at.x, -at.y} : Point{at.x, at.y};
+    }
+    EXPECT_NEAR(lamp[0].x, 4, 0.05) << stock;
+    EXPECT_NEAR(lamp[0].y, -1.5, 0.05) << stock;  // the rope's length below the plank's tip
+    EXPECT_NEAR(lamp[1].x, lamp[0].x, 1e-3) << stock;
+    EXPECT_NEAR(lamp[1].y, lamp[0].y, 1e-3) << stock;
+  }
+}
+
+TEST(Rube, AProjectOfTheEditorIsToldAsSuch) {
+  EXPECT_NE(error_of(R"({"metaworld": {"metabody": []}})").find("is a project of the R.U.B.E. editor"),
+            std::string::npos);
+}
 
 TEST(Level, OfASceneFileAndItsDrawing) {
   b2World world({0, 0});

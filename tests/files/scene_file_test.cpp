@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "ductile/files.h"
 
@@ -95,6 +96,8 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(scene.joints[2].overrides.elastic_rotation, 0.02);
   EXPECT_EQ(scene.joints[2].overrides.frequency, 3);
   EXPECT_EQ(scene.joints[0].at, std::nullopt);
+  EXPECT_EQ(scene.joints[0].across, std::nullopt);
+  EXPECT_EQ(scene.joints[1].across, (std::array<Point, 2>{{{0, 1}, {0, 2.5}}}));
   EXPECT_EQ(scene.joints[3].at, (Point{0, 0.5}));
   EXPECT_EQ(scene.joints[3].others, std::vector<std::string>{"arm"});
   EXPECT_EQ(scene.joints[3].overrides.axial, 1e6);
@@ -129,6 +132,108 @@ void expect_everything(const SceneDef& scene) {
 }
 
 TEST(SceneFile, EveryKeyIsRead) { expect_everything(parse_scene(everything)); }
+
+// A file as someone wrote it: with links, comments and a layout of its own.
+constexpr const char* written = R"({
+  // The crane on the quay.
+  "materials": {
+    "steel": { "density": 7800, "E": 210e9,   "fy": 350e6 /* from the mill */ },
+    "plain": "S235" },
+  "bodies": [
+    { "name": "jib", "outline": "harbour_crane.svg#jib", "depth": 0.10, "material": "steel",
+      "split": { "pieces": 4 } },
+    { "name": "mast", "outline": "harbour_crane.svg#pillar", "material": "steel" },
+    { "name": "box", "outline": [[0, 0], [1, 0],
+                                 [1, 1]], "material": "plain" }
+  ],
+  "loads": [ { "body": "box", "at": [0.9, 0.5], "force": [0, -1e3] } ] // N
+}
+)";
+constexpr const char* scenes = DUCTILE_SOURCE_DIR "/scenes";
+
+struct Edited {
+  const char* name;
+  std::function<void(SceneDef&)> edit;
+  std::vector<std::pair<std::string, std::string>> replaced;  ///< in the text above
+};
+class SceneFileEdited : public testing::TestWithParam<Edited> {};
+TEST_P(SceneFileEdited, ChangesWhereItStands) {
+  SceneDef scene = parse_scene(written, "scene", scenes);
+  GetParam().edit(scene);
+  std::string expected = written;
+  for (const auto& [was, is] : GetParam().replaced) expected.replace(expected.find(was), was.size(), is);
+  const std::string text = edited_scene(written, scene, scenes);
+  EXPECT_EQ(text, expected);
+  EXPECT_EQ(scene_text(parse_scene(text, "scene", scenes)), scene_text(scene));
+}
+void steel_of(SceneDef& scene, std::initializer_list<std::size_t> bodies, double fy) {
+  for (const std::size_t i : bodies) scene.bodies[i].material->yield_stress = fy;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Scene, SceneFileEdited,
+    testing::Values(
+        Edited{"nothing", [](SceneDef&) {}, {}},
+        Edited{"depth", [](SceneDef& s) { s.bodies[0].depth = 0.25; }, {{"0.10", "0.25"}}},
+        Edited{"depth_that_was_default",
+               [](SceneDef& s) { s.bodies[2].depth = 2; },
+               {{R"("material": "plain" })", R"("material": "plain", "depth": 2.0 })"}}},
+        Edited{"pieces", [](SceneDef& s) { s.bodies[0].pieces = 7; }, {{R"("pieces": 4)", R"("pieces": 7)"}}},
+        Edited{"no_split",
+               [](SceneDef& s) { s.bodies[0].pieces = 1; },
+               {{R"(,
+      "split": { "pieces": 4 })",
+                 ""}}},
+        Edited{"a_shared_material",
+               [](SceneDef& s) {
+                 steel_of(s, {0, 1}, 4e8);
+               },
+               {{"350e6", "400000000.0"}}},
+        Edited{"a_material_of_one_body",
+               [](SceneDef& s) { steel_of(s, {1}, 4e8); },
+               {{R"(#pillar", "material": "steel")", R"(#pillar", "material": "steel 2")"},
+                {R"("plain": "S235")",
+                 R"("plain": "S235",
+    "steel 2": {"fy":400000000.0,"E":210000000000.0,"density":7800.0})"}}},
+        Edited{"a_built_in_material",
+               [](SceneDef& s) { s.bodies[2].material = materials::S355; },
+               {{R"("plain" })", R"("S355" })"}}},
+        Edited{"a_limit",
+               [](SceneDef& s) { s.bodies[0].joint.moment = 5; },
+               {{R"({ "pieces": 4 })", R"({ "pieces": 4 },
+      "joint": {"moment":5.0})"}}},
+        Edited{"gravity",
+               [](SceneDef& s) {
+                 s.gravity = {0, -1};
+               },
+               {{"-1e3] } ]", "-1e3] } ],\n  \"gravity\": [0.0,-1.0]"}}},
+        Edited{"an_outline",
+               [](SceneDef& s) {
+                 s.bodies[2].outline.outer[2] = {1, 3};
+               },
+               {{"[[0, 0], [1, 0],\n                                 [1, 1]]",
+                 "[[0.0,0.0],[1.0,0.0],[1.0,3.0]]"}}},
+        Edited{"a_load_less",
+               [](SceneDef& s) { s.loads.clear(); },
+               {{",\n  \"loads\": [ { \"body\": \"box\", \"at\": [0.9, 0.5], \"force\": [0, -1e3] } ]", ""}}},
+        Edited{"a_load_more",
+               [](SceneDef& s) {
+                 s.loads.push_back({.body = "box", .at = {0.5, 0}, .moment = 2});
+               },
+               {{"-1e3] } ]", R"(-1e3] }, {"body":"box","at":[0.5,0.0],"moment":2.0} ])"}}},
+        Edited{"a_body_less",
+               [](SceneDef& s) { s.bodies.erase(s.bodies.begin() + 1); },
+               {{R"(,
+    { "name": "mast", "outline": "harbour_crane.svg#pillar", "material": "steel" })",
+                 ""}}}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(SceneFile, ThatCannotBeEditedIsWrittenAnew) {
+  SceneDef scene = parse_scene(written, "scene", scenes);
+  std::swap(scene.bodies[0], scene.bodies[2]);
+  EXPECT_EQ(edited_scene(written, scene, scenes), scene_text(scene));
+  EXPECT_EQ(edited_scene(written, scene, "/nowhere"), scene_text(scene));  // the drawing is not there
+  EXPECT_EQ(edited_scene("", scene), scene_text(scene));
+}
 
 TEST(SceneFile, WhatIsWrittenReadsBackTheSame) {
   const std::string text = scene_text(parse_scene(everything));

@@ -18,6 +18,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     world.Step(1 / 60.0f, 8, 3);
     level.structure.update();
+    const Plan plan = parse_plan(once);
+    for (const bool stock : {false, true}) {
+      b2World of_plan({0, 0});
+      if (stock)
+        build_stock(of_plan, plan);
+      else
+        build(of_plan, plan);
+      require(of_plan.GetBodyCount() == world.GetBodyCount(), "a plan brings all of its level");
+    }
   } catch (const InvalidInput& error) {
     require(!error.problems().empty(), "an error says what is wrong");
   }

@@ -7,6 +7,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const SceneDef scene = parse_scene(text(data, size), "scene", "no such folder");
     const std::string written = scene_text(scene);
     require(scene_text(parse_scene(written)) == written, "what is written reads back the same");
+    require(edited_scene(text(data, size), scene, "no such folder") == text(data, size),
+            "nothing was edited");
+    SceneDef edited = scene;
+    edited.gravity.x += 1;
+    if (!edited.bodies.empty()) edited.bodies.back().depth *= 2;
+    require(scene_text(parse_scene(edited_scene(text(data, size), edited, "no such folder"))) ==
+                scene_text(edited),
+            "an edited file has the edited values");
     const Plan plan = calibrate(scene);
     for (const Piece& piece : plan.pieces) {
       require_finite({piece.mass, piece.inertia, piece.center.x, piece.center.y}, "piece");

@@ -305,12 +305,26 @@ TEST(CalibrateCommand, SaysWhatOfALevelNoPlanHolds) {
   const std::string file = folder.write("level.json", text);
   EXPECT_EQ(run("calibrate " + file).exit, 0);
   EXPECT_EQ(run("calibrate " + file + " --to rube").json()["joint"][1]["maxLength"], 9);
-  for (const char* command : {"simulate --time 1 ", "calibrate --to cpp "}) {
-    const Ran ran = run(command + file);
-    expect_bad_input(ran, "joint[1]: is a rope joint");
-    EXPECT_EQ(ran.err.find(file + ":"), 0u) << ran.err;
-  }
+  EXPECT_EQ(run("simulate --time 1 " + file).err, "");  // which has it
+  const Ran definitions = run("calibrate --to cpp " + file), statics = run("check " + file);
+  expect_bad_input(definitions, "joint[1]: is a rope joint");
+  EXPECT_EQ(definitions.err.find(file + ":"), 0u) << definitions.err;
+  EXPECT_EQ(statics.exit, 0);
+  EXPECT_NE(statics.err.find("joint[1]: is a rope joint that is not calibrated: statics leaves it out"),
+            std::string::npos)
+      << statics.err;
 }
+
+TEST(CalibrateCommand, WritesHingesOrWeldsForPlayersOfLevels) {
+  const Folder folder;
+  const std::string file = folder.write("level.json", level + "}");
+  EXPECT_EQ(run("calibrate " + file + " --to rube").json()["joint"][0]["type"], "revolute");
+  EXPECT_EQ(run("calibrate " + file + " --to rube --as weld").json()["joint"][0]["type"], "weld");
+  expect_bad_input(run("calibrate " + file + " --to rube --as glue"), "glue");
+  const Ran crane = run("calibrate " DUCTILE_SOURCE_DIR "/scenes/frame_pushed.scene.json --to rube");
+  EXPECT_NE(crane.err.find("loads are written as properties"), std::string::npos) << crane.err;
+}
+
 TEST(CalibrateCommand, LeavesOutWhatTheSceneDoesNotNeed) {
   const std::string scene = DUCTILE_SOURCE_DIR "/scenes/cantilever.scene.json";
   const Ran ran = run("calibrate " + scene + " --leave-out 0.01 --time 2 --json");

@@ -1,7 +1,8 @@
 // A Plan in Box2D: definitions of its joints for any world, and whole worlds.
 //
 // Every piece becomes a body, or part of one (Piece::part_of), whose origin is its centre of mass and whose
-// angle is 0 at first, so that a joint's local anchors are its anchor less the centres. Numbers that Box2D
+// angle is 0 at first, so that a joint's local anchors are its anchor less the centres (those of a level are
+// where the level has them). Numbers that Box2D
 // takes as floats are checked: one that overflows a float or vanishes in it is refused (InvalidInput), never
 // inf or 0.
 #pragma once
@@ -59,13 +60,23 @@ std::vector<b2PolygonShape> shapes(const Piece& piece);
 
 // --- worlds ---
 
+/// Where a body was when it was made.
+struct BodyPlace {
+  b2Vec2 origin{0, 0};  ///< m
+  float angle = 0;      ///< rad
+};
+
 /// What a plan became in a world, which owns it all.
 struct Built {
   std::vector<b2Body*> bodies;   ///< by Plan::pieces; the same for pieces of one rigid body
   b2Body* ground = nullptr;      ///< static, holds the supports; null where there are none
   std::vector<b2Joint*> joints;  ///< by Plan::joints
   std::vector<b2WheelJoint*> wheels;
+  std::vector<BodyPlace> places;  ///< of `bodies` at t = 0
 };
+
+/// A point of the plan, m, world axes at t = 0, in the coordinates of the body of a piece.
+b2Vec2 local_point(const Built& built, int piece, Point at);
 
 /// Bodies with exact mass, fixtures and wheels, without the plan's joints. Pieces of one body do not collide
 /// with each other: a split body without a collision group of its own gets a negative one that is new in the

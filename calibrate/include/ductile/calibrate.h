@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -91,8 +92,8 @@ struct BodyDef {
   std::int16_t group = 0;         ///< collision filter group, as Box2D
 };
 
-/// Two bodies joined wherever their edges overlap; or at a point, two or more, whether or not they meet
-/// there.
+/// Two bodies joined wherever their edges overlap; across a segment; or at a point, two or more: the latter
+/// whether or not they meet there.
 struct JointBetweenDef {
   std::string a, b;  ///< names of bodies
   double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
@@ -101,6 +102,9 @@ struct JointBetweenDef {
   /// nothing limits but its own overrides.
   std::optional<Point> at;
   std::vector<std::string> others;  ///< further bodies of a node
+  /// m, world axes at t = 0: the joint's section instead of common edges, between the pieces nearest to its
+  /// middle, which is the joint's anchor. Two bodies may have several such joints.
+  std::optional<std::array<Point, 2>> across;
 };
 
 /// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free.
@@ -203,6 +207,8 @@ struct LeftOut {
   double time_saved = 0;  ///< share of the step's time, from the same run
 };
 
+struct Built;
+
 /// Calibrated pieces and joints, engine-free.
 struct Plan {
   Point gravity;
@@ -225,6 +231,10 @@ struct Plan {
   };
   std::vector<Wheel> wheels;
   std::vector<LeftOut> left_out;
+  /// Makes the plan in a world, where a level says more of its bodies than pieces do and has more than a plan
+  /// holds (ductile/level.h); its joints in the structure, or as stock joints where that is null. Empty:
+  /// build() makes the pieces as they are.
+  std::function<Built(b2World&, const Plan&, Structure*)> make;
 
   /// The piece that stands for the rigid body of a piece: itself unless it is part of another.
   const Piece& carrier(int piece) const {

@@ -19,8 +19,14 @@ std::string box2d_text(const Plan& plan);
 /// Structure. It needs ductile::joint and no other room.
 std::string cpp_text(const Plan& plan, const std::string& function);
 
+/// The stock joint that stands for one that yields in bending.
+enum class StockJoint {
+  hinge,  ///< revolute, its motor at speed 0 the plastic moment (hinge_def())
+  weld,   ///< never gives way (weld_def())
+};
+
 /// A R.U.B.E. scene (docs/files/rube.md): welds, revolute motors and pins that any player understands, with
-/// the joints' values in their customProperties; load() makes ductile joints of those.
-std::string rube_text(const Plan& plan);
+/// the joints' values and the loads in customProperties; load() makes ductile joints of those.
+std::string rube_text(const Plan& plan, StockJoint as = StockJoint::hinge);
 
 }  // namespace ductile

@@ -33,6 +33,12 @@ SceneDef parse_scene(std::string_view text, const std::string& name = "scene",
 /// place.
 std::string scene_text(const SceneDef& scene);
 
+/// The same into the text of a scene file: what has changed is changed where it stands; links to drawings and
+/// section files, order, layout and comments stay. `folder` is where the text will be. What is no scene, or
+/// cannot be changed so, becomes scene_text().
+std::string edited_scene(std::string_view text, const SceneDef& scene,
+                         const std::filesystem::path& folder = ".");
+
 /// How outlines are taken from a drawing.
 struct DrawingScale {
   double metres_per_unit =

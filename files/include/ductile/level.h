@@ -9,6 +9,7 @@
 
 #include "ductile/box2d.h"
 #include "ductile/calibrate.h"
+#include "ductile/definitions.h"
 #include "ductile/joint.h"
 
 namespace ductile {
@@ -32,8 +33,9 @@ Level load(b2World& world, const std::filesystem::path& file, const StructureDef
 Level load_text(b2World& world, std::string_view text, const std::string& name = "level",
                 const std::filesystem::path& folder = ".", const StructureDef& def = {});
 
-/// The plan of such a text: calibrated, for commands and tools that work on plans. What of a R.U.B.E. scene
-/// no plan can hold is put into `beyond`, if given.
+/// The plan of such a text: calibrated, for commands and tools that work on plans. Built in a world, that of
+/// a R.U.B.E. scene brings all of it along (Plan::make): ropes, motors, sensors. `beyond`, if given, becomes
+/// the list of joints that the plan itself knows nothing of, and statics therefore leaves out.
 Plan parse_plan(std::string_view text, const std::string& name = "level",
                 const std::filesystem::path& folder = ".", std::vector<Problem>* beyond = nullptr);
 
@@ -41,6 +43,7 @@ Plan parse_plan(std::string_view text, const std::string& name = "level",
 bool is_rube(std::string_view text);
 
 /// A R.U.B.E. scene with its joints calibrated, as text; everything else stands there as it did.
-std::string calibrated_rube(std::string_view text, const std::string& name = "level");
+std::string calibrated_rube(std::string_view text, const std::string& name = "level",
+                            StockJoint as = StockJoint::hinge);
 
 }  // namespace ductile

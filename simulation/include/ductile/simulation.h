@@ -115,6 +115,7 @@ class Simulation {
 
   void record(const JointEvent& event);
   JointReading read_stock(std::size_t index) const;
+  double turn_of(int piece) const;  // rad, since the start
 
   Plan plan_;
   JointSolver solver_;
