@@ -65,6 +65,42 @@ TEST(Motion, ACantileverIsDampedAsAsked) {
   }
 }
 
+// How far the tip of a cantilever column leans that carries `share` of Euler's load, and 1e-5 of it across.
+double lean(double share, int pieces, double rate) {
+  BeamDef def{.pieces = pieces, .length = 10, .height = 0.2, .youngs_modulus = 210e9, .gravity = 0};
+  def.angle = pi / 2;
+  def.fixtures = false;
+  const double inertia = std::pow(def.height, 3) / 12, mass = def.density * def.height;
+  const double bending = def.youngs_modulus * inertia;
+  const double omega = first_mode * std::sqrt(bending / (mass * std::pow(def.length, 4)));
+  def.damping_time = 2 * 0.05 / omega;
+  Beam beam(def);
+  const double load = share * pi * pi * bending / (4 * def.length * def.length);
+  b2Body* last = beam.pieces.back();
+  const b2Vec2 end{static_cast<float>(def.length / pieces / 2), 0};
+  for (double t = 0; t < 60; t += 1 / rate) {
+    const double now = load * std::min(1.0, t / 5);
+    last->ApplyForce({static_cast<float>(1e-5 * now), static_cast<float>(-now)}, last->GetWorldPoint(end),
+                     true);
+    beam.world.Step(static_cast<float>(1 / rate), 8, 3);
+    beam.structure.update();
+  }
+  return std::abs(last->GetWorldPoint(end).x);
+}
+
+// Below Euler's load first-order deflection grows by 1/(1 − P/P_cr); at 1.063 of it the elastica leans by
+// 0.422 of its length (Timoshenko & Gere, Theory of Elastic Stability, 1961, table 2-4).
+TEST(Motion, ColumnsBuckleAtEulersLoad) {
+  for (const double rate : {30.0, 60.0}) {
+    for (const int pieces : {10, 20}) {
+      SCOPED_TRACE(testing::Message() << rate << " Hz, " << pieces << " pieces");
+      const double straight = 1e-5 * 0.95 * pi * pi / 4 * 10 / 3;
+      EXPECT_NEAR(lean(0.95, pieces, rate), straight / 0.05, 0.1 * straight / 0.05);
+      EXPECT_NEAR(lean(1.063, pieces, rate), 0.422 * 10, (pieces == 10 ? 0.02 : 0.01) * 0.422 * 10);
+    }
+  }
+}
+
 // A mass on an elastic-plastic spring, and the force that sets in at once: Biggs, Introduction to Structural
 // Dynamics (1964), 2.7: ductility 1/(2 (1 − F/R)) for F ≥ R/2.
 struct Oscillator {
