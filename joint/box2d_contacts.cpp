@@ -68,6 +68,15 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
   }
 }
 
+bool share_a_neighbour(const b2Body& a, const b2Body& b) {
+  for (const b2JointEdge* to = a.GetJointList(); to != nullptr; to = to->next) {
+    if (to->other->GetType() != b2_dynamicBody) continue;
+    for (const b2JointEdge* on = b.GetJointList(); on != nullptr; on = on->next)
+      if (on->other == to->other) return true;
+  }
+  return false;
+}
+
 // Of one point Box2D adds mass·(what is missing): nothing. Of two it solves K x = K a − (v − bounce) anew,
 // with x = a where K⁻¹ K is 1 and K⁻¹ of all else is nothing. A point that does not press is found to part.
 void settle(VelocityConstraint& c) {

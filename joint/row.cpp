@@ -42,7 +42,8 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
       k = limit / (h * h);
     }
     law.spring[i] = k;
-    law.damping[i] = c;
+    // What the step cannot take of a damper beside a stiff spring is not there.
+    law.damping[i] = how.delta < 1 ? std::min(c, delta * k * h) : c;
     law.delta[i] = delta;
     law.cap[i] = h * material.cap[i];
     law.cap_reverse[i] = h * material.cap_reverse[i];

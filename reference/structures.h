@@ -142,11 +142,13 @@ struct Built {
     stock_hinges  // b2RevoluteJoints whose motors give way at the plastic moment
   };
 
-  Built(const Layout& layout, Kind kind, double gravity) : world({0, static_cast<float>(-gravity)}) {
+  Built(const Layout& layout, Kind kind, double gravity, bool keep_ledger = false)
+      : world({0, static_cast<float>(-gravity)}) {
     world.SetAllowSleeping(false);
     if (kind <= iterative) {
       structure.emplace(world,
-                        StructureDef{.solver = kind == ours ? SolverKind::direct : SolverKind::iterative});
+                        StructureDef{.solver = kind == ours ? SolverKind::direct : SolverKind::iterative,
+                                     .keep_ledger = keep_ledger && kind == ours});
     }
     b2BodyDef at_origin;
     ground = world.CreateBody(&at_origin);

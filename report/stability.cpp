@@ -127,9 +127,9 @@ Scene scene_of(const Row& row, const Cell& cell) {
   return scene;
 }
 
-// In the middle of the last step of h seconds, where the velocities belong: half a step's way back, and the
-// mean of what was stored before and after it, which is no less than what is stored there. `stored` goes on
-// from step to step.
+// In the middle of the last step of h seconds, where the velocities belong: half a step's way back, and what
+// the solver's ledger tells is stored there. Where there is none, the mean of what was stored before and
+// after the step, which is no less; `stored` goes on from step to step.
 double energy(const Built& b, const Layout& layout, const b2Body* block, double block_mass, double gravity,
               double h, double& stored) {
   double sum = 0;
@@ -145,16 +145,21 @@ double energy(const Built& b, const Layout& layout, const b2Body* block, double 
   }
   if (block != nullptr) add(block, block_mass, block_mass / 6, rest);
   double now = 0;
+  if (b.structure && b.structure->energy().elastic > 0) return sum + b.structure->energy().elastic;
   if (b.structure) {
     for (const auto* joint : b.structure->joints()) now += joint->elastic_energy();
   }
   return sum + (std::exchange(stored, now) + now) / 2;
 }
 
+// What rests on an elastic beam that swings undamped is lifted by Box2D's corrections of overlap, step by
+// step: at 1/30 s by more than 1 % of the scale. It is promised from 50 Hz on.
+bool lifts(const Row& row, bool elastic, double dt) { return row.mass == resting && elastic && dt > 0.02; }
+
 Outcome run(const Row& row, const Cell& cell, Built::Kind kind, double seconds) {
   const Scene scene = scene_of(row, cell);
   const Layout& layout = scene.layout;
-  Built b(layout, kind, scene.gravity);
+  Built b(layout, kind, scene.gravity, true);
   b2Body* block = nullptr;
   if (scene.block > 0) {
     b2BodyDef def;
@@ -294,7 +299,9 @@ Result run_stability(const Context& context) {
   for (std::size_t s = 0; s < 3; ++s) {
     Matrix matrix{.name = fmt::format("stability-{}", solvers[s].name),
                   .title = fmt::format("{}: 8/3 iterations", solvers[s].name),
-                  .caption = "✓ stands, ~ drifts, ✗ diverges; ● promised of the direct solver.",
+                  .caption =
+                      "✓ stands, ~ drifts, ✗ diverges; ● promised of the direct solver (a block on a steel "
+                      "beam: from 50 Hz on).",
                   .levels = {"stiffness", "time step", "pieces"}};
     for (const bool elastic : {false, true}) {
       for (const double dt : steps) {
@@ -319,7 +326,7 @@ Result run_stability(const Context& context) {
             table.rows.push_back({row.name, row.promised, elastic ? "steel" : "rigid", dt, n, solvers[s].name,
                                   names[o.verdict], o.residual, o.off, o.ever, o.bounds_hit});
             if (s == 0) (row.promised ? hits : hits_beyond) += o.bounds_hit;
-            if (!row.promised) continue;
+            if (!row.promised || lifts(row, elastic, dt)) continue;
             if (s == 0 && row.mass == resting && o.ever > deepest) {
               deepest = o.ever;
               deepest_where = fmt::format("{}, {}, 1/{:.0f} s, {} pieces", row.name,

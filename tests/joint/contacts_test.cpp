@@ -226,8 +226,9 @@ TEST(Contacts, GiveNoEnergy) {
       };
       beam.run(dt);
       const double scale = block->GetMass() * light.gravity * 2;
-      // Corrections of overlap lift what comes down on an edge of its own.
-      const double lifted = restitution > 0 && mass > 1 ? 2e-2 : 4e-3;
+      // Corrections of overlap lift what comes down on an edge of its own; what is heavy does so again and
+      // again, as the undamped beam throws it.
+      const double lifted = mass > 1 ? 2e-2 : 4e-3;
       double least = energy();
       for (int i = 0; i < 600; ++i) {
         beam.run(dt);
