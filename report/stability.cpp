@@ -323,10 +323,11 @@ Result run_stability(const Context& context) {
             const std::string told = fmt::format(
                 "residual energy {:.2g}, displacement {:.3g} m, {:.3g} m at most", o.residual, o.off, o.ever);
             line.cells.push_back({names[o.verdict], told});
-            table.rows.push_back({row.name, row.promised, elastic ? "steel" : "rigid", dt, n, solvers[s].name,
+            const bool promise = row.promised && !lifts(row, elastic, dt);
+            table.rows.push_back({row.name, promise, elastic ? "steel" : "rigid", dt, n, solvers[s].name,
                                   names[o.verdict], o.residual, o.off, o.ever, o.bounds_hit});
-            if (s == 0) (row.promised ? hits : hits_beyond) += o.bounds_hit;
-            if (!row.promised || lifts(row, elastic, dt)) continue;
+            if (s == 0) (promise ? hits : hits_beyond) += o.bounds_hit;
+            if (!promise) continue;
             if (s == 0 && row.mass == resting && o.ever > deepest) {
               deepest = o.ever;
               deepest_where = fmt::format("{}, {}, 1/{:.0f} s, {} pieces", row.name,
