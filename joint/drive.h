@@ -14,7 +14,7 @@
 
 namespace ductile::dynamics {
 
-inline bool is_driven(const JointRecord& r, unsigned i) { return (r.material.driven >> i & 1u) != 0; }
+inline bool is_driven(const JointRecord& r, unsigned i) { return r.material.is_driven(i); }
 
 /// Lists the driven joints, and marks those that are or may be slack. Never allocates after the system's
 /// form().

@@ -44,8 +44,7 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
     if (work >= 0) r.dissipated[i] += s / h * increment;
     if (r.material.hardening[i] > 0) {
       // Isotropic: the slider of modulus H in series with the spring raises the cap in both directions.
-      const double k = r.law.spring[i], after = std::min(r.material.hardening[i], 0.99 * k);
-      const double growth = after * k / (k - after) * std::abs(increment);
+      const double growth = r.material.slider_modulus(i, r.law.spring[i]) * std::abs(increment);
       r.material.cap[i] += growth;
       r.material.cap_reverse[i] += growth;
       laws.set_law(j, r);

@@ -43,9 +43,9 @@ Orphan orphan_of(const Member& m) {
   def.axisFollow = static_cast<float>(m.own.frame.follow);
   for (unsigned i = 0; i < 3; ++i) {
     const Material& r = m.own_record.material;
-    def.rows[i] = {r.stiffness[i], r.damping_ratio[i],         r.cap[i], r.cap_reverse[i], r.hardening[i],
-                   r.damping[i],   (r.slackens >> i & 1u) != 0};
-    if ((r.driven >> i & 1u) != 0) def.rows[i].drive = Drive{r.target[i], r.speed[i]};
+    def.rows[i] = {r.stiffness[i], r.damping_ratio[i], r.cap[i],        r.cap_reverse[i],
+                   r.hardening[i], r.damping[i],       r.may_slacken(i)};
+    if (r.is_driven(i)) def.rows[i].drive = Drive{r.target[i], r.speed[i]};
   }
   def.line = m.own.frame.line;
   if (def.line) def.length = m.own.neutral[axial];

@@ -17,7 +17,7 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
   law.surface = material.surface;
   law.h = h;
   double shared = 0;  // δ of all rows that share a yield surface, but of the implicit ones
-  const auto special = [&](unsigned i) { return ((material.slackens | material.driven) >> i & 1u) != 0; };
+  const auto special = [&](unsigned i) { return material.may_slacken(i) || material.is_driven(i); };
   for (unsigned i = 0; i < 3; ++i) {
     const double limit = rigid_ratio * m_eff[i];
     if (!(material.stiffness[i] > 0) || !(limit > 0) ||
@@ -59,8 +59,8 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     law.G[i] = share * h * h * k;
     law.relaxation[i] = 1 / (share * h);
     law.carry[i] = delta < 1 ? 1 - delta / share : 1 / delta - 1;
-    // A slider of modulus H in series with the spring: 1/hardening = 1/k + 1/H. s/G + (s − hF)/(h²H) = x.
-    const double after = std::min(material.hardening[i], 0.99 * k), H = after * k / (k - after);
+    // A slider of modulus H in series with the spring: s/G + (s − hF)/(h²H) = x.
+    const double H = material.slider_modulus(i, k);
     law.after_yield[i] = h * h * H / (h * h * H + law.G[i]);
   }
   return law;

@@ -30,6 +30,8 @@
 // 3 + i beyond its reverse cap, or all of it is `on_surface`. Within a regime of caps the law is linear.
 #pragma once
 
+#include <algorithm>
+
 #include "yield_surface.h"
 
 namespace ductile::dynamics {
@@ -61,6 +63,13 @@ struct Material {
   unsigned slackens = 0, driven = 0;  // rows that go slack at a cap of 0, and driven ones, one bit each
   Rows target{}, speed{};             // of driven rows: see Drive
 
+  bool may_slacken(unsigned row) const { return (slackens >> row & 1u) != 0; }
+  bool is_driven(unsigned row) const { return (driven >> row & 1u) != 0; }
+  /// H of the slider in series with a spring k, 1/hardening = 1/k + 1/H, N/m or N m/rad.
+  double slider_modulus(unsigned row, double k) const {
+    const double after = std::min(hardening[row], 0.99 * k);
+    return after * k / (k - after);
+  }
   void drive(unsigned row, double to, double at) {
     driven |= 1u << row;
     target[row] = to;

@@ -143,7 +143,7 @@ inline bool is_implicit(const JointRecord& r, unsigned i) { return r.law.delta[i
 
 /// Whether a row that takes one sign took nothing in the last step (drive.h).
 inline bool is_slack(const Joint& j, const JointRecord& r, unsigned i) {
-  return (r.material.slackens >> i & 1u) != 0 && j.impulse[i] == 0;
+  return r.material.may_slacken(i) && j.impulse[i] == 0;
 }
 
 /// The elastic strain e that a row's bias was made of, m or rad.
