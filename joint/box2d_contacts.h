@@ -105,8 +105,8 @@ void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take) {
         return moves(body) && (first ? is_piece(body) : reached(index) == 1);
       };
       if (taken_[k] != 0 || !(from(a, t.velocity->a) || from(b, t.velocity->b))) continue;
-      if (!may_take(a) || !may_take(b) || share_a_neighbour(*a, *b)) continue;
       taken_[k] = 1;
+      if (!may_take(a) || !may_take(b) || share_a_neighbour(*a, *b)) continue;
       chosen_.push_back(t);
       points += static_cast<std::size_t>(t.velocity->count);
     }

@@ -24,7 +24,6 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       (is_free(body) ? bodies : others).push_back(body);
     }
   }
-  const std::unordered_map<b2Body*, int> joined = degree;
   for (const Touch& t : contacts) {
     for (b2Body* body : {t.a(), t.b()}) {
       if (number.try_emplace(body, 0).second) (is_free(body) ? bodies : others).push_back(body);
@@ -64,11 +63,12 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
     mirror.exact = in_doubles(mirror.given);
     mirror.type = body->GetType();
-    mirror.guest = !joined.contains(body);
+    const auto joined = degree.find(body);
+    mirror.guest = joined == degree.end();
     read_mass(i);
     int edges = 0;
     for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
-    mirror.joints = edges == degree[body] ? body->GetJointList() : nullptr;
+    mirror.joints = !mirror.guest && edges == joined->second ? body->GetJointList() : nullptr;
     put(solver.places[i], relative(mirror.left));
     by_address_.emplace_back(body, static_cast<int>(i));
   }

@@ -75,13 +75,7 @@ void Structure::Impl::choose_contacts(const b2SolverData& data) {
   contacts_.clear();
   if (def.solver != SolverKind::direct) return;
   contacts_.read(*world, data);
-  const auto is_ours = [this](b2Body* body) {
-    for (b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) {
-      const ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(e->joint);
-      if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure == this;
-    }
-    return false;
-  };
+  const auto is_ours = [this](const b2Body* body) { return structure_of(*body) == this; };
   const auto may_take = [this](b2Body* body) {
     return body->GetType() != b2_dynamicBody || (is_free(body) && !is_of_another(*body));
   };

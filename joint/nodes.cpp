@@ -94,14 +94,18 @@ void Structure::Impl::join_orphans() {
   }
 }
 
-// No two structures share a body, so its first joint of a structure tells.
-bool Structure::Impl::is_of_another(const b2Body& body) const {
-  if (!is_free(&body)) return false;
+const Structure::Impl* Structure::Impl::structure_of(const b2Body& body) {
   for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
     const auto* joint = ElasticPlasticJoint::cast(e->joint);
-    if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure != this;
+    if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure;
   }
-  return false;
+  return nullptr;
+}
+
+bool Structure::Impl::is_of_another(const b2Body& body) const {
+  if (!is_free(&body)) return false;
+  const Impl* owner = structure_of(body);
+  return owner != nullptr && owner != this;
 }
 
 std::vector<std::string> Structure::Impl::problems(const ElasticPlasticJointDef& d) const {

@@ -61,8 +61,9 @@ bool Solver::solve(SolveReport& report) {
     solution.moved = true;
   }
   // Friction knows its caps a round late. At rest and in even motion the first is right.
-  for (int round = 0; round < 8 && !contacts.empty(); ++round) {
+  for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);
+    if (round == 8) break;
     const Lag lag = lag_friction(*this, round);
     if (!lag.again) break;
     if (lag.other_rows) hessian_.forget();
@@ -70,7 +71,6 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
-  read_contacts(*this);
   last_ = solution.at;
   return solution.moved;
 }

@@ -37,6 +37,8 @@ struct Structure::Impl {
   void watch_is_gone(bool with_world);
   std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
   /// Whether a structure has joints on the body that is not this one.
+  /// Whose joints a body has: no two structures share one, so its first tells. Null: nobody's.
+  static const Impl* structure_of(const b2Body& body);
   bool is_of_another(const b2Body& body) const;
   /// Joins to each other what hung on bodies of nodes that are no more.
   void join_orphans();
