@@ -142,13 +142,14 @@ struct Built {
     stock_hinges  // b2RevoluteJoints whose motors give way at the plastic moment
   };
 
+  /// `keep_ledger` is for the direct solver alone; others have none.
   Built(const Layout& layout, Kind kind, double gravity, bool keep_ledger = false)
-      : world({0, static_cast<float>(-gravity)}) {
+      : world({0, static_cast<float>(-gravity)}), has_ledger(keep_ledger && kind == ours) {
     world.SetAllowSleeping(false);
     if (kind <= iterative) {
       structure.emplace(world,
                         StructureDef{.solver = kind == ours ? SolverKind::direct : SolverKind::iterative,
-                                     .keep_ledger = keep_ledger && kind == ours});
+                                     .keep_ledger = has_ledger});
     }
     b2BodyDef at_origin;
     ground = world.CreateBody(&at_origin);
@@ -253,6 +254,7 @@ struct Built {
   }
 
   b2World world;
+  bool has_ledger;
   std::optional<Structure> structure;
   b2Body* ground = nullptr;
   std::vector<b2Body*> pieces;

@@ -145,7 +145,7 @@ double energy(const Built& b, const Layout& layout, const b2Body* block, double 
   }
   if (block != nullptr) add(block, block_mass, block_mass / 6, rest);
   double now = 0;
-  if (b.structure && b.structure->energy().elastic > 0) return sum + b.structure->energy().elastic;
+  if (b.has_ledger) return sum + b.structure->energy().elastic;
   if (b.structure) {
     for (const auto* joint : b.structure->joints()) now += joint->elastic_energy();
   }

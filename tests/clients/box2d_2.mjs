@@ -1,6 +1,7 @@
 // Box2D 2.4.1 compiled for the web (box2d-wasm): what `--to box2d` says under "2.4".
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
+import {setFields} from './fields.mjs';
 
 // Given its bytes, it does not try to fetch them from a server.
 const require = createRequire(import.meta.url);
@@ -43,10 +44,7 @@ export function load(doc, choose) {
     const def = new defs[type]();
     def.bodyA = bodies[joint.bodyA];
     def.bodyB = bodies[joint.bodyB];
-    for (const [key, value] of Object.entries(fields)) {
-      if (!(key in def)) throw new Error(`${type} has no ${key}`);
-      def[key] = Array.isArray(value) ? vec(value) : value;
-    }
+    setFields(def, type, fields, (value) => Array.isArray(value) ? vec(value) : value);
     world.CreateJoint(def);
   }
   return {

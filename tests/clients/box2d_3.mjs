@@ -1,9 +1,12 @@
 // Box2D 3 compiled for the web (box2d3-wasm): what `--to box2d` says under "3".
 import Box2DFactory from 'box2d3-wasm';
+import {createBody, jointKinds, player, setMass} from './box2d_c.mjs';
+import {setFields} from './fields.mjs';
 
 const B = await Box2DFactory();
+const types = {static: B.b2BodyType.b2_staticBody, kinematic: B.b2BodyType.b2_kinematicBody,
+               dynamic: B.b2BodyType.b2_dynamicBody};
 const vec = ([x, y]) => new B.b2Vec2(x, y);
-const substeps = 8;
 
 export function load(doc, choose) {
   const worldDef = B.b2DefaultWorldDef();
@@ -11,14 +14,7 @@ export function load(doc, choose) {
   const world = B.b2CreateWorld(worldDef);
   const bodies = {};
   for (const b of doc.bodies) {
-    const def = B.b2DefaultBodyDef();
-    def.type = {static: B.b2BodyType.b2_staticBody, kinematic: B.b2BodyType.b2_kinematicBody,
-                dynamic: B.b2BodyType.b2_dynamicBody}[b.type];
-    def.position = vec(b.position);
-    def.linearVelocity = vec(b.linearVelocity);
-    def.angularVelocity = b.angularVelocity;
-    def.enableSleep = b.allowSleep;
-    const body = bodies[b.name] = B.b2CreateBody(world, def);
+    const body = bodies[b.name] = createBody(B, world, b, types[b.type]);
     for (const f of b.fixtures) {
       const shape = B.b2DefaultShapeDef();
       shape.density = f.density;
@@ -34,35 +30,19 @@ export function load(doc, choose) {
         B.b2CreateCircleShape(body, shape, disc);
       }
     }
-    if (b.type === 'dynamic') {
-      const mass = new B.b2MassData();
-      mass.mass = b.mass;
-      mass.center = vec([0, 0]);
-      mass.rotationalInertia = b.inertia;
-      B.b2Body_SetMassData(body, mass);
-    }
+    if (b.type === 'dynamic') setMass(B, body, b);
   }
-  const kinds = {weld: 'Weld', revolute: 'Revolute', prismatic: 'Prismatic', wheel: 'Wheel'};
   for (const joint of doc.joints) {
     const {type, localFrameA, localFrameB, ...fields} = choose(joint)['3'];
-    const def = B[`b2Default${kinds[type]}JointDef`]();
+    const def = B[`b2Default${jointKinds[type]}JointDef`]();
     def.base.bodyIdA = bodies[joint.bodyA];
     def.base.bodyIdB = bodies[joint.bodyB];
     def.base.localFrameA = frame(localFrameA);
     def.base.localFrameB = frame(localFrameB);
-    for (const [key, value] of Object.entries(fields)) {
-      if (!(key in def)) throw new Error(`${type} has no ${key}`);
-      def[key] = value;
-    }
-    B[`b2Create${kinds[type]}Joint`](world, def);
+    setFields(def, type, fields);
+    B[`b2Create${jointKinds[type]}Joint`](world, def);
   }
-  return {
-    gravity: (g) => B.b2World_SetGravity(world, vec(g)),
-    step: () => B.b2World_Step(world, 1 / 60, substeps),
-    angle: (name) => B.b2Rot_GetAngle(B.b2Body_GetRotation(bodies[name])),
-    position: (name) => { const p = B.b2Body_GetPosition(bodies[name]); return [p.x, p.y]; },
-    mass: (name) => B.b2Body_GetMass(bodies[name]),
-  };
+  return player(B, world, bodies);
 }
 
 function frame({p, angle}) {

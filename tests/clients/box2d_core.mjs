@@ -1,5 +1,6 @@
 // Box2D 2.4 ported to TypeScript (@box2d/core): what `--to box2d` says under "2.4".
 import core from '@box2d/core';
+import {setFields} from './fields.mjs';
 
 const B = core;
 const types = {static: B.b2BodyType.b2_staticBody, kinematic: B.b2BodyType.b2_kinematicBody,
@@ -39,10 +40,7 @@ export function load(doc, choose) {
     const def = new defs[type]();
     def.bodyA = bodies[joint.bodyA];
     def.bodyB = bodies[joint.bodyB];
-    for (const [key, value] of Object.entries(fields)) {
-      if (!(key in def)) throw new Error(`${type} has no ${key}`);
-      if (Array.isArray(value)) def[key].Set(...value); else def[key] = value;
-    }
+    setFields(def, type, fields, (value) => Array.isArray(value) ? vec(value) : value);
     world.CreateJoint(def);
   }
   return {

@@ -1,10 +1,10 @@
 // Box2D 3.0 in JavaScript (phaser-box2d): what `--to box2d` says under "3", whose frames are anchors, an axis and a
 // reference angle here.
 import * as B from './node_modules/phaser-box2d/dist/PhaserBox2D.js';
+import {createBody, jointKinds, player, setMass} from './box2d_c.mjs';
+import {setFields} from './fields.mjs';
 
 const vec = ([x, y]) => new B.b2Vec2(x, y);
-const kinds = {weld: 'Weld', revolute: 'Revolute', prismatic: 'Prismatic', wheel: 'Wheel'};
-const substeps = 8;
 
 export function load(doc, choose) {
   B.b2CreateWorldArray();
@@ -13,13 +13,7 @@ export function load(doc, choose) {
   const world = B.b2CreateWorld(worldDef);
   const bodies = {};
   for (const b of doc.bodies) {
-    const def = B.b2DefaultBodyDef();
-    def.type = ['static', 'kinematic', 'dynamic'].indexOf(b.type);
-    def.position = vec(b.position);
-    def.linearVelocity = vec(b.linearVelocity);
-    def.angularVelocity = b.angularVelocity;
-    def.enableSleep = b.allowSleep;
-    const body = bodies[b.name] = B.b2CreateBody(world, def);
+    const body = bodies[b.name] = createBody(B, world, b, ['static', 'kinematic', 'dynamic'].indexOf(b.type));
     for (const f of b.fixtures) {
       const shape = B.b2DefaultShapeDef();
       shape.density = f.density;
@@ -31,34 +25,19 @@ export function load(doc, choose) {
       else
         B.b2CreateCircleShape(body, shape, new B.b2Circle(vec(f.center), f.circle));
     }
-    if (b.type === 'dynamic') {
-      const mass = new B.b2MassData();
-      mass.mass = b.mass;
-      mass.center = vec([0, 0]);
-      mass.rotationalInertia = b.inertia;
-      B.b2Body_SetMassData(body, mass);
-    }
+    if (b.type === 'dynamic') setMass(B, body, b);
   }
   for (const joint of doc.joints) {
     const {type, localFrameA, localFrameB, ...fields} = choose(joint)['3'];
-    const def = B[`b2Default${kinds[type]}JointDef`]();
+    const def = B[`b2Default${jointKinds[type]}JointDef`]();
     def.bodyIdA = bodies[joint.bodyA];
     def.bodyIdB = bodies[joint.bodyB];
     def.localAnchorA = vec(localFrameA.p);
     def.localAnchorB = vec(localFrameB.p);
     if ('localAxisA' in def) def.localAxisA = vec([Math.cos(localFrameA.angle), Math.sin(localFrameA.angle)]);
     if ('referenceAngle' in def) def.referenceAngle = localFrameA.angle - localFrameB.angle;
-    for (const [key, value] of Object.entries(fields)) {
-      if (!(key in def)) throw new Error(`${type} has no ${key}`);
-      def[key] = value;
-    }
-    B[`b2Create${kinds[type]}Joint`](world, def);
+    setFields(def, type, fields);
+    B[`b2Create${jointKinds[type]}Joint`](world, def);
   }
-  return {
-    gravity: (g) => B.b2World_SetGravity(world, vec(g)),
-    step: () => B.b2World_Step(world, 1 / 60, substeps),
-    angle: (name) => B.b2Rot_GetAngle(B.b2Body_GetRotation(bodies[name])),
-    position: (name) => { const {x, y} = B.b2Body_GetPosition(bodies[name]); return [x, y]; },
-    mass: (name) => B.b2Body_GetMass(bodies[name]),
-  };
+  return player(B, world, bodies);
 }
