@@ -13,8 +13,8 @@
 #include "axis.h"
 #include "convex.h"
 #include "ductile/box2d.h"
+#include "ductile/moments.h"
 #include "ductile/plane.h"
-#include "moments.h"
 
 namespace ductile::calibration {
 namespace {
@@ -280,14 +280,8 @@ class Automatic {
   // Across the axis about which the body is most slender.
   void make_straight() {
     const AreaMoments m = moments(outline_);
-    const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
-    const Point u{std::cos(angle), std::sin(angle)};
-    double low = 0, high = 0;
-    for (const Point& p : outline_.outer) {
-      low = std::min(low, dot(p - m.centroid, u));
-      high = std::max(high, dot(p - m.centroid, u));
-      reach_ = std::max(reach_, 1.01 * length(p - m.centroid));
-    }
+    const auto [u, low, high] = long_axis(outline_, m);
+    for (const Point& p : outline_.outer) reach_ = std::max(reach_, 1.01 * length(p - m.centroid));
     axis_.nodes.clear();
     axis_.members = {
         Member{.start = m.centroid + low * u, .end = m.centroid + high * u, .length = high - low}};

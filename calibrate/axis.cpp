@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "moments.h"
+#include "ductile/moments.h"
 
 namespace ductile::calibration {
 namespace {

@@ -16,10 +16,10 @@
 #include "automatic.h"
 #include "caps.h"
 #include "ductile/fields.h"
+#include "ductile/moments.h"
 #include "ductile/plane.h"
 #include "ductile/strip_line.h"
 #include "fundamental.h"
-#include "moments.h"
 #include "split.h"
 #include "strip.h"
 #include "touching.h"
@@ -379,7 +379,7 @@ class Planner {
     std::vector<Cut> cuts;
     for (const auto& [from, to] : body.cuts) cuts.push_back({from, to});
     if (body.pieces > 1) {
-      const auto [from, to] = body.along[0] == body.along[1] ? long_axis(body.outline) : body.along;
+      const auto [from, to] = body.along[0] == body.along[1] ? ends_of_long_axis(body.outline) : body.along;
       double reach = 0;
       for (const Point& p : body.outline.outer) reach = std::max(reach, length(p - from));
       const Point across = (2 * reach) * left(unit(to - from));

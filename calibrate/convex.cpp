@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "ductile/calibrate.h"
-#include "moments.h"
+#include "ductile/moments.h"
 #include "orientation.h"
 #include "triangulation.h"
 

@@ -1,8 +1,11 @@
-#include "moments.h"
+#include "ductile/moments.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include "ductile/plane.h"
 
-namespace ductile::calibration {
+namespace ductile {
 
 AreaMoments moments(const Outline& outline) {
   // Green's theorem over the edges, about a vertex of the outline itself.
@@ -36,4 +39,14 @@ AreaMoments moments(const Outline& outline) {
   return m;
 }
 
-}  // namespace ductile::calibration
+LongAxis long_axis(const Outline& outline, const AreaMoments& m) {
+  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
+  LongAxis axis{std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1}};
+  for (const Point& p : outline.outer) {
+    axis.low = std::min(axis.low, dot(p - m.centroid, axis.direction));
+    axis.high = std::max(axis.high, dot(p - m.centroid, axis.direction));
+  }
+  return axis;
+}
+
+}  // namespace ductile

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "moments.h"
+#include "ductile/moments.h"
 #include "orientation.h"
 
 namespace ductile::calibration {

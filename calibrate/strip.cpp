@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "ductile/moments.h"
 #include "ductile/plane.h"
 #include "ductile/rolled.h"
 #include "ductile/shear.h"
 #include "ductile/strip_line.h"
-#include "moments.h"
 
 namespace ductile::calibration {
 namespace {
@@ -79,16 +79,10 @@ double hardening(const Material& m) { return std::max(1.0, m.ultimate_stress / m
 
 }  // namespace
 
-std::array<Point, 2> long_axis(const Outline& outline) {
+std::array<Point, 2> ends_of_long_axis(const Outline& outline) {
   const AreaMoments m = moments(outline);
-  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
-  const Point u = std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1};
-  double low = 0, high = 0;
-  for (const Point& p : outline.outer) {
-    low = std::min(low, dot(p - m.centroid, u));
-    high = std::max(high, dot(p - m.centroid, u));
-  }
-  return {m.centroid + low * u, m.centroid + high * u};
+  const LongAxis axis = long_axis(outline, m);
+  return {m.centroid + axis.low * axis.direction, m.centroid + axis.high * axis.direction};
 }
 
 Strip::Strip(const BodyDef& body) : body_(&body) {
@@ -163,7 +157,7 @@ std::array<Point, 2> strip_line(const BodyDef& body) {
   if (body.cuts.size() > 1)
     line = {middle(body.cuts.front()[0], body.cuts.front()[1]),
             middle(body.cuts.back()[0], body.cuts.back()[1])};
-  return line[0] == line[1] ? calibration::long_axis(body.outline) : line;
+  return line[0] == line[1] ? calibration::ends_of_long_axis(body.outline) : line;
 }
 
 }  // namespace ductile

@@ -19,7 +19,7 @@ struct Strength {
 
 /// From end to end of an outline through its centroid, along the axis about which its area is most slender;
 /// in the direction of x, then of y.
-std::array<Point, 2> long_axis(const Outline& outline);
+std::array<Point, 2> ends_of_long_axis(const Outline& outline);
 
 /// A body seen as the strip that it is drawn as: a rectangle of the body's depth at every cut, or its
 /// profile.

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "moments.h"
+#include "ductile/moments.h"
 #include "orientation.h"
 
 namespace ductile::calibration {

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "ductile/box2d.h"
+#include "ductile/moments.h"
 #include "ductile/plane.h"
-#include "moments.h"
 
 namespace ductile {
-using namespace calibration;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/moments.h"
 #include "ductile/plane.h"
 
 namespace ductile::rube {
@@ -26,39 +27,20 @@ void for_each_edge(const Outline& outline, const Visit& visit) {
 struct Shape {
   double area = 0;
   Point centroid;
-  Point axis{1, 0};        // the long one
+  LongAxis axis;
   double extent = 0;       // along the axis
   double slenderness = 1;  // ratio of the radii of gyration
 
-  explicit Shape(const Ring& ring) {
-    // By triangles from the first vertex: area, first and second moments.
-    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-    for (std::size_t i = 2; i < ring.size(); ++i) {
-      const Point p = ring[i - 1] - ring[0], q = ring[i] - ring[0];
-      const double a = cross(p, q) / 2;
-      area += a;
-      x += a * (p.x + q.x) / 3;
-      y += a * (p.y + q.y) / 3;
-      xx += a * (p.x * p.x + p.x * q.x + q.x * q.x) / 6;
-      yy += a * (p.y * p.y + p.y * q.y + q.y * q.y) / 6;
-      xy += a * (2 * p.x * p.y + p.x * q.y + q.x * p.y + 2 * q.x * q.y) / 12;
-    }
-    const Point c{x / area, y / area};
-    xx = xx / area - c.x * c.x;
-    yy = yy / area - c.y * c.y;
-    xy = xy / area - c.x * c.y;
-    area = std::abs(area);
-    centroid = ring[0] + c;
-    const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+  explicit Shape(const Outline& outline) {
+    const Outline ring{outline.outer, {}};
+    const AreaMoments m = moments(ring);
+    area = m.area;
+    centroid = m.centroid;
+    if (!(area > 0)) return;
+    axis = long_axis(ring, m);
+    extent = axis.high - axis.low;
+    const double mean = m.polar() / 2, spread = std::hypot((m.xx - m.yy) / 2, m.xy);
     slenderness = mean > spread ? std::sqrt((mean + spread) / (mean - spread)) : unlimited;
-    const double angle = std::atan2(2 * xy, xx - yy) / 2;
-    axis = {std::cos(angle), std::sin(angle)};
-    double low = 0, high = 0;
-    for (const Point& p : ring) {
-      low = std::min(low, dot(p - centroid, axis));
-      high = std::max(high, dot(p - centroid, axis));
-    }
-    extent = high - low;
   }
 };
 
@@ -124,11 +106,11 @@ std::optional<std::array<Point, 2>> cut_across(const Outline& outline, const Sha
 }  // namespace
 
 std::optional<std::array<Point, 2>> cut_at(const Outline& outline, Point anchor) {
-  const Shape shape(outline.outer);
+  const Shape shape(outline);
   if (!(shape.area > 0) || !(shape.extent > 0)) return std::nullopt;
   const Point out = anchor - shape.centroid;
   const bool directed = shape.slenderness > 1.1 || !(length(out) > 0.25 * std::sqrt(shape.area));
-  const Point u = directed ? shape.axis : unit(out);
+  const Point u = directed ? shape.axis.direction : unit(out);
   const auto one = cut_across(outline, shape, anchor, u), other = cut_across(outline, shape, anchor, left(u));
   const auto height = [](const auto& cut) { return cut ? length((*cut)[1] - (*cut)[0]) : unlimited; };
   return height(other) < height(one) ? other : one;

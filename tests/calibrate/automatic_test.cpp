@@ -12,7 +12,7 @@
 #include "convex.h"
 #include "ductile/box2d.h"
 #include "ductile/plane.h"
-#include "moments.h"
+#include "ductile/moments.h"
 #include "scenes.h"
 #include "split.h"
 

@@ -6,7 +6,7 @@
 
 #include "convex.h"
 #include "ductile/box2d.h"
-#include "moments.h"
+#include "ductile/moments.h"
 #include "orientation.h"
 #include "random_outlines.h"
 #include "scenes.h"

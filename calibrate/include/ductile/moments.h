@@ -1,9 +1,9 @@
-// Area integrals of outlines: what a piece weighs and how it resists turning.
+// Area integrals of outlines: what a piece weighs, how it resists turning, and which way it is long.
 #pragma once
 
 #include "ductile/section.h"
 
-namespace ductile::calibration {
+namespace ductile {
 
 struct AreaMoments {
   double area = 0;                ///< m²
@@ -16,4 +16,13 @@ struct AreaMoments {
 /// distance from the origin.
 AreaMoments moments(const Outline& outline);
 
-}  // namespace ductile::calibration
+/// How far an outline reaches along its principal axis of greatest extent, from its centroid.
+struct LongAxis {
+  Point direction{1, 0};     ///< unit vector
+  double low = 0, high = 0;  ///< m, ≤ 0 and ≥ 0
+};
+
+/// Of an outline and its moments.
+LongAxis long_axis(const Outline& outline, const AreaMoments& moments);
+
+}  // namespace ductile
