@@ -11,8 +11,8 @@
 #include "axis.h"
 #include "convex.h"
 #include "ductile/box2d.h"
-#include "ductile/plane.h"
 #include "ductile/moments.h"
+#include "ductile/plane.h"
 #include "scenes.h"
 #include "split.h"
 
