@@ -148,7 +148,7 @@ class SceneEdit {
 
 std::string edited_scene(std::string_view text, const SceneDef& scene, const std::filesystem::path& folder) {
   try {
-    const std::string edited = SceneEdit(text, parse_scene(text, "scene", folder), scene).run();
+    std::string edited = SceneEdit(text, parse_scene(text, "scene", folder), scene).run();
     // Where that is not the scene, as when elements have changed places, all of it is written anew.
     if (scene_text(parse_scene(edited, "scene", folder)) == scene_text(scene)) return edited;
   } catch (const InvalidInput&) {  // `text` is no scene, or its files are not to be found from the folder

@@ -48,11 +48,12 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
   const auto size = [&](Entry e) { return static_cast<std::size_t>(entry[e].size); };
   const std::size_t count = size(at_velocities) / sizeof(VelocityConstraint);
   const std::size_t capacity = size(positions) / sizeof(b2Position);
+  constexpr std::size_t pointer = sizeof(void*);  // what the arrays of bodies and of contacts hold
   if (entry[velocities].data != reinterpret_cast<const char*>(data.velocities) ||
       entry[positions].data != reinterpret_cast<const char*>(data.positions) ||
-      size(velocities) != capacity * sizeof(b2Velocity) || size(bodies) != capacity * sizeof(b2Body*) ||
+      size(velocities) != capacity * sizeof(b2Velocity) || size(bodies) != capacity * pointer ||
       size(at_velocities) != count * sizeof(VelocityConstraint) ||
-      size(at_positions) != count * sizeof(PositionConstraint) || size(contacts) < count * sizeof(b2Contact*))
+      size(at_positions) != count * sizeof(PositionConstraint) || size(contacts) < count * pointer)
     return;
   auto** island = reinterpret_cast<b2Body**>(entry[bodies].data);
   body_count_ = capacity;

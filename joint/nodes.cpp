@@ -156,6 +156,7 @@ std::vector<ElasticPlasticJoint*> Structure::pin(const b2Vec2& at, const std::ve
   }
   if (!wrong.empty()) throw std::invalid_argument(wrong);
   std::vector<ElasticPlasticJoint*> joints;
+  joints.reserve(defs.size());
   for (const ElasticPlasticJointDef& def : defs) joints.push_back(create_joint(def));
   return joints;
 }

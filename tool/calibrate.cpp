@@ -181,7 +181,7 @@ std::string run(const Options& options) {
   if (options.to == "scene") {
     const std::string given = read_text(options.scene.name);
     const std::filesystem::path beside = options.out.empty() ? options.scene.name : options.out;
-    const std::string text = edited_scene(given, scene_of(options.scene, given), beside.parent_path());
+    std::string text = edited_scene(given, scene_of(options.scene, given), beside.parent_path());
     if (options.out.empty()) return text;
     write_text(options.out, text);
     return "";

@@ -47,16 +47,16 @@ class Batch(unittest.TestCase):
                 self.assertEqual(json.loads(run.stdout)["frames"], 600)
 
     def test_drawing_grows_no_faster_than_the_joints(self):
-        """What 1925 joints more cost, against what 150 more do: with the square of their number it would be 14 times as
-        much each. How many ms it is, the machine decides (docs/window.md)."""
-        cost = {}
-        for name, joint in (("cantilever", "beam/8-beam/9"), ("frame", None), ("frame_large", "beam_6/10-beam_6/11")):
-            chosen = ["--select", joint] if joint else []
-            run = view(SCENES / f"{name}.scene.json", "--frames", 60, "--forces", *chosen, "--json")
-            cost[name] = json.loads(run.stdout)["drawing_ms"]["median"]
-        few, many = cost["frame"] - cost["cantilever"], cost["frame_large"] - cost["frame"]
-        self.assertGreater(few, 0)
-        self.assertLess(many, 4 * few * (2085 - 160) / (160 - 10))
+        """A frame of 2085 joints costs at most 13 times one of 160, as there are 13 times as many; with the square of their
+        number it would be 60 times (drawing 160 joints takes some 40 % of a frame's fixed cost). Twice is granted to the
+        machine's noise, of three runs in turns the least counts. How many ms it is, the machine decides (docs/window.md)."""
+        cost = {"frame": [], "frame_large": []}
+        for _ in range(3):
+            for name, medians in cost.items():
+                chosen = ["--select", "beam_6/10-beam_6/11"] if name == "frame_large" else []
+                run = view(SCENES / f"{name}.scene.json", "--frames", 60, "--forces", *chosen, "--json")
+                medians.append(json.loads(run.stdout)["drawing_ms"]["median"])
+        self.assertLess(min(cost["frame_large"]), 2 * min(cost["frame"]) * 2085 / 160)
 
     def test_screenshots_have_the_size_asked_for(self):
         for scale, size in ((1, (1280, 720)), (2, (2560, 1440))):
