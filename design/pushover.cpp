@@ -75,7 +75,8 @@ class Pushing {
     std::vector<Flow::Most> leave;
     Flow::Most most = flow_.most_used(state_.forces);
     for (; most.usage > 1 - on_surface; most = flow_.most_used(state_.forces, leave)) {
-      if (most.plane.normal.dot(rates.segment<3>(Eigen::Index{3} * most.joint)) > 0) return hinge(state_, most);
+      if (most.plane.normal.dot(rates.segment<3>(Eigen::Index{3} * most.joint)) > 0)
+        return hinge(state_, most);
       leave.push_back(most);
     }
 
