@@ -19,6 +19,9 @@ struct Block {
   double a[9];
 };
 
+template <>
+inline constexpr bool all_doubles<Block> = true;
+
 /// Scalar L D Lᵀ of one block, in place: below the diagonal L, on it 1/D. Reads the lower triangle only.
 inline void factor_block(Block& block) {
   double* a = block.a;
@@ -76,6 +79,7 @@ class BlockLdlt {
   std::size_t factor_work() const { return targets_.size() + 2 * lower_.size() + diagonal_.size(); }
   std::size_t solve_work() const { return (2 * lower_.size() + diagonal_.size()) / 3; }
   std::size_t bytes() const;
+  void keep(Tape& tape) { tape(lower_, diagonal_); }
 
  private:
   // Column j holds the blocks lower_[column_[j]] … lower_[column_[j + 1]) in rows row_[…], ascending.

@@ -12,8 +12,11 @@
 namespace ductile::dynamics {
 
 Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind,
-                     std::span<const Touch> contacts)
-    : solver(solver_kind == SolverKind::iterative), members(std::move(enlisted_members)), kind(solver_kind) {
+                     std::vector<BodyPair> touching)
+    : solver(solver_kind == SolverKind::iterative),
+      members(std::move(enlisted_members)),
+      met(std::move(touching)),
+      kind(solver_kind) {
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   std::unordered_map<b2Body*, int> number, degree;
   std::vector<b2Body*> bodies, others;
@@ -24,8 +27,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       (is_free(body) ? bodies : others).push_back(body);
     }
   }
-  for (const Touch& t : contacts) {
-    for (b2Body* body : {t.a(), t.b()}) {
+  for (const BodyPair& pair : met) {
+    for (b2Body* body : {pair.a, pair.b}) {
       if (number.try_emplace(body, 0).second) (is_free(body) ? bodies : others).push_back(body);
     }
   }
@@ -36,8 +39,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
     if (is_free(a) && is_free(b)) edges.emplace_back(number[a], number[b]);
   }
-  for (const Touch& t : contacts) {
-    if (is_free(t.a()) && is_free(t.b())) edges.emplace_back(number[t.a()], number[t.b()]);
+  for (const BodyPair& pair : met) {
+    if (is_free(pair.a) && is_free(pair.b)) edges.emplace_back(number[pair.a], number[pair.b]);
   }
   const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
   std::vector<b2Body*> ordered;
@@ -109,8 +112,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     j.frame.ax = double{a.x} - from_a.x, j.frame.ay = double{a.y} - from_a.y;
     j.frame.bx = double{b.x} - from_b.x, j.frame.by = double{b.y} - from_b.y;
   }
-  for (const Touch& t : contacts) {
-    const int a = number[t.a()], b = number[t.b()];
+  for (const BodyPair& pair : met) {
+    const int a = number[pair.a], b = number[pair.b];
     if (z(a) < free_bodies && z(b) < free_bodies) solver.pairs.emplace_back(std::min(a, b), std::max(a, b));
   }
   std::sort(solver.pairs.begin(), solver.pairs.end());
@@ -125,7 +128,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     Joint& j = solver.joints[i];
     Rows& gap = solver.records[i].gap;
     if (std::exchange(members[i]->fresh, false)) {
-      j.neutral = gap;
+      for (unsigned row = 0; row < 3; ++row) j.neutral[row] += gap[row];
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
       continue;
     }
@@ -171,6 +174,30 @@ KnownPose Component::known(int body) const {
   return {{p.x + origin_x, p.y + origin_y, p.angle},
           mirrors[z(body)].local_center,
           freedom(z(body), solver.free_bodies())};
+}
+
+void Component::hand_back(Member& m) const {
+  m.own = solver.joints[m.index];
+  m.own_record = solver.records[m.index];
+  m.drift_time = solver.drift_time();
+  m.known = {known(m.own.a), known(m.own.b)};
+}
+
+bool Component::fits_bodies(const std::unordered_set<const b2Body*>& there) const {
+  return std::all_of(mirrors.begin(), mirrors.end(), [&](const Mirror& m) {
+    return (m.guest && !there.contains(m.body)) || (m.body->GetType() == m.type && m.has_its_mass());
+  });
+}
+
+void Component::Mirror::keep(Tape& tape) {
+  tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact);
+  bool only_ours = joints != nullptr && joints == body->GetJointList();
+  tape(only_ours);
+  if (tape.reads()) joints = only_ours ? body->GetJointList() : nullptr;
+}
+
+void Component::keep(Tape& tape) {
+  tape(origin_x, origin_y, parted_, alone_, at_rest_, resting, mirrors, solver);
 }
 
 Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "box2d_contacts.h"
@@ -18,6 +19,7 @@ namespace ductile {
 
 /// What is wrong with a def by itself, one message each.
 std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def);
+std::vector<std::string> wrong_in(const JointState& state);
 b2Body* watch_world(b2World& world, Structure::Impl& structure);
 /// The structures of a world, in an order that only their coming and going changes.
 std::vector<Structure::Impl*> structures_in(b2World& world);
@@ -33,6 +35,8 @@ struct KnownPose {
   Pose pose;  // of the centre of mass, in the world
   b2Vec2 local_center{0, 0};
   int freedom = 0;  // of motion: 2, 3 where it turned, too; 0: held
+
+  void keep(Tape& tape) { tape(pose, local_center.x, local_center.y, freedom); }
 };
 
 /// One joint of a structure.
@@ -46,7 +50,7 @@ struct Member {
   JointRecord own_record;          // likewise
   double drift_time = 0;           // likewise, of its solver
   std::array<KnownPose, 2> known;  // likewise, of the joint's bodies
-  bool fresh = true;               // never solved: its neutral position is where it is first seen
+  bool fresh = true;               // never solved: own.neutral is from where it is first seen
   bool broken = false;
   bool yielded = false;
   double told = 0;         // capacity_used() of the last flow event
@@ -58,6 +62,7 @@ struct Member {
   int node = 0;
   std::shared_ptr<const YieldSurface> surface;
 
+  void set_state(const JointState& state);
   void belong_to(Component* to) { joint->component_ = component = to; }
   Joint& data();
   JointRecord& record();
@@ -68,6 +73,11 @@ struct Member {
 /// Whether its velocity is the solver's to find; all others hold or move as they are told, a dynamic body
 /// without mass among them.
 inline bool is_free(const b2Body* body) { return body->GetType() == b2_dynamicBody && body->GetMass() > 0; }
+
+/// Two bodies that touch.
+struct BodyPair {
+  b2Body *a, *b;
+};
 
 struct Component {
   /// What Box2D knows of a body of the solver.
@@ -84,6 +94,12 @@ struct Component {
     int32 island_index = 0;
     bool guest = false;   // touches the structure, but no joint of it
     bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
+
+    bool has_its_mass() const {
+      return type != b2_dynamicBody || (body->GetMass() == mass && body->GetInertia() == inertia &&
+                                        body->GetLocalCenter() == local_center);
+    }
+    void keep(Tape& tape);
   };
   /// Of a body, when a ledger is kept.
   struct Account {
@@ -92,7 +108,7 @@ struct Component {
   };
 
   /// Of these joints, and of what touches their bodies.
-  Component(std::vector<Member*> enlisted, SolverKind kind, std::span<const Touch> touches);
+  Component(std::vector<Member*> enlisted, SolverKind kind, std::vector<BodyPair> touching);
 
   /// Before a step: where the island has the bodies, and whether they are still what the component was formed
   /// for. Takes their velocities, but where the step may be the last one again.
@@ -115,11 +131,17 @@ struct Component {
   void position(const b2SolverData& data);
 
   KnownPose known(int body) const;
+  /// What the member has to keep when the component is no more.
+  void hand_back(Member& member) const;
+  /// Whether bodies are still what the component was formed for, guests as far as they are still there.
+  bool fits_bodies(const std::unordered_set<const b2Body*>& there) const;
+  void keep(Tape& tape);
   Pose relative(const b2Position& at) const;  // to the origin
   b2Position box2d_pose(std::size_t body) const;
 
   Solver solver;
   std::vector<Member*> members;       // as solver.joints
+  std::vector<BodyPair> met;          // what touched when the component was formed: guests may be no more
   std::vector<Mirror> mirrors;        // as solver.bodies
   std::vector<Account> accounts;      // likewise
   std::vector<Touch> touches;         // contacts that are rows of this step

@@ -32,8 +32,7 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts) {
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone_ &= i >= solver.free_bodies() || only_ours(m);
     if (!at_rest_) take(m, data);  // while the body is at hand
-    masses &= m.type != b2_dynamicBody || (m.body->GetMass() == m.mass && m.body->GetInertia() == m.inertia &&
-                                           m.body->GetLocalCenter() == m.local_center);
+    masses &= m.has_its_mass();
   }
   return masses;
 }

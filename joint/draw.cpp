@@ -33,7 +33,7 @@ double ElasticPlasticJoint::stage() const {
 
 void Structure::draw(b2Draw& canvas, const JointDrawing& how) const {
   for (const ElasticPlasticJoint* joint : impl_->joints) {
-    const Joint& j = joint->state();
+    const Joint& j = joint->row_state();
     const Rows& plastic = joint->record().plastic.net;
     const b2Vec2 at = 0.5f * (joint->GetAnchorA() + joint->GetAnchorB()), t = joint->axis(), n{-t.y, t.x};
     if (how.neutral > 0) {

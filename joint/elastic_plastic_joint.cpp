@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "structure.h"
@@ -73,6 +74,7 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
   }
+  for (std::string& text : wrong_in(def.state)) wrong.push_back(std::move(text));
   if (!def.interaction.empty()) {
     for (const RowDef& row : def.rows) {
       require(!(row.hardening > 0), "an interaction curve does not harden; set hardening to 0");
@@ -96,7 +98,7 @@ const Joint none{};
 const JointRecord no_record{};
 }  // namespace
 
-const Joint& ElasticPlasticJoint::state() const { return member_ != nullptr ? member_->data() : none; }
+const Joint& ElasticPlasticJoint::row_state() const { return member_ != nullptr ? member_->data() : none; }
 const JointRecord& ElasticPlasticJoint::record() const {
   return member_ != nullptr ? member_->record() : no_record;
 }
@@ -104,7 +106,7 @@ const JointRecord& ElasticPlasticJoint::record() const {
 std::uint32_t ElasticPlasticJoint::id() const { return member_ != nullptr ? member_->id : UINT32_MAX; }
 
 b2Vec2 ElasticPlasticJoint::axis() const {
-  const Joint& j = state();
+  const Joint& j = row_state();
   if (b2Vec2 along = GetAnchorB() - GetAnchorA(); j.frame.line && along.Normalize() > 0) return along;
   const double relative = double{m_bodyB->GetAngle()} - double{m_bodyA->GetAngle()} - j.frame.reference;
   const double angle =
@@ -112,7 +114,7 @@ b2Vec2 ElasticPlasticJoint::axis() const {
   return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-double ElasticPlasticJoint::force(Row row) const { return dynamics::force(state(), record())[row]; }
+double ElasticPlasticJoint::force(Row row) const { return dynamics::force(row_state(), record())[row]; }
 
 double ElasticPlasticJoint::cap(Row row, bool reverse) const {
   return (reverse ? record().material.cap_reverse : record().material.cap)[row];
@@ -124,8 +126,8 @@ double ElasticPlasticJoint::usage(Row row) const {
   return limit > 0 ? std::abs(f) / limit : 0;
 }
 
-double ElasticPlasticJoint::elastic(Row row) const { return elastic_strain(state(), record(), row); }
-double ElasticPlasticJoint::neutral(Row row) const { return state().neutral[row]; }
+double ElasticPlasticJoint::elastic(Row row) const { return elastic_strain(row_state(), record(), row); }
+double ElasticPlasticJoint::neutral(Row row) const { return row_state().neutral[row]; }
 double ElasticPlasticJoint::plastic(Row row) const { return record().plastic.net[row]; }
 
 double ElasticPlasticJoint::accumulated_rotation() const {
@@ -218,13 +220,13 @@ void ElasticPlasticJoint::wake() {
 b2Vec2 ElasticPlasticJoint::GetReactionForce(float inv_dt) const {
   if (member_ == nullptr) return b2WeldJoint::GetReactionForce(inv_dt);
   const b2Vec2 t = axis(), n{-t.y, t.x};
-  const Rows& s = state().impulse;
+  const Rows& s = row_state().impulse;
   return -inv_dt * (static_cast<float>(s[axial]) * t + static_cast<float>(s[shear]) * n);
 }
 
 float ElasticPlasticJoint::GetReactionTorque(float inv_dt) const {
   if (member_ == nullptr) return b2WeldJoint::GetReactionTorque(inv_dt);
-  return -inv_dt * static_cast<float>(state().impulse[rotation]);
+  return -inv_dt * static_cast<float>(row_state().impulse[rotation]);
 }
 
 void ElasticPlasticJoint::ShiftOrigin(const b2Vec2& newOrigin) {

@@ -58,6 +58,12 @@ class Hessian {
     return static_cast<double>(ldlt_.factor_work() + 3 * joints);
   }
   std::size_t bytes() const { return ldlt_.bytes(); }
+  void keep(Tape& tape) {
+    auto made_of = static_cast<std::uint8_t>(factored_);
+    tape(made_of, ldlt_);
+    if (made_of > static_cast<std::uint8_t>(Factored::holding)) return tape.refuse();
+    factored_ = static_cast<Factored>(made_of);
+  }
 
  private:
   BlockLdlt ldlt_;

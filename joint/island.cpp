@@ -135,24 +135,29 @@ void Structure::Impl::form() {
     }
   }
   std::vector<std::vector<Member*>> groups(all.size());
-  std::vector<std::vector<Touch>> touched(all.size());
+  std::vector<std::vector<BodyPair>> touched(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
   for (const Touch& t : touches) {
     const auto joint = first_joint.find(is_free(t.a()) ? t.a() : t.b());
-    if (joint != first_joint.end()) touched[find(joint->second)].push_back(t);
+    if (joint != first_joint.end()) touched[find(joint->second)].push_back({t.a(), t.b()});
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
     auto& group = groups[k];
     if (group.empty()) continue;
-    components.push_back(std::make_unique<Component>(std::move(group), def.solver, touched[k]));
-    Component* c = components.back().get();
-    c->structure = this;
-    c->report = &report;
-    c->solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
-    c->batch = batch_;
-    c->enlisted = c->members.size();
-    active_.push_back(c);
+    Component& c = form(std::move(group), std::move(touched[k]));
+    c.batch = batch_;
+    c.enlisted = c.members.size();
+    active_.push_back(&c);
   }
+}
+
+Component& Structure::Impl::form(std::vector<Member*> group, std::vector<BodyPair> touching) {
+  Component& c = *components.emplace_back(
+      std::make_unique<Component>(std::move(group), def.solver, std::move(touching)));
+  c.structure = this;
+  c.report = &report;
+  c.solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
+  return c;
 }
 
 void Structure::Impl::dissolve(Component& component) {
@@ -161,10 +166,7 @@ void Structure::Impl::dissolve(Component& component) {
   gone_.driven += component.solver.energies().driven;
   component.solver.find_gaps();
   for (Member* m : component.members) {
-    m->own = component.solver.joints[m->index];
-    m->own_record = component.solver.records[m->index];
-    m->drift_time = component.solver.drift_time();
-    m->known = {component.known(m->own.a), component.known(m->own.b)};
+    component.hand_back(*m);
     if (m->broken) m->own.impulse = {};
     m->belong_to(nullptr);
   }

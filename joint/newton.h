@@ -60,6 +60,7 @@ class Newton {
   Solution solve(System& system, Hessian& hessian, const Evaluation& last, const LinearPrediction* prediction,
                  SolveReport& report);
   std::size_t bytes() const;
+  void keep(Tape& tape) { tape(contraction_); }
 
   /// One momentum per body, the gradient's own, for who needs it while that is not known.
   std::span<Vec3> scratch() { return g_; }

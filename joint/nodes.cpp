@@ -30,34 +30,6 @@ bool lives(const b2World& world, const b2Body* body) {
 
 void mark(b2Body& body) { of(body, b2Body_m_flags{}) |= in_node; }
 
-Orphan orphan_of(const Member& m) {
-  Orphan orphan{{}, m.surface, m.own_record.plastic};
-  ElasticPlasticJointDef& def = orphan.def;
-  def.bodyA = m.joint->GetBodyA();
-  def.bodyB = m.joint->GetBodyB();
-  def.collideConnected = m.joint->GetCollideConnected();
-  def.localAnchorA = m.joint->GetLocalAnchorA();
-  def.localAnchorB = m.joint->GetLocalAnchorB();
-  def.referenceAngle = m.joint->GetReferenceAngle();
-  def.axisAngle = static_cast<float>(std::atan2(m.own.frame.axis.s, m.own.frame.axis.c));
-  def.axisFollow = static_cast<float>(m.own.frame.follow);
-  for (unsigned i = 0; i < 3; ++i) {
-    const Material& r = m.own_record.material;
-    def.rows[i] = {r.stiffness[i], r.damping_ratio[i], r.cap[i],        r.cap_reverse[i],
-                   r.hardening[i], r.damping[i],       r.may_slacken(i)};
-    if (r.is_driven(i)) def.rows[i].drive = Drive{r.target[i], r.speed[i]};
-  }
-  def.line = m.own.frame.line;
-  if (def.line) def.length = m.own.neutral[axial];
-  def.max_rotation = m.max_rotation;
-  def.max_elongation = m.max_elongation;
-  def.max_compression = m.max_compression;
-  def.max_slip = m.max_slip;
-  def.break_group = m.break_group;
-  def.node = m.node;
-  return orphan;
-}
-
 }  // namespace ductile::dynamics
 
 namespace ductile {
@@ -67,29 +39,24 @@ using namespace dynamics;
 // Only those whose hub was destroyed: a joint that a game destroyed, or whose own body went, is gone.
 void Structure::Impl::join_orphans() {
   if (orphans.empty()) return;
-  std::vector<Orphan> left = std::exchange(orphans, {});
-  std::erase_if(left,
-                [&](const Orphan& o) { return lives(*world, o.def.bodyA) || !lives(*world, o.def.bodyB); });
-  std::stable_sort(left.begin(), left.end(),
-                   [](const Orphan& a, const Orphan& b) { return a.def.node < b.def.node; });
+  std::vector<ElasticPlasticJointDef> left = std::exchange(orphans, {});
+  std::erase_if(left, [&](const auto& o) { return lives(*world, o.bodyA) || !lives(*world, o.bodyB); });
+  std::stable_sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   for (std::size_t i = 0; i < left.size(); ++i) {
     const std::size_t hub = i;
-    const ElasticPlasticJointDef& to_hub = left[hub].def;
-    for (; i + 1 < left.size() && left[i + 1].def.node == to_hub.node; ++i) {
-      Orphan& o = left[i + 1];
+    const ElasticPlasticJointDef& to_hub = left[hub];
+    for (; i + 1 < left.size() && left[i + 1].node == to_hub.node; ++i) {
+      ElasticPlasticJointDef& o = left[i + 1];
       b2WeldJointDef weld;
-      weld.bodyA = o.def.bodyA = to_hub.bodyB;
-      weld.bodyB = o.def.bodyB;
-      weld.collideConnected = o.def.collideConnected;
+      weld.bodyA = o.bodyA = to_hub.bodyB;
+      weld.bodyB = o.bodyB;
+      weld.collideConnected = o.collideConnected;
       weld.localAnchorA = to_hub.localAnchorB;
-      weld.localAnchorB = o.def.localAnchorB;
-      weld.referenceAngle = o.def.referenceAngle - to_hub.referenceAngle;
-      o.def.axisAngle -= to_hub.referenceAngle;
-      auto* joint = take(static_cast<b2WeldJoint*>(world->CreateJoint(&weld)), o.def);
-      JointRecord& record = joint->member_->own_record;
-      joint->member_->surface = o.surface;
-      record.material.surface = o.surface.get();
-      record.plastic = o.plastic;
+      weld.localAnchorB = o.localAnchorB;
+      weld.referenceAngle = o.referenceAngle - to_hub.referenceAngle;
+      o.axisAngle -= to_hub.referenceAngle;
+      for (double& strain : o.state.elastic) strain = 0;
+      take(static_cast<b2WeldJoint*>(world->CreateJoint(&weld)), o);
     }
   }
 }

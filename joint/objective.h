@@ -26,6 +26,10 @@ struct Evaluation {
   bool curved = false;   // some joint flows on its yield surface
   bool flows = false;    // some row is beyond its cap
 
+  void keep(Tape& tape) {
+    tape(gradient2, impulse2, speed2, fastest2, fastest_turn2, changed, crossed, curved, flows);
+  }
+
   void see(const Body& b) {
     fastest2 = std::max(fastest2, b.v.x * b.v.x + b.v.y * b.v.y);
     fastest_turn2 = std::max(fastest_turn2, b.v.w * b.v.w);

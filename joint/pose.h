@@ -16,6 +16,11 @@ struct Place {
   Turn turn;
 };
 
+template <>
+inline constexpr bool all_doubles<Place> = true;
+template <>
+inline constexpr bool all_doubles<Pose> = true;
+
 /// The turn by any angle: series below 0.06 rad, which is exact to the last bit, std::cos and std::sin above.
 Turn turn_of_large(double angle);
 

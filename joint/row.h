@@ -92,6 +92,10 @@ struct RowLaw {
   Rows relaxation{};   // bias per strain e, 1/s
   Rows carry{};        // bias per −w, w the rate that the law carries over
 
+  void keep(Tape& tape) {
+    tape(G, cap, cap_reverse, h, after_yield, spring, damping, delta, third, relaxation, carry);
+  }
+
   /// No row flows while all |G x| are within these; below 0 where a yield surface has to tell.
   Rows elastic_range() const;
 };

@@ -45,6 +45,11 @@ void Solver::touch(std::span<const Contact> now) {
     hessian_.forget();
     newton_.forget();
   }
+  place_contacts();
+}
+
+// Each contact's block of H.
+void Solver::place_contacts() {
   for (std::size_t k = own(); k < joints.size(); ++k) {
     Joint& j = joints[k];
     j.block = is_free(j.a) && is_free(j.b) ? hessian_.block(j.a, j.b) : -1;

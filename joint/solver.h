@@ -92,8 +92,14 @@ class Solver : public System {
   void close_ledger(std::span<const Vec3> change) { ledger_.close(change); }
 
   std::size_t bytes() const;
+  void keep(Tape& tape) {
+    System::keep(tape);
+    if (tape.reads()) place_contacts();
+    tape(laws_, hessian_, newton_, prediction_, ledger_.energies, last_, motion_.share, predicted_);
+  }
 
  private:
+  void place_contacts();
   void book(Joint& joint, const Rows& gap);
 
   StepLaws laws_;

@@ -32,11 +32,15 @@ void forget_infinite(Joint& j) {
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
   r.law = make_law(r.material, r.m_eff, h_, {delta_, elastic_ratio});
-  j.G = r.law.G;
-  j.relaxation = r.law.relaxation;
-  j.carry = r.law.carry;
+  take_law(j, r.law);
+}
+
+void StepLaws::take_law(Joint& j, const RowLaw& law) {
+  j.G = law.G;
+  j.relaxation = law.relaxation;
+  j.carry = law.carry;
   j.overdamped = j.carry[0] < 0 || j.carry[1] < 0 || j.carry[2] < 0;
-  j.elastic_range = r.law.elastic_range();
+  j.elastic_range = law.elastic_range();
   j.free = j.G[0] == 0 || j.G[1] == 0 || j.G[2] == 0;
 }
 

@@ -72,6 +72,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.own.frame.line = d.line;
   b2Body *a = weld->GetBodyA(), *b = weld->GetBodyB();
   m.joint = ElasticPlasticJoint::put_in_place(weld, &m);
+  m.set_state(d.state);
   members.push_back(std::move(member));
   joints.push_back(m.joint);
   enlisted_.reserve(members.capacity());
@@ -92,7 +93,7 @@ void Structure::Impl::forget(Member& member) {
   }
   for (const double joules : member.own_record.dissipated) gone_.dissipated += joules;
   for (const double joules : member.own_record.stored) gone_.numerical += joules;  // lost with the joint
-  if (member.node != 0 && !member.broken) orphans.push_back(orphan_of(member));
+  if (member.node != 0 && !member.broken) orphans.push_back(member.joint->def());
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
@@ -154,6 +155,14 @@ void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
   c->origin_x -= new_origin.x;
   c->origin_y -= new_origin.y;
   for (Component::Mirror& m : c->mirrors) m.left.c -= new_origin;
+}
+
+bool Structure::Impl::told_all() const {
+  const auto open = [](const auto& c) { return c->open; };
+  const auto broken = [](const auto& m) { return m->broken; };
+  return !stepped_ && pending_.empty() && orphans.empty() && !telling_ && bullets_.empty() &&
+         std::none_of(components.begin(), components.end(), open) &&
+         std::none_of(members.begin(), members.end(), broken);
 }
 
 std::size_t Structure::Impl::bytes() const {

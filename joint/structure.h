@@ -12,16 +12,8 @@
 
 namespace ductile::dynamics {
 
-/// What held a body to a node and went without breaking.
-struct Orphan {
-  ElasticPlasticJointDef def;
-  std::shared_ptr<const YieldSurface> surface;
-  PlasticFlow plastic;
-};
-
 /// A body that is in a node keeps a mark, by which it is told from another one that was made at its address.
 void mark(b2Body& body);
-Orphan orphan_of(const Member& member);
 
 }  // namespace ductile::dynamics
 
@@ -53,10 +45,19 @@ struct Structure::Impl {
   State state() const;
   void restore(const State& state);
 
+  /// The document of save.h, without what Box2D keeps.
+  class Save;
+
   void update();
   void shift_origin(const b2Vec2& new_origin, dynamics::Member& caller);
   std::size_t bytes() const;
+  /// update() has told and done all of the last step.
+  bool told_all() const;
+  /// All bodies of the world go, unannounced.
+  void clear();
   JointEnergy energy() const;
+  /// Plastic work that no joint tells any more, J.
+  void count_as_gone(double dissipated) { gone_.dissipated += dissipated; }
 
   b2World* world;  // nullptr once it is gone, as far as known: that takes a watch
   StructureDef def;
@@ -69,12 +70,14 @@ struct Structure::Impl {
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
   StepReport report;
-  std::vector<dynamics::Orphan> orphans;  // since the last update()
-  int last_node = 0;                      // of new_node(): negative, so that a game's own are others
-  StepReport worst;  // since the start: bounds_hit and parted are sums, residual and slowed are maxima
+  /// Of what held bodies to nodes and went without breaking since the last update().
+  std::vector<ElasticPlasticJointDef> orphans;
+  int last_node = 0;  // of new_node(): negative, so that a game's own are others
+  StepReport worst;   // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
  private:
   void form();
+  dynamics::Component& form(std::vector<dynamics::Member*> group, std::vector<dynamics::BodyPair> touching);
   void choose_contacts(const b2SolverData& data);
   bool distribute_contacts();
   // first_touch.cpp
@@ -97,7 +100,7 @@ struct Structure::Impl {
   dynamics::IslandContacts contacts_;
   std::vector<b2Body*> bullets_;  // that are none until update()
   bool incomplete_ = false;       // some enlisted joint is in no component
-  bool stepped_ = true;           // since the last update()
+  bool stepped_ = false;          // since the last update()
   bool broke_ = false;            // some joint, since then
 
   JointEnergy gone_;  // of components and joints that are no more
@@ -126,7 +129,7 @@ struct Structure::Impl::State {
   bool stepped;
   JointEnergy gone;
   std::vector<Pending> pending;
-  std::vector<dynamics::Orphan> orphans;
+  std::vector<ElasticPlasticJointDef> orphans;
   int last_node;
   std::vector<b2Body*> bullets;
 };

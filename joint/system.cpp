@@ -1,5 +1,12 @@
 #include "system.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "drive.h"
+#include "kinematics.h"
+#include "step_laws.h"
+
 namespace ductile::dynamics {
 
 void System::form(std::size_t free_bodies) {
@@ -32,6 +39,68 @@ void System::form(std::size_t free_bodies) {
                          ia + ib};
     for (unsigned i = 0; i < 3; ++i) record(j).m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
   }
+}
+
+void System::keep(Tape& tape) {
+  tape(places);
+  if (tape.reads()) locate_all(*this);
+  tape(bodies);
+  if (!keep_contacts(tape)) return tape.refuse();
+  tape(joints, records);
+  std::size_t inertias = turn_inertias.size();
+  tape(inertias);
+  if (tape.reads()) turn_inertias.assign(std::min(inertias, joints.size()), {});
+  for (std::size_t k = own(); k < joints.size() && tape.reads(); ++k) {
+    joints[k].G = records[k].law.G;
+    records[k].turn_inertia = -1;
+    if (joints[k].regime > on_surface) joints[k].regime = 0;
+  }
+  for (Joint& j : own_joints()) {
+    JointRecord& r = record(j);
+    if (tape.reads()) restore(j, r);
+    if (r.turn_inertia < 0) continue;
+    if (z(r.turn_inertia) >= turn_inertias.size() || j.block < 0) return tape.refuse();
+    TurnInertia& t = turn_inertias[z(r.turn_inertia)];
+    t.a = j.a, t.b = j.b, t.block = j.block;
+  }
+  for (const TurnInertia& t : turn_inertias) {
+    if (t.block < 0) return tape.refuse();
+  }
+  tape(turn_inertias, gaps_known, biases_known);
+  if (tape.reads()) list_special(*this);
+}
+
+// The points, and what of their rows follows from nothing else; false where they are of other bodies.
+bool System::keep_contacts(Tape& tape) {
+  std::size_t count = contacts.size();
+  tape(count);
+  if (count > tape.left() && tape.reads()) return false;
+  if (tape.reads()) {
+    const std::size_t own_count = own();
+    contacts.resize(count);
+    joints.resize(own_count + count);
+    records.resize(own_count + count);
+  }
+  tape(contacts);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Contact& c = contacts[k];
+    Joint& j = joints[own() + k];
+    tape(j.J, record(j).m_eff);
+    if (!tape.reads()) continue;
+    const auto [a, b] = std::minmax(c.a, c.b);
+    if (a < 0 || z(b) >= bodies.size()) return false;
+    if (is_free(b) && !std::binary_search(pairs.begin(), pairs.end(), std::pair<int, int>(a, b)))
+      return false;
+    j.a = c.a;
+    j.b = c.b;
+  }
+  return true;
+}
+
+void restore(Joint& j, JointRecord& r) {
+  r.law.surface = r.material.surface;
+  StepLaws::take_law(j, r.law);
+  if (j.regime > on_surface) j.regime = 0;
 }
 
 Rows force(const Joint& j, const JointRecord& r) {

@@ -20,6 +20,8 @@ struct Body {
   double inverse_mass = 1, inverse_inertia = 1;  // of them; 0 where it does not rotate
   Vec3 v_free;  // v*, m/s and rad/s: velocity without the structure's impulses
   Vec3 v;       // the solution; also where the next solve starts
+
+  void keep(Tape& tape) { tape(v_free, v); }
 };
 
 /// The rows of J that a joint has for its two bodies, and nothing that is 0 or ±1 in them.
@@ -27,6 +29,9 @@ struct Jacobian {
   Turn axis_a, axis_b;                    // the joint's axis in A's and B's own frames
   double au = 0, av = 0, bu = 0, bv = 0;  // rotational entries of the axial and the shear row, m
 };
+
+template <>
+inline constexpr bool all_doubles<Jacobian> = true;
 
 /// Where a joint sits on its bodies.
 struct Frame {
@@ -58,6 +63,8 @@ struct Joint {
   Rows trend{};    // t, m or rad: the share of their change that the law carries over
   Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
   Frame frame;
+
+  void keep(Tape& tape) { tape(bias, impulse, regime, factored_flow, rate, trend, neutral); }
 };
 
 /// Plastic offsets, m, m, rad.
@@ -73,7 +80,12 @@ struct TurnInertia {
   double inertia = 0;                // C, kg m²
   double rate = 0;                   // w, rad/s
   double highest = 0, unneeded = 0;  // what was needed at most, in so many s
+
+  void keep(Tape& tape) { tape(inertia, rate, highest, unneeded); }
 };
+
+template <>
+inline constexpr bool all_doubles<PlasticFlow> = true;
 
 /// The rest of a joint, at the same index.
 struct JointRecord {
@@ -89,6 +101,10 @@ struct JointRecord {
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Material material;
   Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
+
+  void keep(Tape& tape) {
+    tape(gap, x, law, tangent, turn_inertia, deferred_drift, plastic, dissipated, stored, drive_rate);
+  }
 };
 
 /// A point of contact. Arms and normal are in the bodies' own frames.
@@ -100,7 +116,11 @@ struct Contact {
   double conveyor = 0;             // τ, m/s
   double friction = 0;             // μ
   double normal = 0, tangent = 0;  // impulses, N s: where to start, and of the last solve; normal ≥ 0 presses
-  std::uint64_t id = 0;            // of the same point in the next step
+  std::uint64_t id = 0;            // of the same point in the next step; below 2³²
+
+  void keep(Tape& tape) {
+    tape(a, b, ax, ay, bx, by, normal_a, normal_b, bounce, conveyor, friction, normal, tangent, id);
+  }
 };
 
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
@@ -128,9 +148,17 @@ struct System {
   std::span<const Joint> own_joints() const { return {joints.data(), own()}; }
   bool is_free(int body) const { return z(body) < free; }
 
+  /// After form(), of the same bodies and joints.
+  void keep(Tape& tape);
   /// Inverse masses, m_eff and the total mass, of so many free bodies.
   void form(std::size_t free_bodies);
+
+ private:
+  bool keep_contacts(Tape& tape);
 };
+
+/// After keep() has read a joint and its record: what follows from them.
+void restore(Joint& joint, JointRecord& record);
 
 /// Of the last solve, N, N, N m.
 Rows force(const Joint& joint, const JointRecord& record);

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "tape.h"
+
 namespace ductile::dynamics {
 
 /// Bodies and joints are numbered by int; as an index.
@@ -24,6 +26,11 @@ inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y +
 struct Turn {
   double c = 1, s = 0;
 };
+
+template <>
+inline constexpr bool all_doubles<Vec3> = true;
+template <>
+inline constexpr bool all_doubles<Turn> = true;
 
 inline Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 inline Turn inverse(const Turn& a) { return {a.c, -a.s}; }

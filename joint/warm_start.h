@@ -30,6 +30,10 @@ class LinearPrediction {
   /// Of all bodies.
   void next(std::span<Vec3> to) const;
   std::size_t bytes() const;
+  void keep(Tape& tape) {
+    tape(newest_, known_, past_, share_, samples_, gram_);
+    if (newest_ < 0 || newest_ >= terms || known_ < 0) tape.refuse(), newest_ = known_ = 0;
+  }
 
  private:
   /// With 5, a step of a swaying frame of 2000 joints costs a fifth more.
@@ -39,6 +43,7 @@ class LinearPrediction {
     std::size_t body;
     Vec3 mass;
     double x[terms + 1], y[terms + 1], w[terms + 1];  // ∇ᵏ of its newest velocity
+    void keep(Tape& tape) { tape(x, y, w); }
   };
 
   bool solve(int n, double (&a)[terms]) const;

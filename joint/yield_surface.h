@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ductile/joint_law.h"
+#include "tape.h"
 
 namespace ductile::dynamics {
 
@@ -22,6 +23,9 @@ using Rows = std::array<double, 3>;
 struct Coupling {
   double nn = 0, qq = 0, mm = 0, nq = 0, nm = 0, qm = 0;
 };
+
+template <>
+inline constexpr bool all_doubles<Coupling> = true;
 
 class YieldSurface {
  public:
@@ -41,6 +45,7 @@ class YieldSurface {
   double usage(const Rows& force) const;
 
   double shear() const { return shear_; }
+  std::span<const AxialMoment> polygon() const { return vertices_; }
 
   /// A facet is n·N + m·M ≤ 1; they follow each other counter-clockwise in (N, M).
   struct Facet {

@@ -35,6 +35,17 @@ struct JointRecord;
 struct Member;
 }  // namespace dynamics
 
+/// What a joint has been through: to keep it with a level, to begin with a bent bridge, to damage and to
+/// repair. By row: m, m, rad.
+struct JointState {
+  double elastic[3] = {};  ///< strain that its force stands for
+  double plastic[3] = {};  ///< net offset of B against A
+  double forward[3] = {};  ///< accumulated ≥ 0: lengthening, slip to the left, counter-clockwise rotation
+  double back[3] = {};     ///< the other way
+  double dissipated[3] = {};  ///< J
+  bool yielded = false;       ///< whether it ever flowed
+};
+
 /// Definition of an elastic-plastic joint, as a b2WeldJointDef is of a weld.
 struct ElasticPlasticJointDef : b2JointDef {
   /// Anchor in world coordinates; the axis runs from body A's centre of mass to the anchor (the paper's
@@ -69,6 +80,9 @@ struct ElasticPlasticJointDef : b2JointDef {
   /// Joints of one node ≠ 0 hold several bodies at one point to body A, which they share. Where that body is
   /// destroyed, Structure::update() joins the others to each other, each by its own rows and maxima.
   int node = 0;
+  /// What the joint begins with. It finds its bodies where they are and is strained by state.elastic there;
+  /// state.plastic moves nothing.
+  JointState state;
 };
 
 /// A joint of a Structure. The world owns it as it owns every joint: b2World::DestroyJoint and DestroyBody
@@ -120,6 +134,15 @@ class ElasticPlasticJoint : public b2WeldJoint {
   void drive(Row row, const Drive& drive);
   void set_limits(double max_rotation, double max_elongation, double max_compression, double max_slip);
 
+  /// The def that makes this joint again where its bodies are: caps as far as they have hardened, and state.
+  ElasticPlasticJointDef def() const;
+  /// def().state
+  JointState state() const;
+  /// Sets what was used up and how far it is strained, between steps; no body is moved by it. {}: as new,
+  /// without force where it is, and as bent as it is. What has hardened stays: see set_caps(). Throws
+  /// std::invalid_argument where a number is not finite, or forward or back is negative.
+  void set_state(const JointState& state);
+
   b2Vec2 GetReactionForce(float inv_dt) const override;
   float GetReactionTorque(float inv_dt) const override;
   void ShiftOrigin(const b2Vec2& newOrigin) override;
@@ -135,7 +158,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   ElasticPlasticJoint(const b2WeldJoint& weld, dynamics::Member* member);
   ~ElasticPlasticJoint() override;
 
-  const dynamics::Joint& state() const;
+  const dynamics::Joint& row_state() const;
   const dynamics::JointRecord& record() const;
   void wake();
 

@@ -1,0 +1,350 @@
+// A structure and its world as a document. What a game may want to read or change has names: bodies, joints
+// with their rows and states. What only the solver understands are its tapes of numbers (tape.h), which hold
+// for `past` alone.
+#include "ductile/save.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "structure.h"
+#include "world_archive.h"
+
+namespace ductile {
+
+using namespace dynamics;
+
+namespace {
+
+constexpr int format = 1;  // changes where older readers would misread
+constexpr int past = 1;    // changes with what the solver carries from step to step
+
+void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
+
+void tape(Archive& a, const char* key, const auto& keep) {
+  std::vector<double> numbers;
+  if (!a.reads()) {
+    Tape writes;
+    keep(writes);
+    numbers = writes.numbers();
+  }
+  a(key, numbers);
+  if (!a.reads()) return;
+  Tape reads(std::move(numbers));
+  keep(reads);
+  if (!reads.fits()) a.refuse(key, "is not of this structure");
+}
+
+void fields(Archive& a, ElasticPlasticJointDef& d) {
+  a("anchor_a", d.localAnchorA.x, d.localAnchorA.y);
+  a("anchor_b", d.localAnchorB.x, d.localAnchorB.y);
+  a("reference_angle", d.referenceAngle);
+  a("axis_follow", d.axisFollow);
+  a("line", d.line);
+  a("length", d.length);
+  a.list("rows", 3, [&](Archive& each, std::size_t i) {
+    if (i > 2) each.refuse("stiffness", "is of a fourth row");
+    RowDef& r = d.rows[i];
+    each("stiffness", r.stiffness);
+    each("damping", r.damping_ratio, r.damping);
+    each("caps", r.cap, r.cap_reverse);
+    each("hardening", r.hardening);
+    each("slackens", r.slackens);
+    bool driven = r.drive.has_value();
+    each("driven", driven);
+    if (!driven) return;
+    if (!r.drive) r.drive.emplace();
+    each("drive", r.drive->target, r.drive->speed);
+  });
+  a("max", d.max_rotation, d.max_elongation, d.max_compression, d.max_slip);
+  a.list("interaction", d.interaction.size(), [&](Archive& each, std::size_t i) {
+    if (each.reads()) d.interaction.emplace_back();
+    each("at", d.interaction[i].N, d.interaction[i].M);
+  });
+  a("break_group", d.break_group);
+  a("node", d.node);
+  three(a, "elastic", d.state.elastic);
+  three(a, "plastic", d.state.plastic);
+  three(a, "forward", d.state.forward);
+  three(a, "back", d.state.back);
+  three(a, "dissipated", d.state.dissipated);
+  a("yielded", d.state.yielded);
+}
+
+}  // namespace
+
+class Structure::Impl::Save {
+ public:
+  Save(Impl& structure, Archive& document) : s_(structure), a_(document), world_(*structure.world) {}
+
+  void run() {
+    int version = format, of_past = past;
+    a_("ductile", version);
+    a_("past", of_past);
+    if (version != format) a_.refuse("ductile", "is " + std::to_string(version) + "; this reads 1");
+    knows_past_ = of_past == past;
+    if (!a_.reads()) leave_unfit();
+    const std::uint32_t next_id = settings();
+    world_.settings(a_);
+    world_.bodies(a_);
+    world_.contacts(a_);
+    for (const auto& m : s_.members) member_of_[m->joint] = m.get();
+    a_.list("joints", world_.all_joints.size(), [&](Archive& each, std::size_t i) { joint(each, i); });
+    if (a_.reads()) number(next_id);
+    world_.motion(a_);
+    if (knows_past_) components();
+  }
+
+ private:
+  // Components whose bodies have changed since their last step will be formed anew before the next: they are
+  // written as what they leave to their joints.
+  void leave_unfit() {
+    const std::unordered_set<const b2Body*> there(world_.all_bodies.begin(), world_.all_bodies.end());
+    for (const auto& c : s_.components) {
+      if (c->fits_bodies(there)) continue;
+      Component& left = *unfit_.emplace(c.get(), std::make_unique<Component>(*c)).first->second;
+      left.solver.find_gaps();
+    }
+  }
+
+  std::uint32_t settings() {
+    JointEnergy gone = s_.gone_;
+    for (const auto& [there, left] : unfit_) {
+      gone.damping += left->solver.energies().damping;
+      gone.numerical += left->solver.energies().numerical;
+      gone.driven += left->solver.energies().driven;
+    }
+    std::uint32_t next_id = s_.next_id;
+    a_.object("structure", [&](Archive& a) {
+      bool iterative = s_.def.solver == SolverKind::iterative;
+      a("iterative", iterative);
+      s_.def.solver = iterative ? SolverKind::iterative : SolverKind::direct;
+      a("flow_share", s_.def.flow_share);
+      a("keep_ledger", s_.def.keep_ledger);
+      a("next_id", next_id);
+      a("last_node", s_.last_node);
+      a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped);
+    });
+    if (a_.reads()) s_.gone_ = gone;
+    return next_id;
+  }
+
+  // Members stand in the order of their ids, which is not that of the world's joints where welds were
+  // adopted.
+  void number(std::uint32_t next_id) {
+    const auto id = [](const auto& m) { return m->id; };
+    std::ranges::sort(s_.members, {}, id);
+    if (std::ranges::adjacent_find(s_.members, {}, id) != s_.members.end() ||
+        (!s_.members.empty() && s_.members.back()->id >= next_id))
+      a_.refuse("joints", "each must have an id of its own, below next_id");
+    s_.next_id = next_id;
+    std::ranges::transform(s_.members, s_.joints.begin(), [](const auto& m) { return m->joint; });
+  }
+
+  void joint(Archive& a, std::size_t i) {
+    std::string type = "elastic_plastic";
+    b2Joint* const there = a.reads() ? nullptr : world_.all_joints[i];
+    const auto found = member_of_.find(there);
+    Member* m = found != member_of_.end() ? found->second : nullptr;
+    if (a.reads()) a("type", type);
+    if (a.reads() ? type != "elastic_plastic" : m == nullptr) return world_.stock_joint(a, there);
+    a("type", type);
+    ElasticPlasticJointDef def;
+    if (m != nullptr) def = m->joint->def();
+    world_.body(a, "a", def.bodyA);
+    world_.body(a, "b", def.bodyB);
+    a("collide_connected", def.collideConnected);
+    if constexpr (requires { def.userData.pointer; }) a("user", def.userData.pointer);
+    fields(a, def);
+    Turn axis = m != nullptr ? m->data().frame.axis : Turn{};
+    a("axis", axis.c, axis.s);
+    double shear = m != nullptr && m->surface != nullptr ? m->surface->shear() : unlimited;
+    a("interaction_shear", shear);
+    if (m == nullptr) m = &make(a, def, axis, shear);
+    a("id", m->id);
+    a("told", m->told, m->told_energy);
+    const auto unfit = unfit_.find(m->component);
+    bool alone = m->component == nullptr || unfit != unfit_.end();
+    a("alone", alone);  // in no component
+    if (!alone || !knows_past_) return;
+    Member left = *m;
+    if (unfit != unfit_.end()) unfit->second->hand_back(left);
+    tape(a, "past", [&](Tape& t) {
+      t(left.own, left.own_record, left.drift_time, left.known, left.fresh);
+      if (t.reads()) dynamics::restore(left.own, left.own_record);
+    });
+    if (a.reads()) *m = left;
+  }
+
+  Member& make(Archive& a, ElasticPlasticJointDef& def, const Turn& axis, double shear) {
+    def.axisAngle = static_cast<float>(std::atan2(axis.s, axis.c));
+    if (const auto wrong = s_.problems(def); !wrong.empty()) a.refuse("rows", wrong.front());
+    b2WeldJointDef weld;
+    static_cast<b2JointDef&>(weld) = def;
+    weld.type = e_weldJoint;
+    weld.localAnchorA = def.localAnchorA;
+    weld.localAnchorB = def.localAnchorB;
+    weld.referenceAngle = def.referenceAngle;
+    ElasticPlasticJoint* joint = s_.take(static_cast<b2WeldJoint*>(world_.world().CreateJoint(&weld)), def);
+    world_.all_joints.push_back(joint);
+    Member& m = *s_.members.back();
+    m.own.frame.axis = axis;
+    if (!def.interaction.empty()) {
+      if (!(shear > 0)) a.refuse("interaction_shear", "must be > 0");
+      m.surface = std::make_shared<const YieldSurface>(def.interaction, shear);
+      m.own_record.material.surface = m.surface.get();
+    }
+    return m;
+  }
+
+  void components() {
+    std::vector<Component*> all;
+    for (const auto& c : s_.components) {
+      if (!unfit_.contains(c.get())) all.push_back(c.get());
+    }
+    a_.list("components", all.size(), [&](Archive& a, std::size_t i) {
+      std::vector<std::uint32_t> ids;
+      for (const Member* m : a.reads() ? std::vector<Member*>{} : all[i]->members) ids.push_back(m->id);
+      a("joints", ids);
+      Guests guests = touching(a, a.reads() ? nullptr : all[i]);
+      Component& c = a.reads() ? form(a, ids, std::move(guests.met)) : *all[i];
+      for (b2Body* body : guests.gone) {
+        if (a.reads()) world_.world().DestroyBody(body);
+      }
+      tape(a, "past", [&](Tape& t) { c.keep(t); });
+    });
+  }
+
+  struct Guests {
+    std::vector<b2Body*> gone;  // from the world
+    std::vector<BodyPair> met;  // of them and of the world's bodies
+  };
+
+  // What touched when the component was formed. Guests that are no more keep their places in it, and are not
+  // asked again: where it is read, bodies stand in for them while it is formed.
+  Guests touching(Archive& a, const Component* c) {
+    Guests guests;
+    std::vector<b2MassData> masses;
+    for (std::size_t i = 0; c != nullptr && i < c->mirrors.size(); ++i) {
+      b2Body* const body = c->mirrors[i].body;
+      if (!c->mirrors[i].guest || std::ranges::count(world_.all_bodies, body) != 0) continue;
+      const bool moves = i < c->solver.free_bodies();
+      const Body& b = c->solver.bodies[i];
+      guests.gone.push_back(body);
+      masses.push_back({moves ? static_cast<float>(b.mass) : 0, {0, 0}, static_cast<float>(b.inertia)});
+    }
+    a.list("gone", masses.size(), [&](Archive& each, std::size_t i) {
+      if (each.reads()) masses.emplace_back();
+      b2MassData& m = masses[i];
+      each("mass", m.mass, m.I);
+      if (!(m.mass >= 0 && m.I >= 0 && std::isfinite(m.mass) && std::isfinite(m.I)))
+        each.refuse("mass", "must be finite and >= 0");
+      if (!each.reads()) return;
+      b2BodyDef def;
+      def.type = m.mass > 0 ? b2_dynamicBody : b2_staticBody;
+      m.center = {0, 0};
+      guests.gone.push_back(world_.world().CreateBody(&def));
+      guests.gone.back()->SetMassData(&m);
+    });
+    std::vector<b2Body*> all = world_.all_bodies;
+    all.insert(all.end(), guests.gone.begin(), guests.gone.end());
+    std::vector<std::uint32_t> numbers;
+    const auto add = [&](const b2Body* body) {
+      numbers.push_back(static_cast<std::uint32_t>(std::ranges::find(all, body) - all.begin()));
+    };
+    for (const BodyPair& pair : c != nullptr ? c->met : std::vector<BodyPair>{}) add(pair.a), add(pair.b);
+    a("met", numbers);
+    for (std::size_t k = 0; a.reads() && k + 1 < numbers.size(); k += 2) {
+      if (numbers[k] == numbers[k + 1] || std::max(numbers[k], numbers[k + 1]) >= all.size())
+        a.refuse("met", "must be pairs of bodies");
+      guests.met.push_back({all[numbers[k]], all[numbers[k + 1]]});
+    }
+    return guests;
+  }
+
+  Component& form(Archive& a, const std::vector<std::uint32_t>& ids, std::vector<BodyPair> met) {
+    std::vector<Member*> members;
+    for (const std::uint32_t id : ids) {
+      const auto found = s_.find(id);
+      if (found == s_.members.end() || (*found)->component != nullptr)
+        a.refuse("joints", "names a joint twice, or none");
+      members.push_back(found->get());
+    }
+    if (members.empty()) a.refuse("joints", "are none");
+    return s_.form(std::move(members), std::move(met));
+  }
+
+  Impl& s_;
+  Archive& a_;
+  WorldArchive world_;
+  std::unordered_map<const b2Joint*, Member*> member_of_;
+  std::unordered_map<const Component*, std::unique_ptr<Component>> unfit_;  // copies
+  bool knows_past_ = true;
+};
+
+void Structure::Impl::clear() {
+  for (std::uint32_t i = 0; i < members.size(); ++i) members[i]->id = i;  // some may stand in no order
+  WorldArchive::clear(*world);
+  orphans.clear();
+  gone_ = {};
+}
+
+namespace {
+
+Structure::Impl& impl_of(const Structure& structure) {
+  b2World* world = structure.world();
+  if (world == nullptr) throw std::logic_error("save: the structure's world is gone, or all its bodies");
+  if (world->IsLocked()) throw std::logic_error("save: the world is stepping; save and load between steps");
+  const auto all = structures_in(*world);
+  if (all.size() != 1) throw std::logic_error("save: the world has several structures; make one per world");
+  return *all.front();
+}
+
+Archive::Json written(const Structure& structure) {
+  Structure::Impl& impl = impl_of(structure);
+  if (!impl.told_all()) throw std::logic_error("save: call Structure::update() after the step, then save");
+  Archive::Json document;
+  Archive archive(document, false);
+  Structure::Impl::Save(impl, archive).run();
+  return document;
+}
+
+void read(Structure& structure, Archive::Json document) {
+  Structure::Impl& impl = impl_of(structure);
+  b2World& world = *impl.world;
+  if (world.GetBodyCount() > 1 || world.GetJointCount() > 0)
+    throw std::logic_error("save: the world has bodies; load into one that has none");
+  const StructureDef before = impl.def;
+  Archive archive(document, true);
+  try {
+    Structure::Impl::Save(impl, archive).run();
+  } catch (...) {
+    impl.clear();
+    impl.def = before;
+    throw;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> save_bytes(const Structure& structure) {
+  return Archive::Json::to_cbor(written(structure));
+}
+
+std::string save_json(const Structure& structure) { return written(structure).dump(); }
+
+void load_bytes(Structure& structure, std::span<const std::uint8_t> bytes) {
+  Archive::Json document = Archive::Json::from_cbor(bytes.begin(), bytes.end(), true, false);
+  if (document.is_discarded()) throw std::invalid_argument("save: these bytes are no CBOR, or not all of it");
+  read(structure, std::move(document));
+}
+
+void load_json(Structure& structure, std::string_view text) {
+  Archive::Json document = Archive::Json::parse(text.begin(), text.end(), nullptr, false);
+  if (document.is_discarded()) throw std::invalid_argument("save: the text is no JSON, or not all of it");
+  read(structure, std::move(document));
+}
+
+}  // namespace ductile
