@@ -183,10 +183,8 @@ void Component::hand_back(Member& m) const {
   m.known = {known(m.own.a), known(m.own.b)};
 }
 
-bool Component::fits_bodies(const std::unordered_set<const b2Body*>& there) const {
-  return std::all_of(mirrors.begin(), mirrors.end(), [&](const Mirror& m) {
-    return (m.guest && !there.contains(m.body)) || (m.body->GetType() == m.type && m.has_its_mass());
-  });
+bool Component::fits_bodies() const {
+  return std::ranges::all_of(mirrors, [](const Mirror& m) { return m.guest || m.fits(); });
 }
 
 void Component::Mirror::keep(Tape& tape) {

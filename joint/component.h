@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "box2d_contacts.h"
@@ -99,6 +98,7 @@ struct Component {
       return type != b2_dynamicBody || (body->GetMass() == mass && body->GetInertia() == inertia &&
                                         body->GetLocalCenter() == local_center);
     }
+    bool fits() const { return body->GetType() == type && has_its_mass(); }
     void keep(Tape& tape);
   };
   /// Of a body, when a ledger is kept.
@@ -133,8 +133,8 @@ struct Component {
   KnownPose known(int body) const;
   /// What the member has to keep when the component is no more.
   void hand_back(Member& member) const;
-  /// Whether bodies are still what the component was formed for, guests as far as they are still there.
-  bool fits_bodies(const std::unordered_set<const b2Body*>& there) const;
+  /// Whether the bodies of its joints are still what the component was formed for.
+  bool fits_bodies() const;
   void keep(Tape& tape);
   Pose relative(const b2Position& at) const;  // to the origin
   b2Position box2d_pose(std::size_t body) const;

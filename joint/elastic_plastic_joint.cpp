@@ -35,6 +35,37 @@ void ElasticPlasticJointDef::InitializeLine(b2Body* a, b2Body* b, const b2Vec2& 
   rows[shear] = rows[rotation] = RowDef::free();
 }
 
+namespace {
+
+constexpr const char* row_names[] = {"axial", "shear", "rotation"};
+
+// Of one row, each a clause.
+std::vector<std::string> wrong_in(const RowDef& row) {
+  std::vector<std::string> wrong;
+  const auto require = [&](bool good, const char* text) {
+    if (!good) wrong.emplace_back(text);
+  };
+  if (!(row.stiffness > 0))
+    wrong.push_back("stiffness is " + std::to_string(row.stiffness) + "; must be > 0 (or rigid)");
+  require(row.damping_ratio >= 0 && std::isfinite(row.damping_ratio), "damping_ratio must be ≥ 0 and finite");
+  require(row.damping >= 0 && std::isfinite(row.damping), "damping must be ≥ 0 and finite");
+  require(row.cap >= 0 && row.cap_reverse >= 0, "caps must be ≥ 0 (0: free, unlimited: never yields)");
+  require(row.hardening >= 0 && row.hardening < row.stiffness, "hardening must be in [0, stiffness)");
+  require(!row.slackens || !(row.cap > 0 && row.cap_reverse > 0), "a row that slackens has a cap of 0");
+  require(!row.drive ||
+              (row.drive->speed >= 0 && std::isfinite(row.drive->speed) && !std::isnan(row.drive->target)),
+          "a drive's speed must be ≥ 0 and finite, its target a number");
+  require(!row.drive || !(row.hardening > 0), "a driven row does not harden; set hardening to 0");
+  return wrong;
+}
+
+bool is_free(const RowDef& row) { return row.cap == 0 && row.cap_reverse == 0; }
+constexpr const char* line_rule =
+    "a line carries along its axis only; set the shear and rotation rows free()";
+constexpr const char* surface_rule = "an interaction curve takes no drive and does not slacken";
+
+}  // namespace
+
 std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
   std::vector<std::string> wrong;
   const auto require = [&](bool good, const std::string& text) {
@@ -47,29 +78,11 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
               std::isfinite(def.referenceAngle),
           "anchors and angles must be finite");
   require(def.axisFollow >= 0 && def.axisFollow <= 1, "axisFollow must be within [0, 1]");
-  static const char* const names[] = {"axial", "shear", "rotation"};
-  for (int i = 0; i < 3; ++i) {
-    const RowDef& row = def.rows[i];
-    const std::string name = std::string(names[i]) + " row: ";
-    require(row.stiffness > 0,
-            name + "stiffness is " + std::to_string(row.stiffness) + "; must be > 0 (or rigid)");
-    require(row.damping_ratio >= 0 && std::isfinite(row.damping_ratio),
-            name + "damping_ratio must be ≥ 0 and finite");
-    require(row.damping >= 0 && std::isfinite(row.damping), name + "damping must be ≥ 0 and finite");
-    require(row.cap >= 0 && row.cap_reverse >= 0,
-            name + "caps must be ≥ 0 (0: free, unlimited: never yields)");
-    require(row.hardening >= 0 && row.hardening < row.stiffness,
-            name + "hardening must be in [0, stiffness)");
-    require(!row.slackens || (row.cap > 0) != (row.cap_reverse > 0),
-            name + "a row that slackens has one cap of 0 and one that is not");
-    require(!row.drive ||
-                (row.drive->speed >= 0 && std::isfinite(row.drive->speed) && !std::isnan(row.drive->target)),
-            name + "a drive's speed must be ≥ 0 and finite, its target a number");
-    require(!row.drive || !(row.hardening > 0), name + "a driven row does not harden; set hardening to 0");
+  for (unsigned i = 0; i < 3; ++i) {
+    for (const std::string& text : wrong_in(def.rows[i]))
+      require(false, std::string(row_names[i]) + " row: " + text);
   }
-  require(!def.line || (def.rows[shear].cap == 0 && def.rows[shear].cap_reverse == 0 &&
-                        def.rows[rotation].cap == 0 && def.rows[rotation].cap_reverse == 0),
-          "a line carries along its axis only; set the shear and rotation rows free()");
+  require(!def.line || (is_free(def.rows[shear]) && is_free(def.rows[rotation])), line_rule);
   require(!std::isnan(def.length) && !std::isinf(def.length), "length must be finite (below 0: as it is)");
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
@@ -78,7 +91,7 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
   if (!def.interaction.empty()) {
     for (const RowDef& row : def.rows) {
       require(!(row.hardening > 0), "an interaction curve does not harden; set hardening to 0");
-      require(!row.slackens && !row.drive, "an interaction curve takes no drive and does not slacken");
+      require(!row.slackens && !row.drive, surface_rule);
     }
     try {
       YieldSurface(def.interaction, def.rows[shear].cap);
@@ -168,8 +181,22 @@ bool ElasticPlasticJoint::stiffness_limited(Row row) const {
   return std::isfinite(k) && integrated > 0 && integrated < k;
 }
 
+// What an edited joint is, its def may be.
+void ElasticPlasticJoint::require(Row row, const RowDef& to) const {
+  const auto refuse = [](const std::string& text) {
+    throw std::invalid_argument("elastic-plastic joint: " + text);
+  };
+  if (const auto wrong = wrong_in(to); !wrong.empty())
+    refuse(std::string(row_names[row]) + " row: " + wrong.front());
+  if (row_state().frame.line && row != axial && !is_free(to)) refuse(line_rule);
+  if (record().material.surface != nullptr && to.drive) refuse(surface_rule);
+}
+
 void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
-  if (!(cap >= 0 && cap_reverse >= 0)) throw std::invalid_argument("elastic-plastic joint: caps must be ≥ 0");
+  RowDef to = this->row(row);
+  to.cap = cap;
+  to.cap_reverse = cap_reverse;
+  require(row, to);
   if (member_ == nullptr || member_->broken) return;
   member_->record().material.cap[row] = cap;
   member_->record().material.cap_reverse[row] = cap_reverse;
@@ -177,21 +204,19 @@ void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
 }
 
 void ElasticPlasticJoint::drive(Row row, const Drive& drive) {
-  if (!(drive.speed >= 0 && std::isfinite(drive.speed) && !std::isnan(drive.target))) {
-    throw std::invalid_argument("elastic-plastic joint: a drive's speed must be ≥ 0 and finite");
-  }
+  RowDef to = this->row(row);
+  to.drive = drive;
+  require(row, to);
   if (member_ == nullptr || member_->broken) return;
-  if (record().material.surface != nullptr) {
-    throw std::invalid_argument("elastic-plastic joint: an interaction curve takes no drive");
-  }
   member_->record().material.drive(row, drive.target, drive.speed);
   wake();
 }
 
 void ElasticPlasticJoint::set_stiffness(Row row, double stiffness, double damping_ratio) {
-  if (!(stiffness > 0 && damping_ratio >= 0 && std::isfinite(damping_ratio))) {
-    throw std::invalid_argument("elastic-plastic joint: stiffness must be > 0 and damping_ratio ≥ 0");
-  }
+  RowDef to = this->row(row);
+  to.stiffness = stiffness;
+  to.damping_ratio = damping_ratio;
+  require(row, to);
   if (member_ == nullptr) return;
   member_->record().material.stiffness[row] = stiffness;
   member_->record().material.damping_ratio[row] = damping_ratio;

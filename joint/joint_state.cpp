@@ -68,6 +68,20 @@ void ElasticPlasticJoint::set_state(const JointState& to) {
   wake();
 }
 
+RowDef ElasticPlasticJoint::row(Row i) const {
+  const Material& m = record().material;
+  if (member_ == nullptr) return {};
+  RowDef def{.stiffness = m.stiffness[i],
+             .damping_ratio = m.damping_ratio[i],
+             .cap = m.cap[i],
+             .cap_reverse = m.cap_reverse[i],
+             .hardening = m.hardening[i],
+             .damping = m.damping[i],
+             .slackens = m.may_slacken(i)};
+  if (m.is_driven(i)) def.drive = Drive{m.target[i], m.speed[i]};
+  return def;
+}
+
 ElasticPlasticJointDef ElasticPlasticJoint::def() const {
   ElasticPlasticJointDef d;
   d.bodyA = m_bodyA;
@@ -81,17 +95,7 @@ ElasticPlasticJointDef ElasticPlasticJoint::def() const {
   d.axisAngle = static_cast<float>(std::atan2(frame.axis.s, frame.axis.c));
   d.axisFollow = static_cast<float>(frame.follow);
   if (member_ == nullptr) return d;
-  const Material& m = record().material;
-  for (unsigned i = 0; i < 3; ++i) {
-    d.rows[i] = {.stiffness = m.stiffness[i],
-                 .damping_ratio = m.damping_ratio[i],
-                 .cap = m.cap[i],
-                 .cap_reverse = m.cap_reverse[i],
-                 .hardening = m.hardening[i],
-                 .damping = m.damping[i],
-                 .slackens = (m.slackens >> i & 1u) != 0};
-    if ((m.driven >> i & 1u) != 0) d.rows[i].drive = Drive{m.target[i], m.speed[i]};
-  }
+  for (const Row i : {axial, shear, rotation}) d.rows[i] = row(i);
   d.line = frame.line;
   if (d.line) d.length = member_->fresh ? member_->length : row_state().neutral[axial];
   d.max_rotation = member_->max_rotation;
@@ -101,6 +105,7 @@ ElasticPlasticJointDef ElasticPlasticJoint::def() const {
   if (member_->surface != nullptr) {
     const auto polygon = member_->surface->polygon();
     d.interaction.assign(polygon.begin(), polygon.end());
+    d.rows[shear].cap = d.rows[shear].cap_reverse = member_->surface->shear();
   }
   d.break_group = member_->break_group;
   d.node = member_->node;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "structure.h"
 #include "world_archive.h"
@@ -101,9 +100,8 @@ class Structure::Impl::Save {
   // Components whose bodies have changed since their last step will be formed anew before the next: they are
   // written as what they leave to their joints.
   void leave_unfit() {
-    const std::unordered_set<const b2Body*> there(world_.all_bodies.begin(), world_.all_bodies.end());
     for (const auto& c : s_.components) {
-      if (c->fits_bodies(there)) continue;
+      if (c->fits_bodies()) continue;
       Component& left = *unfit_.emplace(c.get(), std::make_unique<Component>(*c)).first->second;
       left.solver.find_gaps();
     }
@@ -160,9 +158,7 @@ class Structure::Impl::Save {
     fields(a, def);
     Turn axis = m != nullptr ? m->data().frame.axis : Turn{};
     a("axis", axis.c, axis.s);
-    double shear = m != nullptr && m->surface != nullptr ? m->surface->shear() : unlimited;
-    a("interaction_shear", shear);
-    if (m == nullptr) m = &make(a, def, axis, shear);
+    if (m == nullptr) m = &make(a, def, axis);
     a("id", m->id);
     a("told", m->told, m->told_energy);
     const auto unfit = unfit_.find(m->component);
@@ -178,7 +174,7 @@ class Structure::Impl::Save {
     if (a.reads()) *m = left;
   }
 
-  Member& make(Archive& a, ElasticPlasticJointDef& def, const Turn& axis, double shear) {
+  Member& make(Archive& a, ElasticPlasticJointDef& def, const Turn& axis) {
     def.axisAngle = static_cast<float>(std::atan2(axis.s, axis.c));
     if (const auto wrong = s_.problems(def); !wrong.empty()) a.refuse("rows", wrong.front());
     b2WeldJointDef weld;
@@ -191,11 +187,6 @@ class Structure::Impl::Save {
     world_.all_joints.push_back(joint);
     Member& m = *s_.members.back();
     m.own.frame.axis = axis;
-    if (!def.interaction.empty()) {
-      if (!(shear > 0)) a.refuse("interaction_shear", "must be > 0");
-      m.surface = std::make_shared<const YieldSurface>(def.interaction, shear);
-      m.own_record.material.surface = m.surface.get();
-    }
     return m;
   }
 
@@ -210,15 +201,18 @@ class Structure::Impl::Save {
       a("joints", ids);
       Guests guests = touching(a, a.reads() ? nullptr : all[i]);
       Component& c = a.reads() ? form(a, ids, std::move(guests.met)) : *all[i];
-      for (b2Body* body : guests.gone) {
-        if (a.reads()) world_.world().DestroyBody(body);
-      }
+      if (a.reads()) dismiss(c, guests.gone);
       tape(a, "past", [&](Tape& t) { c.keep(t); });
     });
   }
 
+  /// A guest that is gone from the world: another body may stand at its address.
+  struct Gone {
+    b2Body* body;
+    double mass, inertia;  // 0, 0: not free
+  };
   struct Guests {
-    std::vector<b2Body*> gone;  // from the world
+    std::vector<Gone> gone;
     std::vector<BodyPair> met;  // of them and of the world's bodies
   };
 
@@ -226,33 +220,34 @@ class Structure::Impl::Save {
   // asked again: where it is read, bodies stand in for them while it is formed.
   Guests touching(Archive& a, const Component* c) {
     Guests guests;
-    std::vector<b2MassData> masses;
     for (std::size_t i = 0; c != nullptr && i < c->mirrors.size(); ++i) {
-      b2Body* const body = c->mirrors[i].body;
-      if (!c->mirrors[i].guest || std::ranges::count(world_.all_bodies, body) != 0) continue;
-      const bool moves = i < c->solver.free_bodies();
+      const Component::Mirror& m = c->mirrors[i];
+      if (!m.guest || (std::ranges::count(world_.all_bodies, m.body) != 0 && m.fits())) continue;
       const Body& b = c->solver.bodies[i];
-      guests.gone.push_back(body);
-      masses.push_back({moves ? static_cast<float>(b.mass) : 0, {0, 0}, static_cast<float>(b.inertia)});
+      const bool moves = i < c->solver.free_bodies();
+      guests.gone.push_back({m.body, moves ? b.mass : 0, moves ? b.inertia : 0});
     }
-    a.list("gone", masses.size(), [&](Archive& each, std::size_t i) {
-      if (each.reads()) masses.emplace_back();
-      b2MassData& m = masses[i];
-      each("mass", m.mass, m.I);
-      if (!(m.mass >= 0 && m.I >= 0 && std::isfinite(m.mass) && std::isfinite(m.I)))
-        each.refuse("mass", "must be finite and >= 0");
+    a.list("gone", guests.gone.size(), [&](Archive& each, std::size_t i) {
+      if (each.reads()) guests.gone.emplace_back();
+      Gone& g = guests.gone[i];
+      each("mass", g.mass, g.inertia);
       if (!each.reads()) return;
+      const b2MassData data{static_cast<float>(g.mass), {0, 0}, static_cast<float>(g.inertia)};
+      if (!(data.mass >= 0 && data.I >= 0 && std::isfinite(data.mass) && std::isfinite(data.I)) ||
+          (data.mass > 0) != (g.mass > 0) || (data.I > 0) != (g.inertia > 0))
+        each.refuse("mass", "must be a mass and an inertia >= 0");
       b2BodyDef def;
-      def.type = m.mass > 0 ? b2_dynamicBody : b2_staticBody;
-      m.center = {0, 0};
-      guests.gone.push_back(world_.world().CreateBody(&def));
-      guests.gone.back()->SetMassData(&m);
+      def.type = g.mass > 0 ? b2_dynamicBody : b2_staticBody;
+      g.body = world_.world().CreateBody(&def);
+      g.body->SetMassData(&data);
     });
     std::vector<b2Body*> all = world_.all_bodies;
-    all.insert(all.end(), guests.gone.begin(), guests.gone.end());
+    for (const Gone& g : guests.gone) all.push_back(g.body);
     std::vector<std::uint32_t> numbers;
     const auto add = [&](const b2Body* body) {
-      numbers.push_back(static_cast<std::uint32_t>(std::ranges::find(all, body) - all.begin()));
+      // From the back: a guest that is gone has the address of a body that is there.
+      const auto found = std::find(all.rbegin(), all.rend(), body);
+      numbers.push_back(static_cast<std::uint32_t>(all.rend() - found - 1));
     };
     for (const BodyPair& pair : c != nullptr ? c->met : std::vector<BodyPair>{}) add(pair.a), add(pair.b);
     a("met", numbers);
@@ -262,6 +257,17 @@ class Structure::Impl::Save {
       guests.met.push_back({all[numbers[k]], all[numbers[k + 1]]});
     }
     return guests;
+  }
+
+  // The component keeps addresses of what stood in, and masses as they were, which floats may not hold.
+  void dismiss(Component& c, const std::vector<Gone>& gone) {
+    for (const Gone& g : gone) {
+      const auto mirror = std::ranges::find(c.mirrors, g.body, &Component::Mirror::body);
+      if (mirror != c.mirrors.end() && g.mass > 0)
+        c.solver.bodies[static_cast<std::size_t>(mirror - c.mirrors.begin())].inertia = g.inertia;
+      world_.world().DestroyBody(g.body);
+    }
+    if (!gone.empty()) c.solver.form(c.solver.free_bodies());
   }
 
   Component& form(Archive& a, const std::vector<std::uint32_t>& ids, std::vector<BodyPair> met) {

@@ -99,6 +99,7 @@ bool System::keep_contacts(Tape& tape) {
 
 void restore(Joint& j, JointRecord& r) {
   r.law.surface = r.material.surface;
+  j.special = (r.material.slackens | r.material.driven) != 0;
   StepLaws::take_law(j, r.law);
   if (j.regime > on_surface) j.regime = 0;
 }

@@ -223,6 +223,13 @@ TEST(Save, OfRopesAndWinches) {
     SCOPED_TRACE("slack");
     expect_same_future(s, 60);
   }
+  EXPECT_THROW(joint->set_caps(rotation, 1, 1), std::invalid_argument);  // of a line
+  joint->set_caps(axial, 0, 0);
+  {
+    SCOPED_TRACE("let go");
+    expect_same_future(s, 5);
+  }
+  joint->set_caps(axial, 9e4, 0);
   joint->drive(axial, {.target = 2, .speed = 0.5});
   s.run(20);
   {
