@@ -126,8 +126,8 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// (mechanics: κ).
   bool stiffness_limited(Row row) const;
 
-  /// Changes a row while the world is not stepping; wakes the bodies. Throws std::invalid_argument where a def
-  /// may not have the row so.
+  /// Changes a row while the world is not stepping; wakes the bodies. Throws std::invalid_argument where a
+  /// def may not have the row so.
   void set_caps(Row row, double cap, double cap_reverse);
   void set_stiffness(Row row, double stiffness, double damping_ratio);
   /// Drives a row from where its neutral position is. A row that carries nothing (caps of 0) lets go, and
