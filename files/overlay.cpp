@@ -20,7 +20,7 @@ namespace {
 /// A point of the grid. Differences stay within 2^30 and cross products within 2^61, so they are exact.
 struct Node {
   std::int32_t x, y;
-  auto operator<=>(const Node&) const = default;
+  auto operator<=>(const Node&) const = default;  // NOLINT(modernize-use-nullptr): the check misreads it
 };
 std::int64_t cross(Node o, Node p, Node q) {
   return (std::int64_t{p.x} - o.x) * (std::int64_t{q.y} - o.y) -
@@ -119,6 +119,7 @@ void refuse_entangled(const std::vector<Segment>& segments) {
     int left, right, low, high;
   };
   std::vector<Span> spans;
+  spans.reserve(segments.size());
   for (const Segment& s : segments) {
     spans.push_back({std::min(s.low().x(), s.high().x()), std::max(s.low().x(), s.high().x()),
                      std::min(s.low().y(), s.high().y()), std::max(s.low().y(), s.high().y())});

@@ -128,6 +128,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     Joint& j = solver.joints[i];
     Rows& gap = solver.records[i].gap;
     if (std::exchange(members[i]->fresh, false)) {
+      struck_ |= parts(j);
       for (unsigned row = 0; row < 3; ++row) j.neutral[row] += gap[row];
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
       continue;
@@ -145,6 +146,24 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
         j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
     }
   }
+}
+
+// Whether a new joint's bodies come with velocities that it does not leave them.
+bool Component::parts(const Joint& j) const {
+  const auto of_body = [&](int i) {
+    const b2Body& b = *mirrors[z(i)].body;
+    return into_own_frame(solver.places[z(i)].turn, b.GetLinearVelocity().x, b.GetLinearVelocity().y,
+                          b.GetAngularVelocity());
+  };
+  const Rows v = relative_velocity(j, of_body(j.a), of_body(j.b));
+  const double size = std::max(mirrors[z(j.a)].gyration, mirrors[z(j.b)].gyration);
+  return std::max({std::abs(v[0]), std::abs(v[1]), size * std::abs(v[2])}) > blow_speed;
+}
+
+double Member::left(unsigned row, double slip) const {
+  const PlasticFlow& p = record().plastic;
+  if (row == 0) return slip > 0 ? max_elongation - p.forward[0] : max_compression - p.back[0];
+  return (row == 1 ? max_slip : max_rotation) - p.forward[row] - p.back[row];
 }
 
 void Component::read_mass(std::size_t i) {
@@ -195,7 +214,7 @@ void Component::Mirror::keep(Tape& tape) {
 }
 
 void Component::keep(Tape& tape) {
-  tape(origin_x, origin_y, parted_, alone_, at_rest_, resting, mirrors, solver);
+  tape(origin_x, origin_y, parted_, alone_, struck_, at_rest_, resting, mirrors, solver);
 }
 
 Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }

@@ -62,6 +62,8 @@ struct Member {
   std::shared_ptr<const YieldSurface> surface;
 
   void set_state(const JointState& state);
+  /// By what a row may flow in the sense of `slip` before the joint breaks, m or rad.
+  double left(unsigned row, double slip) const;
   void belong_to(Component* to) { joint->component_ = component = to; }
   Joint& data();
   JointRecord& record();
@@ -161,11 +163,16 @@ struct Component {
   void read_mass(std::size_t body);
   int freedom(std::size_t body, std::size_t free_bodies) const;
   int index_of(const b2Body* body) const;
-  void take(Mirror& mirror, const b2SolverData& data) const;
+  void take(Mirror& mirror, const b2SolverData& data);
+  bool is_blow() const;
+  bool parts(const Joint& joint) const;
+  /// By what velocities must change at once for a blow, m/s.
+  static constexpr float blow_speed = 0.1f;
   void set_warm_starts_aside();
   void enter_contacts();
   void return_contacts();
   void solve(const b2SolverData& data);
+  bool weaken_what_breaks();
   void project(bool try_goal);
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
@@ -176,6 +183,7 @@ struct Component {
   bool anchored_ = false;  // some joint holds to what does not give
   bool parted_ = false;    // bodies were moved apart while their joint was in no island
   bool alone_ = false;     // no body has a contact or another joint
+  bool struck_ = false;    // velocities were changed between the steps
   bool at_rest_ = false;   // the next step will be this one if nothing else touches the bodies
 };
 

@@ -7,6 +7,7 @@
 
 #include "frames.h"
 #include "reveal.h"
+#include "structure.h"
 
 namespace ductile::dynamics {
 
@@ -150,7 +151,7 @@ bool Component::as_before(const b2SolverData& data) const {
 // The velocity that Box2D brings. Where its floats, bit by bit, are what gravity and damping make of those
 // that we gave, so are the doubles: rounded anew in each step, they would shake what swings, and spoil the
 // forecast.
-void Component::take(Mirror& m, const b2SolverData& data) const {
+void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   if (m.type != b2_dynamicBody || kind != SolverKind::direct) {
     m.exact = in_doubles(m.given = m.taken);
@@ -170,8 +171,26 @@ void Component::take(Mirror& m, const b2SolverData& data) const {
                m.exact.w / (1 + double{h} * turn_damping)};
   } else {
     m.exact = in_doubles(m.taken);
+    const b2Vec2 jump = m.body->GetLinearVelocity() - m.given.v;
+    const float turn = m.gyration * std::abs(m.body->GetAngularVelocity() - m.given.w);
+    struck_ |= !m.guest && std::max(jump.Length(), turn) > blow_speed;
   }
   m.given = m.taken;
+}
+
+// Whether velocities jump at the start of this step: of pieces, or as something closes with them.
+bool Component::is_blow() const {
+  if (struck_) return true;
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    for (int32 k = 0; k < v.count; ++k) {
+      const auto at = [](const b2Body* body, const b2Vec2& arm) {
+        return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
+      };
+      if (b2Dot(at(t.b(), v.points[k].rb) - at(t.a(), v.points[k].ra), v.normal) < -blow_speed) return true;
+    }
+  }
+  return false;
 }
 
 void Component::first_velocity(const b2SolverData& data) {
@@ -250,6 +269,8 @@ void Component::first_velocity(const b2SolverData& data) {
   }
   if (kind == SolverKind::iterative) solver.warm_start();
   enter_contacts();
+  if (kind == SolverKind::direct && is_blow()) solver.strike();
+  struck_ = false;
   solve(data);
 }
 
@@ -280,10 +301,35 @@ void Component::next_velocity(const b2SolverData& data) {
   }
 }
 
+// Joints that break in this step hold until they do. A joint whose break somebody may veto holds through it.
+bool Component::weaken_what_breaks() {
+  if (!solver.struck() || !solver.any_flows() || structure->veto) return false;
+  bool any = false;
+  for (const Member* m : members) {
+    const Joint& j = solver.joints[m->index];
+    if (j.regime == 0 || m->broken) continue;
+    JointRecord& r = solver.records[m->index];
+    double share = 1;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!flows(j.regime, i) || !(j.G[i] > 0)) continue;
+      const double slip = slip_of(j, r, i), left = m->left(i, slip);
+      if (std::abs(slip) > left) share = std::min(share, std::max(left, 0.0) / std::abs(slip));
+    }
+    if (share < 0.95 * r.held) {
+      solver.weaken(m->index, share);
+      any = true;
+    } else if (r.held < 1) {
+      r.held = share;
+    }
+  }
+  return any;
+}
+
 void Component::solve(const b2SolverData& data) {
   SolveReport solved;
   if (kind == SolverKind::direct) {
     solver.solve(solved);
+    for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
   } else {
     solver.sweep();
   }

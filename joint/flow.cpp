@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blow.h"
 #include "drive.h"
 
 namespace ductile::dynamics {
 
-namespace {
-
-// Of one step as it was solved.
 double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   const double h = r.law.h, s = j.impulse[i];
   const double e = strain_of_bias(j, i);
   const double rate = s / j.G[i] - j.bias[i];
-  const double limit = std::abs(s) / (h * r.law.spring[i]);
+  const double limit = std::abs(impulse_at_yield(j, r, i)) / (h * r.law.spring[i]);
   const double share = r.law.delta[i] < 1 ? (1 + r.law.delta[i]) / 2 : 1;
   return h * (r.x[i] - j.bias[i]) - (std::clamp(e + share * h * rate, -limit, limit) - e);
 }
-
-}  // namespace
 
 void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const Motion& motion) {
   const double h = laws.step();
@@ -33,7 +29,7 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
   }
   for (unsigned i = 0; i < 3; ++i) {
     if (!flows(j.regime, i) || !(j.G[i] > 0) || is_slack(j, r, i)) continue;
-    const double s = j.impulse[i];
+    const double s = impulse_at_yield(j, r, i);
     const double increment = slip[i];
     // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
     if (!(increment * r.x[i] > 0) && j.regime != on_surface) continue;
@@ -41,7 +37,7 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
     if (is_driven(r, i)) continue;
     r.plastic.net[i] += increment;
     (increment > 0 ? r.plastic.forward : r.plastic.back)[i] += std::abs(increment);
-    if (work >= 0) r.dissipated[i] += s / h * increment;
+    if (work >= 0) r.dissipated[i] += r.held * s / h * increment;
     if (r.material.hardening[i] > 0) {
       // Isotropic: the slider of modulus H in series with the spring raises the cap in both directions.
       const double growth = r.material.slider_modulus(i, r.law.spring[i]) * std::abs(increment);

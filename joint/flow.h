@@ -20,6 +20,9 @@ struct Motion {
   bool swept = false;  // by Sweep: of rows that flow, x is but the direction
 };
 
+/// What a row flows by in the step as it was solved, m or rad.
+double slip_of(const Joint& joint, const JointRecord& record, unsigned row);
+
 /// Books the plastic flow of a joint whose gap is now `gap`.
 void flow(Joint& joint, JointRecord& record, const Rows& gap, const StepLaws& laws, const Motion& motion);
 

@@ -60,7 +60,8 @@ void Hessian::factor_tangents(System& system, bool secants) {
     }
     r.tangent = {.nn = slope[0], .qq = slope[1], .mm = slope[2]};
     if (j.regime == on_surface) {
-      r.tangent = r.law.surface->tangent(j.G, r.law.h, {j.G[0] * r.x[0], j.G[1] * r.x[1], j.G[2] * r.x[2]});
+      r.tangent = r.law.surface->tangent(j.G, r.law.share * r.law.h,
+                                         {j.G[0] * r.x[0], j.G[1] * r.x[1], j.G[2] * r.x[2]});
     }
     j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
   }

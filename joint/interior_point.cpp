@@ -85,7 +85,7 @@ void InteriorPoint::enter_caps(const Joint& j, const JointRecord& r, double ener
 // Likewise within a yield surface. Rows that are free carry nothing: they leave the facets.
 void InteriorPoint::enter_surface(const Joint& j, const RowLaw& law, Local& l) {
   const YieldSurface& surface = *law.surface;
-  const double h = law.h, usage = surface.usage({l.x[0] / h, l.x[1] / h, l.x[2] / h});
+  const double h = law.share * law.h, usage = surface.usage({l.x[0] / h, l.x[1] / h, l.x[2] / h});
   for (unsigned i = 0; i < 3; ++i) l.x[i] *= std::min(1.0, tunables.inside / usage);
   if (std::isfinite(surface.shear()) && j.G[1] > 0) l.shear = h * surface.shear();
   double share = 0;
@@ -267,7 +267,7 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
     const Local& l = locals_[k];
     j.impulse = best_[k];
     if (r.law.surface != nullptr) {
-      const double h = r.law.h,
+      const double h = r.law.share * r.law.h,
                    usage = r.law.surface->usage({j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h});
       for (double& s : j.impulse) s /= std::max(1.0, usage);
     } else {

@@ -1,5 +1,7 @@
 #include "ledger.h"
 
+#include <algorithm>
+
 #include "drive.h"
 #include "objective.h"
 #include "turn_inertia.h"
@@ -61,18 +63,23 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
     const double k = r.law.spring[i], delta = r.law.delta[i];
     const double e = strain_of_bias(j, i);
     const double u = moved_[index][i] - slip[i], p = delta < 1 ? h * j.rate[i] : u;
-    // Implicit rows store what their force stands for: their gap holds constraint drift, too.
-    const double half = e + u / 2, after = is_implicit(r, i) ? j.impulse[i] / (h * k) : e + u;
+    // Implicit rows store what their force stands for, and beside heavy dampers rows store no more: the gap
+    // holds constraint drift, too.
+    const double half = e + u / 2, by_force = j.impulse[i] / (h * k);
+    const double after = is_implicit(r, i) ? by_force : within(e + u, by_force);
     const double third = r.law.third[i];
     r.stored[i] =
         k / 2 *
         (delta < 1 ? half * half + (delta * delta / 4 + third / 2) * u * u + third / 2 * (u + p) * (u + p)
                    : after * after);
-    const double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
-    energies.damping += damping;
     const double given = is_driven(r, i) ? -j.impulse[i] / h * slip[i] : 0;
     energies.driven += given;
-    energies.numerical += taken_[index][i] + given - (r.stored[i] - held) - work[i] - damping;
+    const double lost = taken_[index][i] + given - (r.stored[i] - held) - work[i];
+    double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
+    // Of implicit rows u holds what turning bodies part by, too, which no damper answers to.
+    if (delta >= 1) damping = std::min(damping, std::max(lost, 0.0));
+    energies.damping += damping;
+    energies.numerical += lost - damping;
   }
 }
 

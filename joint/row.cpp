@@ -70,7 +70,7 @@ Response respond(const RowLaw& law, const Rows& x) {
   const Rows trial{law.G[0] * x[0], law.G[1] * x[1], law.G[2] * x[2]};
   Response r{trial, 0};
   if (law.surface != nullptr) {
-    r.regime = law.surface->project(law.G, law.h, r.s) ? on_surface : 0;
+    r.regime = law.surface->project(law.G, law.share * law.h, r.s) ? on_surface : 0;
     return r;
   }
   for (unsigned i = 0; i < 3; ++i) {

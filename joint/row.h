@@ -84,6 +84,7 @@ struct RowLaw {
   Rows cap_reverse{};                     // likewise
   const YieldSurface* surface = nullptr;  // instead of the caps
   double h = 0;                           // s
+  double share = 1;                       // of the surface that is left to this step
   Rows after_yield{};  // tangent beyond the cap as a share of G (hardening); 0: perfectly plastic
   Rows spring{};       // k, the stiffness that the step can integrate, ≤ that of the material
   Rows damping{};      // c, N s/m or N m s

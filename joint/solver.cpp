@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "blow.h"
 #include "turn_inertia.h"
 
 namespace ductile::dynamics {
@@ -37,6 +38,16 @@ void Solver::begin(double h) {
   if (other_laws) list_special(*this);
   begin_drives(*this, h);
   if (follow_tension(*this, h) || other_laws) hessian_.forget();
+}
+
+void Solver::strike() {
+  open_blow(*this);
+  struck_ = true;
+}
+
+void Solver::weaken(std::size_t joint, double share) {
+  dynamics::weaken(joints[joint], records[joint], share);
+  newton_.forget();
 }
 
 void Solver::touch(std::span<const Contact> now) {
@@ -127,6 +138,7 @@ void Solver::advance() {
     StepLaws::set_equal_bias(j, gap);
   }
   biases_known = true;
+  if (std::exchange(struck_, false)) close_blow(*this);
 }
 
 // What a joint's rows do in a step beyond being strained.

@@ -48,8 +48,14 @@ class Solver : public System {
   void find_gaps() { dynamics::find_gaps(*this); }
 
   void begin(double h);
+  /// The bodies' velocities jumped at the start of this step (blow.h): after begin(), before its first solve.
+  void strike();
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
   void push(std::size_t body, const Vec3& change) { newton_.push(*this, body, change); }
+  bool struck() const { return struck_; }
+  /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
+  /// again.
+  void weaken(std::size_t joint, double share);
   /// Contacts of this step, after begin() and before its first solve. `pairs` has them.
   void touch(std::span<const Contact> contacts);
   /// Velocities from v_free; false when nothing had to be done.
@@ -112,6 +118,7 @@ class Solver : public System {
   Evaluation last_;           // of the last solve
   Motion motion_;             // of the present step
   bool predicted_ = false;    // the next solve starts where prediction_ says
+  bool struck_ = false;       // the present step is that of a blow
 };
 
 }  // namespace ductile::dynamics

@@ -4,6 +4,8 @@
 // only, and its factor survives tumbling and rest.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -100,7 +102,8 @@ struct JointRecord {
   Rows dissipated{};  // J
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Material material;
-  Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
+  Rows m_eff{};     // effective masses of the rows at rest, kg or kg m²
+  double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
     tape(gap, x, law, tangent, turn_inertia, deferred_drift, plastic, dissipated, stored, drive_rate);
@@ -174,17 +177,24 @@ inline bool is_slack(const Joint& j, const JointRecord& r, unsigned i) {
   return r.material.may_slacken(i) && j.impulse[i] == 0;
 }
 
+/// A strain that no more than |limit| is left of.
+inline double within(double strain, double limit) {
+  return std::clamp(strain, -std::abs(limit), std::abs(limit));
+}
+
 /// The elastic strain e that a row's bias was made of, m or rad.
 inline double strain_of_bias(const Joint& j, unsigned i) {
   return (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i] - j.trend[i];
 }
 
-/// The elastic strain at the end of the last step, m or rad: that of the biases, and R/k in implicit rows.
-/// The gap itself may be more there: turning bodies part along their tangents in a step, by r(ωh)²/2, before
-/// the next one brings them back.
+/// The elastic strain at the end of the last step, m or rad: that of the biases; in implicit rows R/k, beside
+/// heavy dampers no more than R/k. The gap itself may be more there: turning bodies part along their tangents
+/// in a step, by r(ωh)²/2, before the next one brings them back.
 inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
   if (!(j.relaxation[i] > 0) || is_slack(j, r, i)) return 0;
-  return is_implicit(r, i) ? j.impulse[i] / (r.law.h * r.law.spring[i]) : strain_of_bias(j, i);
+  if (r.law.delta[i] < 1) return strain_of_bias(j, i);
+  const double by_force = j.impulse[i] / (r.law.h * r.law.spring[i]);
+  return is_implicit(r, i) ? by_force : within(strain_of_bias(j, i), by_force);
 }
 
 }  // namespace ductile::dynamics

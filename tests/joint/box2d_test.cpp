@@ -995,7 +995,7 @@ TEST(SpeedLimit, DoesNotKeepJointsFromBreaking) {
   piece->SetLinearVelocity({1000, 0});
   world.Step(dt, 8, 3);
   EXPECT_NEAR(joint->elongation(), 2, 0.01);
-  EXPECT_NEAR(joint->dissipated(), 2e5, 1e3);
+  EXPECT_NEAR(joint->dissipated(), 5e4, 1);  // no more than what breaks it takes
   world.Step(dt, 8, 3);
   EXPECT_TRUE(joint->broken());
   EXPECT_EQ(structure.report().bounds_hit, 0);

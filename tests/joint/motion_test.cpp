@@ -162,6 +162,25 @@ TEST(Motion, IsOfSecondOrder) {
   EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
 }
 
+// A rigid-plastic hinge takes all of the energy that a beam turns with: θ = Iω²/2M_p, but for the last step,
+// which is not complete: M_p h²/8I at most; and what the velocities that are given at the start turn by until
+// the middle of the first step, to which they belong: (ωh)²/2 of it at most.
+TEST(Motion, ARigidHingeStopsWhenItsWorkIsDone) {
+  for (const double omega : {0.3, 1.0, 3.0, 6.0}) {
+    BeamDef d{.pieces = 1, .length = 4, .height = 0.5, .density = 1000, .gravity = 0};
+    const double mass = d.density * d.length * d.height, turn = 0.8;
+    const double inertia = mass * (d.length * d.length / 3 + d.height * d.height / 12);
+    d.moment_cap = inertia * omega * omega / (2 * turn);
+    Beam beam(d);
+    beam.pieces[0]->SetAngularVelocity(static_cast<float>(omega));
+    beam.pieces[0]->SetLinearVelocity({0, static_cast<float>(omega * d.length / 2)});
+    beam.run(2.2 * turn / omega);
+    EXPECT_NEAR(beam.joints[0]->accumulated_rotation(), turn,
+                d.moment_cap / (8 * 3600 * inertia) + omega * omega / 7200 * turn)
+        << omega;
+  }
+}
+
 TEST(Motion, OneJointSwingsAtItsFrequencyAndRatio) {
   for (const double frequency : {1.0, 3.0, 6.0}) {
     for (const double ratio : {0.0, 0.02, 0.1, 0.2}) {

@@ -1,0 +1,31 @@
+// The step of a blow: at its start velocities jump, be it by a contact that closes or by the hand of the
+// game.
+//
+// A row's impulse s belongs to the middle of its force, half a step before a step's start and half a step
+// after it (row.h). Where the structure is struck in between, the row knows nothing of it in the first half.
+// So it may take the mean of its force before, R₋, and of its cap,
+//   −h (F⁻ − R₋)/2 ≤ s ≤ h (F⁺ + R₋)/2
+// and on a yield surface that is used to the share g by R₋, s is within (1 + g)/2 of it. With all of the cap
+// a body of mass m and speed v₀ on a cap F loses F h/m at once and its flow v₀h/2 of v₀²m/2F: a blow that
+// ends within a step would leave no mark. What flows does so at its cap: work and elastic strain are F's.
+//
+// Elastic rows need no such thing, as R = k(e + β(u − p) …) is the mean of both halves already.
+#pragma once
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// After the laws of a step and before its first solve.
+void open_blow(System& system);
+/// A joint that breaks after a share of what it would flow by in this step takes no more than so much of its
+/// capacity: what is fast shall lose no more than the work that breaks it.
+void weaken(Joint& joint, JointRecord& record, double share);
+
+/// After the step: its laws are again those of any step, and what flowed does so at its cap.
+void close_blow(System& system);
+
+/// What a row that flows would take in a step that no blow cut short, N s or N m s.
+double impulse_at_yield(const Joint& joint, const JointRecord& record, unsigned row);
+
+}  // namespace ductile::dynamics
