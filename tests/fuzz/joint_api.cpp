@@ -348,7 +348,15 @@ class Game : b2DestructionListener {
 
   void change_joint(ElasticPlasticJoint& j) {
     const Row which = static_cast<Row>(in_.below(3));
-    switch (in_.below(3)) {
+    const int what = in_.below(3);
+    try {
+      change(j, which, what);
+    } catch (const std::invalid_argument&) {  // softer than it hardens
+    }
+  }
+
+  void change(ElasticPlasticJoint& j, Row which, int what) {
+    switch (what) {
       case 0:
         j.set_caps(which, in_.scale(-3, 9), in_.scale(-3, 9));
         break;
