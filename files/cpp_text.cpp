@@ -37,6 +37,21 @@ std::string comment(std::string name) {
   return "  // " + name + "\n";
 }
 
+/// Likewise in quotes.
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code != 0x7f && c != '"' && c != '\\') {
+      text += c;
+    } else {  // in octal
+      text += '\\';
+      for (const int shift : {6, 3, 0}) text += static_cast<char>('0' + (code >> shift & 7));
+    }
+  }
+  return text + "\"";
+}
+
 std::string shape(const b2Fixture& fixture) {
   if (fixture.GetType() == b2Shape::e_circle) {
     const auto& disc = static_cast<const b2CircleShape&>(*fixture.GetShape());
@@ -55,7 +70,14 @@ std::string row(const RowDef& row) {
 
 // What every source begins with: one line per body, fixture and joint then suffices.
 constexpr const char* tools = R"(
-  constexpr double unlimited = ductile::unlimited;
+  struct Level {
+    ductile::Structure structure;
+    std::vector<std::pair<std::string, b2Body*>> bodies;  // by the names of their pieces
+    std::vector<std::pair<std::string, ductile::ElasticPlasticJoint*>> joints;
+    std::vector<std::pair<std::string, b2WheelJoint*>> motors;  // by the names of their wheels
+  };
+  Level level{ductile::Structure(world), {}, {}, {}};
+  [[maybe_unused]] constexpr double unlimited = ductile::unlimited;
   const auto body = [&](b2BodyType type, b2Vec2 position, b2Vec2 velocity, float spin, bool sleep) {
     b2BodyDef def;
     def.type = type;
@@ -91,11 +113,10 @@ constexpr const char* tools = R"(
 )";
 
 constexpr const char* joint_tool = R"(
-  ductile::Structure structure(world);
   struct Limits {
     double rotation, elongation, compression, slip;
   };
-  [[maybe_unused]] const auto joint = [&](b2Body* a, b2Body* b, b2Vec2 anchor_a, b2Vec2 anchor_b, float axis, float follow,
+  [[maybe_unused]] const auto joint = [&](const char* name, int node, b2Body* a, b2Body* b, b2Vec2 anchor_a, b2Vec2 anchor_b, float axis, float follow,
                                           ductile::RowDef axial, ductile::RowDef shear, ductile::RowDef rotation, Limits limits,
                                           std::vector<ductile::AxialMoment> interaction = {}) {
     ductile::ElasticPlasticJointDef def;
@@ -113,7 +134,8 @@ constexpr const char* joint_tool = R"(
     def.max_compression = limits.compression;
     def.max_slip = limits.slip;
     def.interaction = std::move(interaction);
-    return structure.create_joint(def);
+    def.node = node;
+    level.joints.emplace_back(name, level.structure.create_joint(def));
   };
 )";
 
@@ -122,7 +144,7 @@ constexpr const char* joint_tool = R"(
 std::string cpp_text(const Plan& plan, const std::string& function) {
   BuiltPlan built(plan);
   constexpr const char* types[] = {"b2_staticBody", "b2_kinematicBody", "b2_dynamicBody"};
-  std::string bodies, fixtures, joints, wheels;
+  std::string bodies, names, fixtures, joints, wheels;
   int lowest_group = 0;
   const auto add_body = [&](const b2Body& body, const std::string& name) {
     bodies += std::string("      body(") + types[body.GetType()] + ", " + literal(body.GetPosition()) + ", " +
@@ -147,6 +169,8 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
           "  mass(" + of + ", " + literal(body.GetMass()) + ", " + literal(body.GetInertia()) + ");\n";
   }
   if (built.built.ground) add_body(*built.built.ground, "ground");
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    names += "      {" + quoted(plan.pieces[i].name) + ", " + body_at(static_cast<int>(i)) + "},\n";
   for (std::size_t i = 0; i < plan.wheels.size(); ++i) {
     const b2WheelJoint& w = *built.built.wheels[i];
     wheels += "  {\n    b2WheelJointDef def;\n    def.bodyA = " + body_at(plan.wheels[i].chassis) +
@@ -158,36 +182,41 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
               ";\n    def.damping = " + literal(w.GetDamping()) +
               ";\n    def.enableMotor = true;\n    def.motorSpeed = " + literal(w.GetMotorSpeed()) +
               ";\n    def.maxMotorTorque = " + literal(w.GetMaxMotorTorque()) +
-              ";\n    world.CreateJoint(&def);\n  }\n";
+              ";\n    level.motors.emplace_back(" +
+              quoted(plan.pieces[static_cast<std::size_t>(plan.wheels[i].wheel)].name) +
+              ", static_cast<b2WheelJoint*>(world.CreateJoint(&def)));\n  }\n";
   }
   for (const PlannedJoint& j : plan.joints) {
     const ElasticPlasticJointDef def = elastic_plastic_def(plan, j);
-    joints += "  joint(" + body_at(j.a) + ", " + body_at(j.b) + ", " + literal(def.localAnchorA) + ", " +
-              literal(def.localAnchorB) + ", " + literal(def.axisAngle) + ", " + literal(def.axisFollow) +
-              ", " + row(def.rows[axial]) + ", " + row(def.rows[shear]) + ", " + row(def.rows[rotation]) +
-              ", {" + literal(def.max_rotation) + ", " + literal(def.max_elongation) + ", " +
-              literal(def.max_compression) + ", " + literal(def.max_slip) + "}";
+    joints += "  joint(" + quoted(j.name) + ", " + std::to_string(j.node) + ", " + body_at(j.a) + ", " +
+              body_at(j.b) + ", " + literal(def.localAnchorA) + ", " + literal(def.localAnchorB) + ", " +
+              literal(def.axisAngle) + ", " + literal(def.axisFollow) + ", " + row(def.rows[axial]) + ", " +
+              row(def.rows[shear]) + ", " + row(def.rows[rotation]) + ", {" + literal(def.max_rotation) +
+              ", " + literal(def.max_elongation) + ", " + literal(def.max_compression) + ", " +
+              literal(def.max_slip) + "}";
     std::string points;
     for (const AxialMoment& p : def.interaction)
       points += (points.empty() ? "{" : ", {") + literal(p.N) + ", " + literal(p.M) + "}";
-    joints += (points.empty() ? "" : ", {" + points + "}") + ");" + comment(j.name);
+    joints += (points.empty() ? "" : ", {" + points + "}") + ");\n";
   }
 
   std::string text =
       "// Written by `ductile calibrate --to cpp`. Needs Box2D 2.4 and ductile::joint, no other part of "
       "ductile.\n"
       "#include <box2d/box2d.h>\n#include <ductile/joint.h>\n\n#include <initializer_list>\n#include "
-      "<utility>\n#include <vector>\n\n"
-      "// Makes bodies and joints in `world`, which owns them. Call update() of the structure after each "
-      "Step.\n";
+      "<string>\n#include <utility>\n#include <vector>\n\n"
+      "// Makes bodies and joints in `world`, which owns them, and tells them by name. Call "
+      "structure.update() "
+      "after each\n// Step.\n";
   if (lowest_group < 0) text += "// Uses the collision groups -1 to " + std::to_string(lowest_group) + ".\n";
   for (const std::string& lost : lost_in_definitions(plan)) text += comment("Not in it: " + lost).substr(2);
-  text += "inline ductile::Structure " + function + "(b2World& world) {";
+  text += "inline auto " + function + "(b2World& world) {";
   text += tools;
   text += "\n  world.SetGravity(" +
           literal(b2Vec2{static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)}) + ");\n";
   if (!bodies.empty()) text += "  b2Body* const bodies[] = {\n" + bodies + "  };\n";
-  return text + fixtures + wheels + joint_tool + joints + "  return structure;\n}\n";
+  if (!names.empty()) fixtures = "  level.bodies = {\n" + names + "  };\n" + fixtures;
+  return text + fixtures + wheels + joint_tool + joints + "  return level;\n}\n";
 }
 
 }  // namespace ductile

@@ -20,24 +20,42 @@ Plan plan_of(const std::string& scene) {
   return calibrate(read_scene(DUCTILE_SOURCE_DIR "/scenes/" + scene + ".scene.json"));
 }
 
-class Pasted : public testing::TestWithParam<std::pair<const char*, Structure (*)(b2World&)>> {};
+class Pasted : public testing::TestWithParam<std::pair<const char*, pasted::Level (*)(b2World&)>> {};
 
 // 240 steps, in which the car falls on its wheels and the crane's jib bends: not one bit differs.
 TEST_P(Pasted, SourceMakesTheSameWorld) {
   const auto& [scene, make] = GetParam();
   const Plan plan = plan_of(scene);
   b2World world({static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)}), copy({0, 0});
-  Structure structure = build(world, plan), pasted = make(copy);
+  Built built;
+  Structure structure = build(world, plan, {}, &built);
+  pasted::Level level = make(copy);
+  const Structure& pasted = level.structure;
   EXPECT_EQ(copy.GetGravity(), world.GetGravity());
   ASSERT_EQ(pasted.joints().size(), structure.joints().size());
   const std::vector<float> start = world_state(world);
   for (int i = 0; i < 240; ++i) {
     for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
     structure.update();
-    pasted.update();
+    level.structure.update();
     ASSERT_EQ(world_state(copy), world_state(world)) << "step " << i;
   }
   EXPECT_NE(world_state(world), start);
+
+  // What it made, by name.
+  ASSERT_EQ(level.bodies.size(), plan.pieces.size());
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    EXPECT_EQ(level.bodies[i].first, plan.pieces[i].name);
+    EXPECT_EQ(level.bodies[i].second->GetPosition(), built.bodies[i]->GetPosition());
+  }
+  ASSERT_EQ(level.joints.size(), plan.joints.size());
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    EXPECT_EQ(level.joints[i].first, plan.joints[i].name);
+    EXPECT_EQ(level.joints[i].second->force(rotation), structure.joints()[i]->force(rotation));
+  }
+  ASSERT_EQ(level.motors.size(), plan.wheels.size());
+  for (std::size_t i = 0; i < plan.wheels.size(); ++i)
+    EXPECT_EQ(level.motors[i].second->GetMotorSpeed(), built.wheels[i]->GetMotorSpeed());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Pasted,
@@ -51,6 +69,7 @@ TEST(CppText, NamesCannotLeaveTheirComments) {
   scene.bodies[0].material = materials::oak;
   const std::string source = cpp_text(calibrate(scene), "f");
   EXPECT_NE(source.find("// 0: a int main() {} \n"), std::string::npos) << source;
+  EXPECT_NE(source.find(R"({"a\012int main() {}\134", bodies[0]})"), std::string::npos) << source;
 }
 
 // A cantilever of two halves, 4 m × 0.5 m × 0.2 m of S355, held at its end by a pin.

@@ -5,6 +5,13 @@
 #include "pasted/harbour_crane.h"
 
 namespace pasted {
-ductile::Structure car(b2World& world) { return build_car(world); }
-ductile::Structure harbour_crane(b2World& world) { return build_harbour_crane(world); }
+namespace {
+template <class Made>
+Level level(Made made) {
+  return {std::move(made.structure), std::move(made.bodies), std::move(made.joints), std::move(made.motors)};
+}
+}  // namespace
+
+Level car(b2World& world) { return level(build_car(world)); }
+Level harbour_crane(b2World& world) { return level(build_harbour_crane(world)); }
 }  // namespace pasted
