@@ -89,6 +89,7 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
     }
   }
   double along = 0, across = 0, bending = 0, zeta = unlimited;
+  const double crushed = sides[0].reach + sides[1].reach > 0 ? sides[0].reach + sides[1].reach : unlimited;
   for (int i = 0; i < 2; ++i) {
     const Side& side = sides[i];
     if (!side.strip) continue;
@@ -102,6 +103,11 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
     const double elongation = side.strip->fracture_strain() * joint.hinge_length;
     v.weaken(max_rotation, elongation / s.farther, i);
     v.weaken(max_elongation, elongation, i);
+    // Geometry alone: the zone is crushed to nothing, or its faces have passed each other.
+    if (joint.height > 0) {
+      v.weaken(max_compression, std::min(joint.hinge_length, crushed), i);
+      v.weaken(max_slip, joint.height, i);
+    }
     zeta = std::min(zeta, side.strip->damping_ratio());
     if (s.EA > 0) {
       along += side.reach / s.EA;
@@ -198,7 +204,7 @@ std::string Caps::text(const Governed& governed, std::span<const Overriding> ove
   for (int q = 0; q < quantities; ++q) {
     const int source = governed.sources[q];
     text += names[q];
-    if (q + 1 < quantities && governed.sources[q + 1] == source && q != M_reverse) {
+    if (q + 1 < quantities && governed.sources[q + 1] == source && q != M_reverse && q != max_elongation) {
       text += ", ";
       continue;
     }
@@ -208,7 +214,10 @@ std::string Caps::text(const Governed& governed, std::span<const Overriding> ove
     else if (source >= user)
       text += overriding[static_cast<std::size_t>(source - user)].name;
     else
-      text.append(q <= M_reverse ? "section of " : "fracture strain of ").append(*governed.bodies[source]);
+      text.append(q <= M_reverse        ? "section of "
+                  : q <= max_elongation ? "fracture strain of "
+                                        : "size of ")
+          .append(*governed.bodies[source]);
     text += "; ";
   }
   text.append("stiffness: ").append(governed.stiffness);

@@ -186,6 +186,29 @@ std::vector<std::string> lost_in_hinge(const PlannedJoint& j) {
   return lost;
 }
 
+namespace {
+
+// Where the first fibre of a brittle section cracks or is crushed: σ = σ_c + k (s − c) within [−f_c, f_t] at
+// both extreme fibres, N = A σ_c, M = k I + N c, with s the coordinate along d and c the centroid's. Empty
+// where some region flows or the regions differ.
+std::vector<Interaction> cracking_curve(const Section& section, Point d) {
+  const Elastic e = section.elastic(d);
+  const auto brittle = [](const Region& region) { return region.material.brittle; };
+  if (!std::ranges::all_of(section.regions(), brittle) || !(e.I > 0)) return {};
+  const Material& m = section.regions().front().material;
+  const double c = dot(e.centroid, d), ft = m.yield_stress, fc = m.compression();
+  const auto [low, high] = section.extent(d);
+  std::vector<Interaction> curve;
+  const double corners[][2] = {{ft, ft}, {-fc, ft}, {-fc, -fc}, {ft, -fc}};
+  for (const auto& [at_low, at_high] : corners) {
+    const double k = (at_high - at_low) / (high - low), N = section.area() * (at_low + k * (c - low));
+    curve.push_back({N, k * e.I + N * c});
+  }
+  return curve;
+}
+
+}  // namespace
+
 std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j, double tolerance) {
   std::vector<AxialMoment> result;
   for (const double cap : {j.N, j.Nc, j.M, j.M_reverse})
@@ -196,12 +219,17 @@ std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j,
   for (const int piece : {j.b, inside ? -1 : j.a}) {
     const std::optional<Section> section = section_at(plan, j, piece);
     if (!section) continue;
-    const Capacities own = section->capacities(d);
+    Capacities own = section->capacities(d);
+    std::vector<Interaction> curve = section->interaction(d, 0, tolerance);
+    if (const auto cracks = cracking_curve(*section, d); !cracks.empty()) {
+      own.M = section->elastic(d).yield_moment;
+      own.M_reverse = section->elastic(-d).yield_moment;
+      curve = cracks;
+    }
     caps.N = std::min(caps.N, own.N);
     caps.Nc = std::min(caps.Nc, own.Nc);
     caps.M = std::min(caps.M, own.M);
     caps.M_reverse = std::min(caps.M_reverse, own.M_reverse);
-    const std::vector<Interaction> curve = section->interaction(d, 0, tolerance);
     if (result.empty()) {
       for (const Interaction& p : curve) result.push_back({p.N, p.M});
       continue;

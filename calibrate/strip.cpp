@@ -27,7 +27,8 @@ constexpr Point tension_side{0, -1};
 // Table 1 for a rectangle b × h of unequal yield stresses: the neutral axis divides h as f_c : f_t.
 Strength rectangle(double b, double h, const Material& m) {
   const double ft = m.yield_stress, fc = m.compression();
-  const double moment = b * h * h / 2 * (ft / (ft + fc) * fc);
+  const double plastic = b * h * h / 2 * (ft / (ft + fc) * fc), cracking = b * h * h / 6 * std::min(ft, fc);
+  const double moment = m.brittle ? cracking : plastic;
   const double EA = m.youngs_modulus * b * h;
   return {.N = b * h * ft,
           .Nc = b * h * fc,
@@ -37,7 +38,7 @@ Strength rectangle(double b, double h, const Material& m) {
           .EA = EA,
           .GA = shear_stiffness(EA),
           .EI = EA * h * h / 12,
-          .farther = h * std::max(ft, fc) / (ft + fc),
+          .farther = m.brittle ? h / 2 : h * std::max(ft, fc) / (ft + fc),
           .height = h};
 }
 
@@ -46,15 +47,20 @@ Strength of(const Section& section) {
   const Capacities c = section.capacities(tension_side);
   const Elastic e = section.elastic(tension_side);
   const auto [low, high] = section.extent(tension_side);
+  const auto is_brittle = [](const Region& region) { return region.material.brittle; };
+  const bool brittle = std::ranges::all_of(section.regions(), is_brittle);
+  const double middle = dot(e.centroid, tension_side);
   return {.N = c.N,
           .Nc = c.Nc,
           .Q = shear_capacity(section, tension_side),
-          .M = c.M,
-          .M_reverse = c.M_reverse,
+          .M = brittle ? e.yield_moment : c.M,
+          .M_reverse = brittle ? section.elastic(-tension_side).yield_moment : c.M_reverse,
           .EA = e.EA,
           .GA = shear_stiffness(e.EA),
           .EI = e.EI,
-          .farther = std::max({c.pna - low, high - c.pna, c.pna_reverse - low, high - c.pna_reverse}),
+          .farther = brittle
+                         ? std::max(middle - low, high - middle)
+                         : std::max({c.pna - low, high - c.pna, c.pna_reverse - low, high - c.pna_reverse}),
           .height = high - low};
 }
 

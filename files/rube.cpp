@@ -202,6 +202,11 @@ bool Item::read_custom(const std::string& name, const Range& range, std::optiona
   target = custom_number(name, range);
   return target.has_value();
 }
+bool Item::read_custom(const std::string& name, const Range&, bool& target) const {
+  const auto value = custom_boolean(name);
+  target = value.value_or(target);
+  return value.has_value();
+}
 bool Item::read_custom(const std::string& name, const Range&, std::optional<bool>& target) const {
   target = custom_boolean(name);
   return target.has_value();

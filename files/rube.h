@@ -61,6 +61,7 @@ class Item {
  private:
   bool read_custom(const std::string& name, const Range& range, double& target) const;
   bool read_custom(const std::string& name, const Range& range, std::optional<double>& target) const;
+  bool read_custom(const std::string& name, const Range& range, bool& target) const;
   bool read_custom(const std::string& name, const Range& range, std::optional<bool>& target) const;
   Value value_;
 };

@@ -1,9 +1,11 @@
 // From a scene to a plan: names, masses, caps, stiffnesses, limits against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "ductile/box2d.h"
 #include "ductile/calibrate.h"
 #include "ductile/rolled.h"
 #include "scenes.h"
@@ -66,7 +68,7 @@ TEST(Calibrate, CapsOfARectangularCut) {
   EXPECT_DOUBLE_EQ(tresca.M_reverse, 0.25 * 0.3 * 350e6);
   EXPECT_EQ(reason(plan, tresca),
             "N, Nc, Q, M, M_reverse: section of beam; max_rotation, max_elongation: fracture strain of beam; "
-            "max_compression, max_slip: unlimited; stiffness: E");
+            "max_compression, max_slip: size of beam; stiffness: E");
   scene.bodies[1].material->criterion = Criterion::von_mises;
   EXPECT_DOUBLE_EQ(joint(calibrate(scene), "beam/4-beam/5").Q, 0.3 * 350e6 / std::sqrt(3.0));
 }
@@ -88,7 +90,9 @@ TEST(Calibrate, LimitsFromFractureStrainAndHingeLength) {
   // θ_max = ε_f·L_p/y with L_p = h = 1 m and y = h/2.
   EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_rotation, 0.2 * 1 / 0.5);
   EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_elongation, 0.2);
-  EXPECT_EQ(calibrate(scene).joints[0].max_compression, unlimited);
+  // Crushed to nothing, and past each other.
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_compression, 1);
+  EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_slip, 1);
   scene.bodies[1].joint.hinge_length = 0.3;
   EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].max_rotation, 0.2 * 0.3 / 0.5);
   EXPECT_DOUBLE_EQ(calibrate(scene).joints[0].hinge_length, 0.3);
@@ -143,6 +147,41 @@ TEST(Calibrate, AnchorAndAxis) {
   EXPECT_EQ(j.height, 1);
 }
 
+// Cracking: M = f_t I/y, at once, for what breaks where it ceases to be elastic. With N, σ = N/A + M y/I.
+TEST(Calibrate, BrittleSectionsCrackAtTheirFirstFibre) {
+  SceneDef scene = cantilever(4);
+  scene.bodies[1].material = materials::concrete;
+  scene.interaction = true;
+  const double b = scene.bodies[1].depth, h = 1, ft = 2.9e6, fc = 30e6, W = b * h * h / 6;
+  Plan plan = calibrate(scene);
+  EXPECT_NEAR(plan.joints[0].M, ft * W, 1e-12 * ft * W);
+  EXPECT_NEAR(plan.joints[0].M_reverse, ft * W, 1e-12 * ft * W);
+  EXPECT_DOUBLE_EQ(plan.joints[0].N, ft * b * h);
+  EXPECT_DOUBLE_EQ(plan.joints[0].max_rotation, 2.9e6 / 33e9 * h / (h / 2));
+  // Corners: uniform tension and compression, and f_t at one fibre with f_c at the other.
+  const double N = (ft - fc) / 2 * b * h, M = (ft + fc) / 2 * W;
+  const std::vector<AxialMoment> corners{{ft * b * h, 0}, {N, M}, {-fc * b * h, 0}, {N, -M}};
+  const std::vector<AxialMoment> polygon = interaction_of(plan, plan.joints[0]);
+  ASSERT_EQ(polygon.size(), 4u);
+  for (const AxialMoment& c : corners) {
+    EXPECT_TRUE(std::any_of(polygon.begin(), polygon.end(),
+                            [&](const AxialMoment& p) {
+                              return std::abs(p.N - c.N) < 1e-9 * fc * b * h &&
+                                     std::abs(p.M - c.M) < 1e-9 * M;
+                            }))
+        << c.N << " " << c.M;
+  }
+  // A tee, 0.6 m × 0.2 m on 0.2 m × 0.8 m: its centroid is ΣA y/ΣA from the bottom, and I by Steiner's rule.
+  scene.bodies[1].profile = {{{{{-0.1, -0.5}, {0.1, -0.5}, {0.1, 0.3}, {-0.1, 0.3}}, {}}, materials::glass},
+                             {{{{-0.3, 0.3}, {0.3, 0.3}, {0.3, 0.5}, {-0.3, 0.5}}, {}}, materials::glass}};
+  plan = calibrate(scene);
+  const double y = (0.16 * 0.4 + 0.12 * 0.9) / 0.28;
+  const double I =
+      0.2 * 0.512 / 12 + 0.16 * (y - 0.4) * (y - 0.4) + 0.6 * 0.008 / 12 + 0.12 * (0.9 - y) * (0.9 - y);
+  EXPECT_NEAR(plan.joints[0].M, 45e6 * I / y, 1e-9 * 45e6 * I / y);  // equal strengths: the farther fibre
+  EXPECT_NEAR(plan.joints[0].max_rotation, 45e6 / 70e9 * 1 / y, 1e-12);
+}
+
 TEST(Calibrate, OverridesFromTheInsideOut) {
   SceneDef scene = cantilever(2);
   scene.joint = {.moment = 1, .axial = 2, .shear = 3, .max_slip = 0.1};
@@ -164,7 +203,7 @@ TEST(Calibrate, OverridesFromTheInsideOut) {
   EXPECT_EQ(
       reason(plan, root),
       "N: scene; Nc: joint; Q: scene; M, M_reverse: joint; max_rotation, max_elongation: fracture strain of "
-      "beam; max_compression: unlimited; max_slip: scene; stiffness: joint");
+      "beam; max_compression: size of beam; max_slip: scene; stiffness: joint");
 }
 
 TEST(Calibrate, ElasticityByFrequencyAndByRotation) {

@@ -45,6 +45,7 @@ void expect_everything(const SceneDef& scene) {
                                      .density = 7800,
                                      .ultimate_stress = 490e6,
                                      .fracture_strain = 0.25,
+                                     .brittle = true,
                                      .damping_ratio = 0.1,
                                      .friction = 0.6,
                                      .restitution = 0.3}));

@@ -61,6 +61,7 @@ inline constexpr std::tuple substance{
     Field{"density", &Material::density, positive, "kg/m³"},
     Field{"fu", &Material::ultimate_stress, positive, "Pa"},
     Field{"fracture_strain", &Material::fracture_strain, Range{0, true, unlimited, "a number > 0"}},
+    Field{"brittle", &Material::brittle},
     Field{"damping_ratio", &Material::damping_ratio, not_negative},
     Field{"friction", &Material::friction, not_negative},
     Field{"restitution", &Material::restitution, not_negative}};

@@ -18,9 +18,11 @@ struct Material {
   double density = 0;                       ///< kg/m³; needed by calibrate/, not by section/
   double ultimate_stress = 0;               ///< f_u, Pa; 0: equal to yield_stress (no hardening)
   double fracture_strain = 0.2;             ///< ε_f, engineering strain at rupture
-  double damping_ratio = 0.05;              ///< ζ of the elastic joints made of it
-  double friction = 0.5;                    ///< of its fixtures, as b2FixtureDef
-  double restitution = 0;                   ///< of its fixtures, as b2FixtureDef
+  /// Cracks where its first fibre yields: calibrate/ takes the yield moment for the plastic one.
+  bool brittle = false;
+  double damping_ratio = 0.05;  ///< ζ of the elastic joints made of it
+  double friction = 0.5;        ///< of its fixtures, as b2FixtureDef
+  double restitution = 0;       ///< of its fixtures, as b2FixtureDef
 
   /// f_c with its default applied, Pa.
   constexpr double compression() const {
@@ -82,7 +84,8 @@ inline constexpr Material cast_iron{.yield_stress = 165e6,
                                     .youngs_modulus = 103e9,
                                     .density = 7200,
                                     .ultimate_stress = 250e6,
-                                    .fracture_strain = 0.003};
+                                    .fracture_strain = 0.003,
+                                    .brittle = true};
 
 /// Oak of strength class D30: EN 338:2016 Table 3, along the grain; shear f_v.
 inline constexpr Material oak{.yield_stress = 18e6,
@@ -105,12 +108,16 @@ inline constexpr Material concrete{.yield_stress = 2.9e6,
                                    .yield_stress_compression = 30e6,
                                    .youngs_modulus = 33e9,
                                    .density = 2400,
-                                   .fracture_strain = 2.9e6 / 33e9};
+                                   .fracture_strain = 2.9e6 / 33e9,
+                                   .brittle = true};
 
 /// Float glass: bending strength, E and density of EN 572-1; its far greater strength in compression is not
 /// used.
-inline constexpr Material glass{
-    .yield_stress = 45e6, .youngs_modulus = 70e9, .density = 2500, .fracture_strain = 45e6 / 70e9};
+inline constexpr Material glass{.yield_stress = 45e6,
+                                .youngs_modulus = 70e9,
+                                .density = 2500,
+                                .fracture_strain = 45e6 / 70e9,
+                                .brittle = true};
 
 }  // namespace materials
 
