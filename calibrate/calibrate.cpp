@@ -102,6 +102,7 @@ class Check {
       known(s.supports[i].body, place);
       check(fields::support, s.supports[i], place);
       check(fields::springs, s.supports[i], place);
+      displacement(s.supports[i], place);
     }
     for (std::size_t i = 0; i < s.loads.size(); ++i) {
       const LoadDef& l = s.loads[i];
@@ -152,6 +153,23 @@ class Check {
       if constexpr (std::is_same_v<T, std::optional<double>>)
         if (value) number(*value, field.range, place, field.key);
     });
+  }
+
+  void displacement(const SupportDef& s, const std::string& place) {
+    const bool held[] = {s.fix_x || s.stiffness_x > 0, s.fix_y || s.stiffness_y > 0,
+                         s.fix_angle || s.stiffness_angle > 0};
+    bool moves = false;
+    for (std::size_t row = 0; row < 3; ++row) {
+      number(s.displacement[row], fields::any_number, place, "displacement");
+      if (s.displacement[row] == 0) continue;
+      moves = true;
+      if (!held[row])
+        add(place, std::string("its ground moves in the free row \"") + (row == 0   ? "x"
+                                                                        : row == 1 ? "y"
+                                                                                   : "angle") + '"',
+            "fix that row, give it a spring, or make the displacement 0 there");
+    }
+    if (!moves && s.ramp > 0) add(place, "has a ramp, and its ground does not move", "give a displacement");
   }
 
   void overrides(const JointOverrides& o, const std::string& place) {
@@ -706,6 +724,8 @@ class Planner {
     joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
     joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
                        stiff(def.fix_angle, def.stiffness_angle)};
+    joint.displacement = def.displacement;
+    joint.ramp = def.ramp;
     joint.governed_by = caps_.reason("support");
   }
 

@@ -47,6 +47,7 @@ void list_what_no_stock_joint_does(std::vector<std::string>& lost, const Planned
   if (j.Q < unlimited && !shear_free(j)) lost.push_back("it carries any shear force without yielding");
   if (std::min({j.max_rotation, j.max_elongation, j.max_compression, j.max_slip}) < unlimited)
     lost.push_back("it never breaks");
+  if (j.displacement != std::array<double, 3>{}) lost.push_back("its ground does not move");
 }
 
 // --- polygons ---
@@ -94,6 +95,9 @@ double damping(const PlannedJoint& j, double stiffness) {
   return j.damping_ratio * stiffness / (std::numbers::pi * j.damping_frequency);
 }
 
+// The speed of a support that moves in one step of any length, m/s and rad/s.
+constexpr double at_once = 1e30;
+
 }  // namespace
 
 // --- joints ---
@@ -113,6 +117,9 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   def.rows[axial] = row(j.stiffness.N, j.N, j.Nc);
   def.rows[shear] = row(j.stiffness.Q, j.Q, j.Q);
   def.rows[rotation] = row(j.stiffness.M, j.M, j.M_reverse);
+  for (const Row r : {axial, shear, rotation})
+    if (const double by = j.displacement[r]; by != 0)
+      def.rows[r].drive = Drive{by, j.ramp > 0 ? std::abs(by) / j.ramp : at_once};
   def.max_rotation = j.max_rotation;
   def.max_elongation = j.max_elongation;
   def.max_compression = j.max_compression;
@@ -280,7 +287,8 @@ std::vector<b2PolygonShape> shapes(const Piece& piece) {
   if (w < 4 * b2_linearSlop || result.empty())
     throw InvalidInput({{"piece '" + piece.name + "'",
                          "is " + to_string(w) + " m wide, and Box2D collides nothing below 0.02 m",
-                         "make it in fewer pieces, or draw it larger"}});
+                         "make it in fewer pieces, draw it larger, or let it collide with nothing "
+                         "(\"collides\": false)"}});
   return result;
 }
 

@@ -133,13 +133,14 @@ Built build_bodies(b2World& world, const Plan& plan) {
   std::vector<Problem> problems;
   for (const Piece& piece : plan.pieces) {
     polygons.emplace_back();
+    const bool collides = plan.bodies[piece.body].collides;
     try {
-      if (piece.circle > 0) {
+      if (collides && piece.circle > 0) {
         if (piece.circle < 2 * b2_linearSlop)
           throw InvalidInput(
               {{"piece '" + piece.name + "'", "is a disc of radius " + to_string(piece.circle) + " m",
                 "draw it with a radius of at least 0.01 m"}});
-      } else {
+      } else if (collides) {
         Piece in_its_body = piece;
         in_its_body.center = plan.carrier(static_cast<int>(polygons.size()) - 1).center;
         polygons.back() = shapes(in_its_body);
@@ -216,7 +217,7 @@ Built build_bodies(b2World& world, const Plan& plan) {
       fixture.shape = &shape;
       created->CreateFixture(&fixture);
     }
-    if (piece.circle > 0) {
+    if (piece.circle > 0 && body.collides) {
       b2CircleShape disc;
       disc.m_radius = static_cast<float>(piece.circle);
       disc.m_p = vector(piece.center - plan.carrier(static_cast<int>(i)).center);

@@ -71,9 +71,8 @@ StaticCheck without_state(const Plan& plan, const Equilibrium& statics, double t
 StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
                        const LoadCase& load_case, Order order) {
   if (order == Order::first) {
-    const Eigen::VectorXd f = statics.on_pieces(load_case);
-    return check_state(plan, statics, yields, load_case.time, statics.forces(f) + load_case.fixed_end,
-                       statics.motions(f));
+    const ElasticState state = statics.elastic(load_case);
+    return check_state(plan, statics, yields, load_case.time, state.forces, state.x);
   }
 
   const ElasticPath path(plan, statics, load_case);

@@ -42,10 +42,12 @@ std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const Eigen::S
 
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor) {
-  Deformed now{factor, from.x, from.forces,
-               from.primary + statics.forces((factor - from.factor) * growth.growing)};
+  const double more = factor - from.factor;
+  const ElasticState bent = statics.imposed(more * growth.elongation);
+  Deformed now{factor, from.x + bent.x, from.forces + bent.forces,
+               from.primary + statics.forces(more * growth.growing) + bent.forces};
   const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan, statics, growth, now);
-  const VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * from.x;
+  const VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * now.x;
   const std::optional<VectorXd> step = solve_tangent(statics, K_g, rest);
   if (!step) return std::nullopt;
   now.x += *step;

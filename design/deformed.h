@@ -15,6 +15,7 @@ namespace ductile {
 /// Loads that grow with a factor: fixed + factor · growing, as B's columns.
 struct Growth {
   Eigen::VectorXd fixed, growing;
+  Eigen::VectorXd elongation;  ///< that grows, by joints' rows (LoadCase)
   double time = 0;         ///< s: the plan's loads that act then turn with their pieces
   bool loads_grow = true;  ///< or do not act at all
   Eigen::VectorXd at(double factor) const { return fixed + factor * growing; }

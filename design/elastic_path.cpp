@@ -12,10 +12,9 @@ using Eigen::Index;
 
 ElasticPath::ElasticPath(const Plan& plan, const Equilibrium& statics, const LoadCase& load_case)
     : plan_(plan), statics_(statics) {
-  const Eigen::VectorXd f = statics.on_pieces(load_case);
-  growth_ = {Eigen::VectorXd::Zero(f.size()), f, load_case.time};
-  fixed_end_ = load_case.fixed_end;
-  const Eigen::VectorXd first = statics.forces(f) + fixed_end_;
+  const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
+  growth_ = {Eigen::VectorXd::Zero(f.size()), f, load_case.elongation, load_case.time};
+  const Eigen::VectorXd first = statics.elastic(load_case).forces;
   first_ = {1, {}, first, first};
   const Buckle buckle =
       buckling(statics, geometric_stiffness(plan, statics, growth_, first_), any_motion(statics));
@@ -26,10 +25,8 @@ ElasticPath::ElasticPath(const Plan& plan, const Equilibrium& statics, const Loa
 std::optional<Deformed> ElasticPath::at(double factor) const {
   if (factor >= critical_) return std::nullopt;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(statics_.B.rows());
-  const Deformed unloaded{0, Eigen::VectorXd::Zero(statics_.B.cols()), none, factor * fixed_end_};
-  std::optional<Deformed> state = deformed(plan_, statics_, growth_, unloaded, factor);
-  if (state) state->forces += factor * fixed_end_;
-  return state;
+  const Deformed unloaded{0, Eigen::VectorXd::Zero(statics_.B.cols()), none, none};
+  return deformed(plan_, statics_, growth_, unloaded, factor);
 }
 
 std::vector<double> ElasticPath::reached(const Usage& usage) const {

@@ -32,7 +32,6 @@ class ElasticPath {
   const Plan& plan_;
   const Equilibrium& statics_;
   Growth growth_;
-  Eigen::VectorXd fixed_end_;
   Deformed first_;  // forces of first order at the factor 1
   double critical_ = unlimited;
   Eigen::VectorXd mode_;

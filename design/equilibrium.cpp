@@ -228,20 +228,24 @@ std::vector<LoadCase> Equilibrium::cases() const {
     if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
   std::vector<LoadCase> result;
   for (const double time : starts) {
-    LoadCase& now = result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols()), {}});
-    VectorXd elongation = VectorXd::Zero(B.rows());
+    LoadCase& now = result.emplace_back(
+        LoadCase{time, gravity(), VectorXd::Zero(B.cols()), VectorXd::Zero(B.rows())});
     for (const Plan::Load& each : plan_.loads)
       if (each.def.from <= time && each.def.to > time) {
         now.loads += load(each);
-        bend(each, elongation);
+        bend(each, now.elongation);
       }
-    now.fixed_end = root_.transpose() * (root_ * elongation);
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+      for (const Row row : {axial, shear, rotation})
+        if (held[i]) now.elongation[3 * static_cast<Index>(i) + row] -= plan_.joints[i].displacement[row];
   }
   return result;
 }
 
-VectorXd Equilibrium::on_pieces(const LoadCase& load_case) const {
-  return balanced(load_case.gravity + load_case.loads) - B.transpose() * load_case.fixed_end;
+ElasticState Equilibrium::elastic(const LoadCase& load_case) const {
+  const VectorXd f = balanced(load_case.gravity + load_case.loads);
+  const ElasticState bent = imposed(load_case.elongation);
+  return {motions(f) + bent.x, forces(f) + bent.forces};
 }
 
 Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }
@@ -265,6 +269,24 @@ VectorXd Equilibrium::motions(const VectorXd& f) const {
   VectorXd x = VectorXd::Zero(B.cols());
   x.head(L.cols()) = L.transpose().triangularView<Eigen::Upper>().solve(factors_->forward(f));
   return qr.colsPermutation() * x;
+}
+
+// With A = √k B and y = √k e: x minimises |A x + y|, and R = √kᵀ (A x + y), the part of y that no motion
+// takes up. Rigid rows' k e itself, which all but cancels, is never formed.
+ElasticState Equilibrium::imposed(const VectorXd& elongation) const {
+  const auto& [qr, L] = *factors_;
+  ElasticState result{VectorXd::Zero(B.cols()), VectorXd::Zero(B.rows())};
+  if (elongation.isZero(0)) return result;
+  const VectorXd y = root_ * elongation;
+  VectorXd turned = qr.matrixQ().transpose() * y;
+  const VectorXd taken = turned.head(L.cols());
+  result.x.head(L.cols()) = L.transpose().triangularView<Eigen::Upper>().solve(-taken);
+  result.x = qr.colsPermutation() * result.x;
+  turned.head(L.cols()).setZero();
+  const VectorXd rest = qr.matrixQ() * turned;
+  result.forces = root_.transpose() * rest;
+  result.forces -= least_energy(B.transpose() * result.forces);
+  return result;
 }
 
 double Equilibrium::flexibility(const Eigen::SparseVector<double>& c) const {

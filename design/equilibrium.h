@@ -19,8 +19,13 @@ namespace ductile {
 struct LoadCase {
   double time = 0;  // s, from when on
   Eigen::VectorXd gravity, loads;
-  Eigen::VectorXd fixed_end;  // by joints' rows: the forces that keep pieces where they are under what bends
-                              // the bars between (fixed-end forces)
+  Eigen::VectorXd elongation;  // by joints' rows, beyond what the pieces' motions make of it: of bars that
+                               // loads bend between pieces (bars.h), and of supports whose ground moves
+};
+
+/// Motions, and the joints' forces.
+struct ElasticState {
+  Eigen::VectorXd x, forces;
 };
 
 /// What gives between the joints: nothing, as in a simulation, or the bars that joints stand for (bars.h).
@@ -53,9 +58,8 @@ class Equilibrium {
   Eigen::VectorXd gravity() const;
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
-  /// All of a case on the pieces: f − Bᵀ fixed_end. What joints carry is then forces() of it, and fixed_end.
-  /// Throws as balanced() does.
-  Eigen::VectorXd on_pieces(const LoadCase& load_case) const;
+  /// Of first order. Throws as balanced() does.
+  ElasticState elastic(const LoadCase& load_case) const;
 
   /// Motions that no joint resists.
   Eigen::Index freedoms() const;
@@ -76,6 +80,8 @@ class Equilibrium {
   Eigen::VectorXd resist(const Eigen::VectorXd& x) const { return root_.transpose() * (root_ * (B * x)); }
   /// Motions x with K x = f, K = Bᵀ k B; 0 in the directions of a mechanism.
   Eigen::VectorXd motions(const Eigen::VectorXd& f) const;
+  /// To elongations e without loads: R = k (B x + e), Bᵀ R = 0.
+  ElasticState imposed(const Eigen::VectorXd& elongation) const;
   /// cᵀ x of those motions for f = c: what a functional c of the motion gives way to a unit load on it.
   double flexibility(const Eigen::SparseVector<double>& c) const;
   /// f without what would drive a mechanism. Throws InvalidInput, naming the piece, where that is more than

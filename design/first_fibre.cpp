@@ -69,7 +69,7 @@ Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order) {
     if (order == Order::second) {
       reached = ElasticPath(plan, statics, load_case).reached(usage);
     } else {
-      const Eigen::VectorXd forces = statics.forces(statics.on_pieces(load_case)) + load_case.fixed_end;
+      const Eigen::VectorXd forces = statics.elastic(load_case).forces;
       for (std::size_t i = 0; i < fibres.size(); ++i)
         reached.push_back(1 / usage(i, forces.segment<3>(3 * static_cast<Eigen::Index>(i))));
     }

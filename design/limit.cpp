@@ -17,6 +17,7 @@
 #include "deformed.h"
 #include "ductile/design.h"
 #include "equilibrium.h"
+#include "units.h"
 #include "yield.h"
 
 namespace ductile {
@@ -32,25 +33,6 @@ constexpr int most_milliseconds = 600'000;
 [[noreturn]] void refuse(const char* what, const char* remedy) {
   throw InvalidInput({{"loads", what, remedy}});
 }
-
-// Forces and lengths near 1: the logarithmic mean of all caps that act, and of moments to forces.
-struct Units {
-  double force = 1, length = 1;
-  explicit Units(const std::vector<Yield>& yields) {
-    double sum[2] = {}, count[2] = {};
-    for (const Yield& yield : yields)
-      for (const Row row : {axial, shear, rotation})
-        for (const bool reverse : {false, true})
-          if (const double cap = yield.cap(row, reverse); cap > 0 && cap < unlimited) {
-            sum[row == rotation] += std::log(cap);
-            count[row == rotation] += 1;
-          }
-    const double moment = count[1] > 0 ? std::exp(sum[1] / count[1]) : 1;
-    force = count[0] > 0 ? std::exp(sum[0] / count[0]) : moment;
-    length = count[1] > 0 ? moment / force : 1;
-  }
-  double of(int row) const { return row == rotation ? force * length : force; }
-};
 
 class Programme {
  public:
@@ -238,7 +220,9 @@ LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity) {
     if (now.load_factor < worst.load_factor) worst = std::move(now);
   }
   if (!loaded)
-    refuse("are none: there is nothing to multiply", fixed_gravity
+    refuse("are none: there is nothing to multiply", plan.settles()
+                                                         ? "follow supports that are displaced by --second-order"
+                                                     : fixed_gravity
                                                          ? "give the scene loads, or let gravity grow too"
                                                          : "give the scene gravity or loads");
   return worst;

@@ -6,6 +6,7 @@
 // positive: after a hinge, at once (a mechanism, or what is left of the stiffness buckles under the forces
 // that are there), or on the way to the next.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +25,7 @@ using Eigen::VectorXd;
 
 constexpr int most_events_per_joint = 20;
 constexpr double on_surface = 1e-9;
+constexpr double spent = 1000;  // times as far as the last hinge: a support that is displaced meets no more
 
 class Pushing {
  public:
@@ -46,10 +48,12 @@ class Pushing {
       const auto K_g = geometric_stiffness(plan_, statics_, growth, state_);
       if (const Buckle buckle = buckling(statics_, K_g, any_motion(statics_)); buckle.inverse_factor >= 1)
         return goes(growth, buckle.mode);
-      const std::optional<VectorXd> rate = solve_tangent(statics_, K_g, growth.growing);
+      const ElasticState bent = statics_.imposed(growth.elongation);
+      std::optional<VectorXd> rate = solve_tangent(statics_, K_g, growth.growing - K_g * bent.x);
       if (!rate) return goes(growth, statics_.motions(growth.growing));
-      if (flow_.unload(statics_.B * *rate)) continue;
-      switch (stage(growth, last, statics_.forces(growth.growing - K_g * *rate))) {
+      *rate += bent.x;
+      if (flow_.unload(statics_.B * *rate + growth.elongation)) continue;
+      switch (stage(growth, last, statics_.forces(growth.growing - K_g * *rate) + bent.forces)) {
         case Ends::at_a_hinge:
           break;
         case Ends::at_the_last:
@@ -63,6 +67,12 @@ class Pushing {
 
   const Equilibrium& statics() const { return statics_; }
   const Deformed& state() const { return state_; }
+  std::vector<std::array<double, 3>> carried() const {
+    std::vector<std::array<double, 3>> all;
+    for (Eigen::Index r = 0; r < state_.forces.size(); r += 3)
+      all.push_back({state_.forces[r], state_.forces[r + 1], state_.forces[r + 2]});
+    return all;
+  }
   std::vector<Reached> hinges;
   std::vector<Motion> mechanism;
 
@@ -82,7 +92,9 @@ class Pushing {
 
     double low = state_.factor, low_usage = most.usage, high = unlimited;
     double factor = std::min(last, low + reach(rates, leave));
-    if (factor == unlimited) factor = low + buckling_reach(growth, rates);
+    const bool pushed = growth.growing.isZero(0);  // by supports alone, which hold whatever forms
+    if (pushed && low > 0 && factor > spent * low) factor = unlimited;
+    if (factor == unlimited && !pushed) factor = low + buckling_reach(growth, rates);
     if (factor == unlimited) {
       state_.factor = unlimited;
       return Ends::at_the_last;
@@ -185,24 +197,25 @@ Pushover second_order_limit(const Plan& plan, bool fixed_gravity) {
   for (const PlannedJoint& joint : plan.joints) yields.emplace_back(plan, joint);
   const Equilibrium statics(plan);
   Pushover worst;
-  bool loaded = false;
+  bool loaded = false, first = true;
   for (const LoadCase& load_case : statics.cases()) {
     const VectorXd gravity = statics.balanced(load_case.gravity), loads = statics.balanced(load_case.loads);
     const VectorXd none = VectorXd::Zero(gravity.size());
     const VectorXd growing = fixed_gravity ? loads : VectorXd(gravity + loads);
-    if (growing.cwiseAbs().maxCoeff() == 0) continue;
+    if (growing.isZero(0) && load_case.elongation.isZero(0)) continue;
     loaded = true;
     Pushing pushing(plan, yields);
     if (fixed_gravity) {
-      if (!pushing.push({none, gravity, load_case.time, false}, 1))
+      if (!pushing.push({none, gravity, VectorXd::Zero(statics.B.rows()), load_case.time, false}, 1))
         throw InvalidInput(
             {{"loads", "cannot be carried, even times 0: gravity alone brings the structure down",
               "let gravity grow with the loads (without --fixed-gravity), or strengthen it"}});
       for (Reached& hinge : pushing.hinges) hinge.factor = 0;
     }
-    pushing.push({fixed_gravity ? gravity : none, growing, load_case.time}, unlimited);
-    if (worst.load_factor > pushing.state().factor)
-      worst = {pushing.state().factor, pushing.hinges, load_case.time, pushing.mechanism};
+    pushing.push({fixed_gravity ? gravity : none, growing, load_case.elongation, load_case.time}, unlimited);
+    if (first || worst.load_factor > pushing.state().factor)
+      worst = {pushing.state().factor, pushing.hinges, load_case.time, pushing.mechanism, pushing.carried()};
+    first = false;
   }
   if (!loaded)
     throw InvalidInput({{"loads", "are none: there is nothing to multiply",

@@ -28,6 +28,9 @@ Response::Response(const Plan& plan, double impact)
   swing_.assign(swing_.size(), std::sqrt(2 * energy));
   strain_.assign(swing_.size(), 0);
 
+  if (plan.settles())
+    throw InvalidInput({{"supports", "their ground moves, which no bound of what joints carry looks at",
+                         "leave nothing out of this scene, or set the displacements to 0"}});
   add(statics_.gravity(), plan.gravity_ramp, false);
   for (const Plan::Load& load : plan.loads) add(statics_.load(load), load.def.ramp, load.def.to < unlimited);
   lean();

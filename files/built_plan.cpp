@@ -42,6 +42,9 @@ std::vector<std::string> lost_in_definitions(const Plan& plan) {
     lost.push_back("the load on " + plan.pieces[static_cast<std::size_t>(load.piece)].name +
                    " is not there: apply it before each step");
   }
+  for (const PlannedJoint& joint : plan.joints)
+    if (joint.displacement != std::array<double, 3>{})
+      lost.push_back("the ground of " + joint.name + " does not move: drive its rows");
   return lost;
 }
 

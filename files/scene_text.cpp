@@ -135,6 +135,7 @@ Json json(const SupportDef& support) {
   if (support.fix_x) object["fix"].push_back("x");
   if (support.fix_y) object["fix"].push_back("y");
   if (support.fix_angle) object["fix"].push_back("angle");
+  if (support.displacement != std::array<double, 3>{}) object["displacement"] = support.displacement;
   return object;
 }
 

@@ -76,6 +76,8 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(wheel.angular_velocity, 3);
   EXPECT_EQ(wheel.material, materials::S355);
   EXPECT_EQ(wheel.group, -2);
+  EXPECT_FALSE(wheel.collides);
+  EXPECT_TRUE(beam.collides);
 
   ASSERT_EQ(girder.profile.size(), 1u);
   EXPECT_EQ(girder.profile[0].material.yield_stress, 235e6);
@@ -109,6 +111,8 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_TRUE(scene.supports[0].fix_y);
   EXPECT_TRUE(scene.supports[0].fix_angle);
   EXPECT_EQ(scene.supports[0].stiffness_x, 4e5);
+  EXPECT_EQ(scene.supports[0].displacement, (std::array<double, 3>{0.01, -0.02, 0}));
+  EXPECT_EQ(scene.supports[0].ramp, 3);
   EXPECT_FALSE(scene.supports[1].fix_y);
   EXPECT_EQ(scene.supports[1].stiffness_x, 0);
   EXPECT_EQ(scene.supports[1].stiffness_y, 3);

@@ -90,6 +90,7 @@ struct BodyDef {
   double angular_velocity = 0;    ///< rad/s
   std::vector<Point> velocities;  ///< m/s: of each piece, instead of velocity and angular_velocity
   std::int16_t group = 0;         ///< collision filter group, as Box2D
+  bool collides = true;           ///< false: nothing touches it, and it may be thinner than Box2D collides
 };
 
 /// Two bodies joined wherever their edges overlap; across a segment; or at a point, two or more: the latter
@@ -107,12 +108,15 @@ struct JointBetweenDef {
   std::optional<std::array<Point, 2>> across;
 };
 
-/// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free.
+/// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free. Fixed and sprung
+/// rows may have their ground moved, as where a footing settles or a jack pushes.
 struct SupportDef {
   std::string body;
   Point at;
   bool fix_x = false, fix_y = false, fix_angle = false;
   double stiffness_x = 0, stiffness_y = 0, stiffness_angle = 0;  ///< N/m, N m/rad: of a spring; 0: none
+  std::array<double, 3> displacement{};  ///< x, y, angle, m and rad: how far the ground moves; 0 in free rows
+  double ramp = 0;                       ///< s over which it moves there evenly, from the start on
 };
 
 /// A force and moment that ride with the piece under a point, in world axes.
@@ -164,6 +168,12 @@ struct Piece {
   bool stands_still = false;  ///< though its body is dynamic: merged with the ground or a static body
 };
 
+/// How a piece moves, small against the structure, or to a scale.
+struct Motion {
+  Point along;      ///< of its centre of mass, m
+  double turn = 0;  ///< rad
+};
+
 /// A joint to be: everything a Box2D definition, a limit analysis or a drawing needs of it. Positive N is
 /// tension; positive M turns b counter-clockwise against a and puts the right of the axis in tension.
 struct PlannedJoint {
@@ -189,6 +199,8 @@ struct PlannedJoint {
   std::vector<std::array<double, 2>> intervals;
   int governed_by = -1;  ///< index into Plan::reasons
   bool hold = false;     ///< JointOverrides::hold
+  std::array<double, 3> displacement{};  ///< SupportDef::displacement, by rows
+  double ramp = 0;                       ///< s, SupportDef::ramp
   int node = 0;          ///< ≠ 0: of one node, whose bodies hold together where body a goes
 };
 
@@ -231,6 +243,12 @@ struct Plan {
   };
   std::vector<Wheel> wheels;
   std::vector<LeftOut> left_out;
+  /// Whether a support's ground moves.
+  bool settles() const {
+    for (const PlannedJoint& j : joints)
+      if (j.displacement != std::array<double, 3>{}) return true;
+    return false;
+  }
   /// Makes the plan in a world, where a level says more of its bodies than pieces do and has more than a plan
   /// holds (ductile/level.h); its joints in the structure, or as stock joints where that is null. Empty:
   /// build() makes the pieces as they are.

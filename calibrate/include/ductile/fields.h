@@ -96,7 +96,8 @@ inline constexpr std::tuple body{Field{"name", &BodyDef::name, any_number, "", t
                                  Field{"velocity", &BodyDef::velocity, any_number, "m/s"},
                                  Field{"angular_velocity", &BodyDef::angular_velocity, any_number, "rad/s"},
                                  Field{"depth", &BodyDef::depth, positive, "m"},
-                                 Field{"group", &BodyDef::group}};
+                                 Field{"group", &BodyDef::group},
+                                 Field{"collides", &BodyDef::collides}};
 
 /// A joint between bodies; `between` and overrides besides.
 inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"}};
@@ -106,9 +107,10 @@ inline constexpr std::tuple springs{Field{"x", &SupportDef::stiffness_x, positiv
                                     Field{"y", &SupportDef::stiffness_y, positive, "N/m"},
                                     Field{"angle", &SupportDef::stiffness_angle, positive, "N m/rad"}};
 
-/// A support; `fix` and springs besides.
+/// A support; `fix`, springs and `displacement` besides.
 inline constexpr std::tuple support{Field{"body", &SupportDef::body, any_number, "", true},
-                                    Field{"at", &SupportDef::at, any_number, "m", true}};
+                                    Field{"at", &SupportDef::at, any_number, "m", true},
+                                    Field{"ramp", &SupportDef::ramp, not_negative, "s"}};
 
 inline constexpr std::tuple load{Field{"body", &LoadDef::body, any_number, "", true},
                                  Field{"at", &LoadDef::at, any_number, "m", true},

@@ -11,6 +11,7 @@
 // program that links this is under the GPL-3. What a game links (section, joint, calibrate) needs neither.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct StaticJoint {
   double yields_at = unlimited;
 };
 
-/// Elastic forces under the plan's loads and gravity, each at its full value whatever its ramp. Where loads
+/// Elastic forces under the plan's loads, gravity and prescribed displacements of supports (settlement), each
+/// at its full value whatever its ramp; factors are on all of them. Where loads
 /// start and end, those that act at one time are taken together, and the time of least reserve is reported.
 struct StaticCheck {
   double time = 0;                  ///< s
@@ -57,12 +59,6 @@ enum class Order {
 /// have no state to tell of, and forces, usage and displacements are NaN. `yields_at` of all but the first is
 /// interpolated between states up to the critical load, beyond which it is unlimited.
 StaticCheck static_check(const Plan& plan, Order order = Order::first);
-
-/// How a piece moves, to a scale.
-struct Motion {
-  Point along;      ///< of its centre of mass, m
-  double turn = 0;  ///< rad
-};
 
 /// Elastic buckling.
 struct CriticalLoad {
@@ -107,13 +103,17 @@ struct Pushover {
   std::vector<Reached> hinges;     ///< joints that yield, in order, each with the factor at which it does
   double time = 0;                 ///< s, as in StaticCheck
   std::vector<Motion> mechanism;   ///< by Plan::pieces: how it goes; the largest displacement is 1 m
+  /// By Plan::joints, (N, Q, M), N and N m: at that load, or where it is unlimited, with the last hinge.
+  std::vector<std::array<double, 3>> forces;
 };
 
 /// The largest factor on the loads that the structure bears as they grow from nothing, in the deformed state
 /// (displacements small against the structure), joints yielding one by one and elastic again where they
 /// unload: hinge by hinge to the point where no stable equilibrium follows. Joints are the plan's springs
 /// between rigid pieces, as a slow simulation has them, perfectly plastic and unbreakable. Where a mechanism
-/// forms that tension might yet hold, it counts as collapse. Throws InvalidInput as limit_analysis() does.
+/// forms that tension might yet hold, it counts as collapse. Supports' displacements grow with the loads; where
+/// nothing else does (displacement control), the load factor is theirs, and unlimited where what their
+/// supports carry no longer grows. Throws InvalidInput as limit_analysis() does.
 Pushover second_order_limit(const Plan& plan, bool fixed_gravity = false);
 
 /// How much may be left out.
