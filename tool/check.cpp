@@ -5,9 +5,11 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "command.h"
 #include "ductile/design.h"
+#include "ductile/picture.h"
 
 namespace ductile::tool {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 struct Options {
   SceneFile scene;
   bool second_order = false, json = false;
+  std::vector<std::string> pictures;
 };
 
 struct Found {
@@ -87,6 +90,30 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
   return check.loose.empty() ? text : text + '\n';
 }
 
+/// Moments, shear and axial forces, and the deformed shape.
+std::string picture(const Plan& plan, const StaticCheck& check, const Options& options) {
+  Plan now = plan;  // with the loads that act then
+  std::erase_if(now.loads,
+                [&](const Plan::Load& l) { return l.def.from > check.time || l.def.to <= check.time; });
+  std::vector<JointReading> joints;
+  for (const StaticJoint& j : check.joints)
+    joints.push_back({.N = j.N, .Q = j.Q, .M = j.M, .usage = j.usage});
+  std::vector<Motion> motions;
+  for (std::size_t i = 0; i < now.pieces.size(); ++i)
+    motions.push_back({check.displacement[i], check.turn[i]});
+  const double times = exaggeration(now, motions);
+  return picture_svg(
+      now, {.title = title_of(options.scene.name),
+            .subtitle = options.second_order ? "second order" : "first order",
+            .panels = {{.title = "moment, on the side in tension", .joints = joints, .diagram = rotation},
+                       {.title = "shear force", .joints = joints, .diagram = shear},
+                       {.title = "axial force", .joints = joints, .diagram = axial},
+                       {.title = fmt::format("displacements times {:g}", times),
+                        .joints = joints,
+                        .motions = motions,
+                        .times = times}}});
+}
+
 std::string run(const Options& options) {
   const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Order order = options.second_order ? Order::second : Order::first;
@@ -99,6 +126,12 @@ std::string run(const Options& options) {
     }
     return all;
   });
+  if (!options.pictures.empty()) {
+    if (std::any_of(found.check.turn.begin(), found.check.turn.end(), [](double t) { return std::isnan(t); }))
+      throw InvalidInput({{"command line:--picture", "has no state to show: the structure buckles before",
+                           "draw it without --second-order, or its mode by ductile limit"}});
+    for (const std::string& file : options.pictures) write_picture(file, picture(plan, found.check, options));
+  }
   return options.json ? json(plan, found).dump() + "\n" : table(plan, found, options);
 }
 
@@ -110,6 +143,7 @@ void add_check(CLI::App& app, std::string& output) {
       app.add_subcommand("check", "Static utilisation of every joint under the scene's loads");
   add_scene(command, options->scene);
   command->add_flag("--second-order", options->second_order, "equilibrium in the deformed state (P-delta)");
+  add_picture(command, options->pictures, "draw moment, shear and axial diagrams and the deformed shape");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

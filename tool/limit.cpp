@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "command.h"
 #include "ductile/design.h"
+#include "ductile/picture.h"
 
 namespace ductile::tool {
 namespace {
@@ -13,6 +16,7 @@ namespace {
 struct Options {
   SceneFile scene;
   bool fixed_gravity = false, second_order = false, json = false;
+  std::vector<std::string> pictures;
 };
 
 struct Found {
@@ -20,6 +24,18 @@ struct Found {
   CriticalLoad critical;
   Pushover pushover;  // of second order
 };
+
+/// Whether supports that are displaced are all that grows.
+bool is_displaced_only(const Plan& plan, const Options& options) {
+  return plan.settles() && plan.loads.empty() && (options.fixed_gravity || plan.gravity == Point{});
+}
+
+std::vector<std::size_t> moved_supports(const Plan& plan) {
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < plan.joints.size(); ++i)
+    if (plan.joints[i].displacement != std::array<double, 3>{}) moved.push_back(i);
+  return moved;
+}
 
 Json json(const Plan& plan, const Found& found, const Options& options) {
   Json hinges = Json::array();
@@ -36,6 +52,11 @@ Json json(const Plan& plan, const Found& found, const Options& options) {
     result["second_order_load_factor"] = number(found.pushover.load_factor);
     result["hinges_at"] = Json::array();
     for (const Reached& hinge : found.pushover.hinges) result["hinges_at"].push_back(number(hinge.factor));
+    result["supports"] = Json::array();
+    for (const std::size_t i : moved_supports(plan)) {
+      const auto [N, Q, M] = found.pushover.forces[i];
+      result["supports"].push_back({{"name", plan.joints[i].name}, {"N", N}, {"Q", Q}, {"M", M}});
+    }
   }
   return result;
 }
@@ -43,7 +64,10 @@ Json json(const Plan& plan, const Found& found, const Options& options) {
 std::string text(const Plan& plan, const Found& found, const Options& options) {
   const char* what = options.fixed_gravity ? "the loads, gravity as it is" : "the loads and gravity";
   std::string text;
-  if (found.limit.load_factor == unlimited) {
+  if (is_displaced_only(plan, options)) {
+    what = "the displacements";
+    text = options.scene.name + ": nothing but supports moves\n";
+  } else if (found.limit.load_factor == unlimited) {
     text = fmt::format("{}: no multiple of {} collapses it\n", options.scene.name, what);
   } else {
     text = fmt::format("{}: collapses at {:.6g} times {}, in\n", options.scene.name, found.limit.load_factor,
@@ -57,21 +81,54 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
     text += buckling_line(true, found.critical.factor);
     text += pushover.load_factor < unlimited
                 ? fmt::format(", collapses at {:.6g} times, after\n", pushover.load_factor)
-                : ", does not collapse\n";
+            : pushover.hinges.empty() ? ", does not collapse\n"
+                                      : ", does not collapse, after\n";
     for (const Reached& hinge : pushover.hinges)
       text += fmt::format("  {} at {:.6g}\n", joint_name(plan, hinge.joint), hinge.factor);
+    for (const std::size_t i : moved_supports(plan)) {
+      const auto [N, Q, M] = pushover.forces[i];
+      text += fmt::format("{} then carries N {} N, Q {} N, M {} N m\n", plan.joints[i].name, shown(N),
+                          shown(Q), shown(M));
+    }
   }
   if (found.limit.time > 0) text += fmt::format("the loads are those from {:g} s on\n", found.limit.time);
   return text;
 }
 
+/// The mechanism of limit analysis, that in the deformed state, and the buckling mode, as far as there are.
+std::string picture(const Plan& plan, const Found& found, const Options& options) {
+  PictureDef picture{.title = title_of(options.scene.name),
+                     .subtitle = options.fixed_gravity ? "multiples of the loads" : "multiples of all loads"};
+  const auto add = [&](std::string title, const std::vector<Motion>& motions, std::vector<int> hinges,
+                       bool numbered) {
+    if (!motions.empty())
+      picture.panels.push_back({.title = std::move(title),
+                                .motions = motions,
+                                .times = exaggeration(plan, motions),
+                                .hinges = std::move(hinges),
+                                .numbered = numbered});
+  };
+  add(fmt::format("collapses at {:.4g} times", found.limit.load_factor), found.limit.mechanism,
+      found.limit.hinges, false);
+  std::vector<int> order;
+  for (const Reached& hinge : found.pushover.hinges) order.push_back(hinge.joint);
+  add(fmt::format("second order: goes at {:.4g} times", found.pushover.load_factor), found.pushover.mechanism,
+      order, true);
+  add(fmt::format("buckles at {:.4g} times", found.critical.factor), found.critical.mode, {}, false);
+  if (picture.panels.empty()) picture.panels.emplace_back();
+  return picture_svg(plan, picture);
+}
+
 std::string run(const Options& options) {
   const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Found found = in_file(options.scene, [&] {
-    Found all{.limit = limit_analysis(plan, options.fixed_gravity), .critical = critical_load(plan)};
+    Found all{.critical = critical_load(plan)};
+    if (!options.second_order || !is_displaced_only(plan, options))
+      all.limit = limit_analysis(plan, options.fixed_gravity);
     if (options.second_order) all.pushover = second_order_limit(plan, options.fixed_gravity);
     return all;
   });
+  for (const std::string& file : options.pictures) write_picture(file, picture(plan, found, options));
   return options.json ? json(plan, found, options).dump() + "\n" : text(plan, found, options);
 }
 
@@ -84,6 +141,7 @@ void add_limit(CLI::App& app, std::string& output) {
   command->add_flag("--fixed-gravity", options->fixed_gravity, "multiply the loads only");
   command->add_flag("--second-order", options->second_order,
                     "hinge by hinge in the deformed state (P-delta), too");
+  add_picture(command, options->pictures, "draw the collapse mechanism and the buckling mode");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <pugixml.hpp>
@@ -217,6 +218,96 @@ TEST(Picture, HoldsWhateverAPlanHolds) {
   for (const Piece& piece : plan.pieces)
     away.pieces.push_back({.position = {piece.center.x, piece.center.y + 1e30}});
   parse(picture_svg(plan, {.panels = {away}}));
+}
+
+// Of a group's path, the farthest that its points are above `y` px, and below.
+std::array<double, 2> reach(const Node& path, double y) {
+  std::array<double, 2> most{};
+  const std::string d = path.attribute("d").value();
+  const std::regex point("[ML][-0-9.]+ ([-0-9.]+)");
+  for (std::sregex_iterator i(d.begin(), d.end(), point), end; i != end; ++i) {
+    most[0] = std::max(most[0], y - std::stod((*i)[1]));
+    most[1] = std::max(most[1], std::stod((*i)[1]) - y);
+  }
+  return most;
+}
+
+// 4 m beam out of a wall, 2 kN at its tip, no weight: M = −8 kN m at the wall, in proportion to the distance from
+// the tip, above the line (in tension); Q = −2 kN all along, below it.
+TEST(Picture, DrawsDiagramsOfWhatPiecesCarry) {
+  Plan plan = beam();
+  plan.gravity = {};
+  std::vector<JointReading> joints;
+  for (const PlannedJoint& joint : plan.joints)
+    joints.push_back({.Q = -2e3, .M = -2e3 * (4 - joint.anchor.x)});
+  const auto drawn = [&](Row row) {
+    return parse(picture_svg(plan, {.panels = {{.joints = joints, .diagram = row}}}));
+  };
+  const auto moments = drawn(rotation), shears = drawn(shear);
+  ASSERT_EQ(all(moments, "strip").size(), 4u);
+  EXPECT_EQ(words(all(moments, "diagram").front()), "8 kN m\n");
+  EXPECT_EQ(words(all(shears, "diagram").front()), "-2 kN\n");
+  const auto line = [](const Node& strip) {  // the last points are those of the line
+    const std::string d = strip.child("path").attribute("d").value();
+    return std::stod(d.substr(d.rfind(' ') + 1));
+  };
+  const Node first = named(moments, "strip", "beam/0"), last = named(moments, "strip", "beam/3");
+  const auto at_wall = reach(first.child("path"), line(first)), at_tip = reach(last.child("path"), line(last));
+  EXPECT_NEAR(at_wall[0] / at_tip[0], 4, 0.05);
+  EXPECT_NEAR(at_wall[1], 0, 0.11);
+  for (const Node& strip : all(shears, "strip")) {
+    const auto [above, below] = reach(strip.child("path"), line(strip));
+    EXPECT_NEAR(above, 0, 0.11);
+    EXPECT_NEAR(below, at_wall[0], 0.11);  // each is the largest of its kind
+  }
+  joints[0].M = std::nan("");  // of a loose structure
+  drawn(rotation);
+}
+
+TEST(Picture, DrawsMotionsToAScaleWithTheirHinges) {
+  const Plan plan = beam();
+  std::vector<Motion> motions(plan.pieces.size());
+  motions.back() = {{0, -0.001}, 0};
+  EXPECT_EQ(exaggeration(plan, motions), 200);  // 0.12 of 4 m, or a little less
+  EXPECT_EQ(exaggeration(plan, std::vector<Motion>(plan.pieces.size())), 1);
+  const auto document = parse(picture_svg(
+      plan, {.panels = {{.motions = motions, .times = 500, .hinges = {3, 0}, .numbered = true}}}));
+  const auto height = [&](const char* piece) {
+    const std::string d = named(document, "piece", piece).child("path").attribute("d").value();
+    return std::stod(d.substr(d.find(' ') + 1));
+  };
+  EXPECT_NEAR((height("beam/3") - height("beam/2")) / scale_bar(document.document_element()), 0.5, 0.01);
+  EXPECT_EQ(words(named(document, "joint", plan.joints[3].name)), "1\n");
+  EXPECT_EQ(words(named(document, "joint", plan.joints[0].name)), "2\n");
+  EXPECT_FALSE(named(document, "joint", plan.joints[1].name).child("circle"));
+}
+
+// Loads side by side: no label lies on another, whichever way they point.
+TEST(Picture, LabelsLieBesideEachOther) {
+  Plan plan = beam();
+  plan.loads.clear();
+  for (int i = 0; i < 6; ++i) {
+    const Point at{3 + 0.2 * i, 1};
+    plan.loads.push_back({3, at, {.body = "beam", .at = at, .force = {i % 2 ? 1e3 : 0., -1e6 - i * 1e3}}});
+  }
+  const auto document = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  struct Label {
+    double x0, x1, y;
+  };
+  std::vector<Label> labels;
+  for (const Node& load : all(document, "load")) {
+    const Node text = load.child("text");
+    const double x = text.attribute("x").as_double(), w = 7 * static_cast<double>(words(load).size() - 1);
+    const std::string anchor = text.attribute("text-anchor").value();
+    const double x0 = anchor == "end" ? x - w : anchor == "middle" ? x - w / 2 : x;
+    labels.push_back({x0, x0 + w, text.attribute("y").as_double()});
+  }
+  ASSERT_EQ(labels.size(), 6u);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_TRUE(labels[i].x1 <= labels[j].x0 || labels[j].x1 <= labels[i].x0 ||
+                  std::abs(labels[i].y - labels[j].y) >= 12)
+          << i << " " << j;
 }
 
 TEST(Picture, IsThatOfASimulation) {

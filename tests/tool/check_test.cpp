@@ -73,6 +73,36 @@ TEST(CheckCommand, BucklingFirstFibreAndSecondOrder) {
             std::string::npos);
 }
 
+// A diagram of each kind and the deformed shape, of the same file the same picture.
+TEST(CheckCommand, DrawsWhatPiecesCarry) {
+  const Folder folder;
+  const std::string scene =
+      folder.write("scene.json", cantilever(R"(, "joints": [{"between": ["wall","beam"]}])"));
+  const Ran ran = run("check " + scene + " --picture " + (folder / "a.svg").string());
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::string svg = slurp(folder / "a.svg");
+  for (const char* said : {"moment, on the side in tension", ">10 MN m<", "shear force", ">-1 MN<", "axial force",
+                           "displacements times 50"})
+    EXPECT_NE(svg.find(said), std::string::npos) << said;
+  EXPECT_EQ(std::regex_search(svg, std::regex("[ (,\"](nan|-?inf)")), false);
+}
+
+// 6 EI δ/L² and 12 EI δ/L³ of a beam clamped at both ends, one of which settles.
+TEST(CheckCommand, ASupportThatSettles) {
+  const Folder folder;
+  std::string text = cantilever(
+      R"(, "joint": {"stiffness_shear": null}, "joints": [{"between": ["wall","beam"]}],
+      "supports": [{"body": "beam", "at": [10,0.5], "fix": ["y", "angle"], "displacement": [0, -1e-4, 0]}])");
+  text.replace(text.find("[0,-1e6]"), 8, "[0,0]");
+  const json settled = run("check " + folder.write("a.json", text) + " --second-order --json").json();
+  for (const json& joint : settled["joints"]) {
+    if (joint["name"] != "wall-beam/0") continue;
+    EXPECT_NEAR(joint["M"].get<double>() / (-6 * 200e9 / 12 * 1e-4 / 100), 1, 1e-4);
+  }
+  text.replace(text.find("[0, -1e-4, 0]"), 13, "[0, -1e-4]");
+  expect_bad_input(run("check " + folder.write("b.json", text)), "has 2 numbers; write [x, y, angle]");
+}
+
 TEST(CheckCommand, WhatCannotStandIsBadInput) {
   const Folder folder;
   expect_bad_input(run("check " + folder.write("loose.json", cantilever(""))), "no joint holds");

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "run.h"
 
 namespace {
@@ -29,6 +31,33 @@ TEST(LimitCommand, AClampedBeamCollapsesInThreeHinges) {
               1e-6);
   const Ran table = run("limit " + scene);
   EXPECT_NE(table.out.find("  left-beam/0\n"), std::string::npos) << table.out;
+}
+
+TEST(LimitCommand, DrawsMechanismsAndTheBucklingMode) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", fixed_fixed("[0,-10]", load));
+  const Ran ran = run("limit " + scene + " --second-order --picture " + (folder / "a.svg").string());
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::string svg = slurp(folder / "a.svg");
+  for (const char* said : {"collapses at 57.14 times", "second order: goes at", "buckles at", ">3</text>"})
+    EXPECT_NE(svg.find(said), std::string::npos) << said;
+}
+
+// A cantilever's tip pushed across: M_p at its root, and M_p/L from then on.
+TEST(LimitCommand, PushesASupport) {
+  const Folder folder;
+  std::string text = fixed_fixed("[0,0]", "");
+  text.replace(text.find(R"(, {"between": ["beam","right"]})"), 31, "");
+  text.insert(text.rfind('}'),
+              R"(, "supports": [{"body": "beam", "at": [10,0.5], "fix": ["y"], "displacement": [0, -0.1, 0]}])");
+  const std::string scene = folder.write("scene.json", text);
+  expect_bad_input(run("limit " + scene), "--second-order");
+  const Ran ran = run("limit " + scene + " --second-order --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["second_order_load_factor"], nullptr);
+  EXPECT_EQ(ran.json()["hinges"], (json{"left-beam/0"}));
+  EXPECT_EQ(ran.json()["supports"][0]["name"], "support/0");
+  EXPECT_NEAR(std::abs(ran.json()["supports"][0]["Q"].get<double>()) / (100e6 / 10), 1, 1e-3);
 }
 
 TEST(LimitCommand, WhatHasNoAnswerIsBadInput) {

@@ -24,7 +24,20 @@ struct Panel {
   std::optional<double> time;        ///< s: loads as they are then; none: at their full size
   std::vector<PieceReading> pieces;  ///< by Plan::pieces; empty: as drawn
   std::vector<JointReading> joints;  ///< by Plan::joints; empty: coloured by plastic moment
+  /// By Plan::pieces: small displacements, instead of `pieces`, drawn so many times as large.
+  std::vector<Motion> motions;
+  double times = 1;
+  std::vector<int> hinges;  ///< joints that flow in a mechanism
+  bool numbered = false;    ///< hinges, in their order
+  /// What the pieces carry instead, of the joints' forces and the plan's loads at their full size: axial and
+  /// shear forces, positive as the joints' above the line, or left of one that stands; moments on the side in
+  /// tension.
+  std::optional<Row> diagram;
 };
+
+/// The round number (1, 2 or 5 times a power of ten) by which displacements are seen best: the largest is
+/// then about a tenth of the structure.
+double exaggeration(const Plan& plan, const std::vector<Motion>& motions);
 
 /// The simulation as it is now.
 Panel panel_of(const Simulation& simulation, std::string title);

@@ -1,0 +1,437 @@
+#include "artist.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagram.h"
+#include "ductile/plane.h"
+#include "labels.h"
+
+namespace ductile::picture {
+namespace {
+
+// Ordinates: tension, and moments; compression.
+constexpr Colour positive{0x2b, 0x7b, 0xba}, negative{0xd9, 0x6a, 0x1e};
+constexpr auto still = "#c6cdd4", ghost = "#eef1f4";
+// Moving bodies in turn, pale, so that the joints' colours stand out on all of them.
+constexpr std::array tints{"#e6ecf2", "#f1e7d9", "#e3ecdf", "#eee4ef"};
+
+Colour moment_colour(double share) {
+  const double at = std::clamp(share, 0.0, 1.0) * (moment_colours.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), moment_colours.size() - 2);
+  const Colour &a = moment_colours[i], &b = moment_colours[i + 1];
+  const auto mix = [t = at - static_cast<double>(i)](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+  };
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
+
+class Artist {
+ public:
+  Artist(const Plan& plan, const Panel& panel, const MomentScale& moments, const Frame& frame)
+      : plan_(plan),
+        panel_(panel),
+        moments_(moments),
+        view_(frame.view),
+        scale_(frame.scale),
+        mark_(frame.mark),
+        corner_{(frame.place.x0 + frame.place.x1 - frame.scale * frame.view.width()) / 2,
+                (frame.place.y0 + frame.place.y1 - frame.scale * frame.view.height()) / 2},
+        labels_(frame.place) {}
+
+  void draw(Node to) {
+    const Panel as_drawn;
+    Node bodies = add(to, "g", "stroke-width", "1", "stroke-linejoin", "round");
+    for (const bool moving : {false, true}) {
+      if (moving && !(panel_.pieces.empty() && panel_.motions.empty()))
+        for (const Piece& piece : plan_.pieces)
+          if (moves(plan_, piece)) shape(bodies, piece, Pose(plan_, as_drawn, -1), ghost, "none");
+      for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
+        if (moves(plan_, plan_.pieces[i]) == moving) draw_piece(bodies, i);
+    }
+    if (panel_.diagram) {
+      draw_diagram(to);
+      for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+        if (plan_.joints[i].a < 0) draw_support(to, px(plan_.joints[i].anchor));
+      return;
+    }
+    // Plain ones first: what yields or breaks must not lie under its neighbours.
+    std::vector<std::size_t> order(plan_.joints.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    if (!panel_.joints.empty())
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return stage(panel_.joints[a]) < stage(panel_.joints[b]);
+      });
+    const auto draw_joints = [&] {
+      for (const std::size_t i : order) draw_joint(to, i);
+    };
+    if (panel_.hinges.empty()) draw_joints();
+    const std::vector<Arrow> arrows = loads();
+    for (const Arrow& arrow : arrows) avoid(arrow);
+    for (const Arrow& arrow : arrows) draw_arrow(to, arrow);
+    if (!panel_.hinges.empty()) draw_joints();  // no arrow covers a hinge's number
+  }
+
+ private:
+  Point px(Point p) const {
+    return {corner_.x + (p.x - view_.x0) * scale_, corner_.y + (view_.y1 - p.y) * scale_};
+  }
+
+  void shape(Node to, const Piece& piece, const Pose& pose, const char* fill, const char* stroke) const {
+    if (piece.circle > 0) {
+      const Point centre = px(pose(piece.center));
+      const Point rim = px(pose({piece.center.x + piece.circle, piece.center.y}));
+      add(to, "circle", "cx", centre.x, "cy", centre.y, "r", piece.circle * scale_, "fill", fill, "stroke",
+          stroke);
+      add(to, "path", "d", fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", centre.x, centre.y, rim.x, rim.y),
+          "stroke", stroke);
+      return;
+    }
+    fmt::memory_buffer d;
+    const auto ring = [&](const Ring& points) {
+      const char* command = "M";
+      for (const Point& p : points) {
+        const Point at = px(pose(p));
+        fmt::format_to(std::back_inserter(d), "{}{:.1f} {:.1f}", std::exchange(command, "L"), at.x, at.y);
+      }
+      d.push_back('Z');
+    };
+    ring(piece.outline.outer);
+    for (const Ring& hole : piece.outline.holes) ring(hole);
+    add(to, "path", "d", fmt::to_string(d), "fill-rule", "evenodd", "fill", fill, "stroke", stroke);
+  }
+
+  void draw_piece(Node to, std::size_t index) const {
+    const Piece& piece = plan_.pieces[index];
+    const bool moving = moves(plan_, piece);
+    const char* tint = moving ? tints[static_cast<std::size_t>(piece.body) % tints.size()] : still;
+    Node group = add(to, "g", "class", "piece");
+    hover(group, moving && piece.mass > 0 ? piece.name + ": " + quantity(piece.mass * 1e3, "g") : piece.name);
+    shape(group, piece, Pose(plan_, panel_, static_cast<int>(index)), tint, moving ? edge : "none");
+  }
+
+  bool is_hinge(std::size_t index) const {
+    return std::find(panel_.hinges.begin(), panel_.hinges.end(), static_cast<int>(index)) !=
+           panel_.hinges.end();
+  }
+
+  std::string colour(std::size_t index) const {
+    if (is_hinge(index)) return hex(stage_colour(1));
+    if (panel_.joints.empty() && !panel_.motions.empty()) return "#ffffff";
+    if (!panel_.joints.empty()) return hex(stage_colour(stage(panel_.joints[index])));
+    const double moment = plan_.joints[index].M;
+    if (moment == 0) return "#ffffff";
+    return moment == unlimited ? quiet : hex(moment_colour(moments_.share(moment)));
+  }
+
+  std::string about(std::size_t index) const {
+    const PlannedJoint& joint = plan_.joints[index];
+    if (panel_.joints.empty()) {
+      return fmt::format("{}: M_p {}, N {}, Q {}", joint.name, quantity(joint.M, "N m"),
+                         quantity(joint.N, "N"), quantity(joint.Q, "N"));
+    }
+    const JointReading& now = panel_.joints[index];
+    if (now.broken)
+      return fmt::format("{}: broke at {:.3g} s; {} dissipated", joint.name, now.broken_at,
+                         quantity(now.dissipated, "J"));
+    return fmt::format("{}: N {}, Q {}, M {}; plastic rotation {:.3g} rad; {:.0f} % of its limit", joint.name,
+                       quantity(now.N, "N"), quantity(now.Q, "N"), quantity(now.M, "N m"),
+                       now.plastic_rotation, 100 * now.capacity_used);
+  }
+
+  /// The cut along which the pieces touch, and a dot at its anchor that grows with the hinge; where it is
+  /// broken, both of its banks.
+  void draw_joint(Node to, std::size_t index) const {
+    const PlannedJoint& joint = plan_.joints[index];
+    const Pose a(plan_, panel_, joint.a), b(plan_, panel_, joint.b);
+    const Point half{-joint.axis.y * joint.height / 2, joint.axis.x * joint.height / 2};
+    const Point ends[2] = {{joint.anchor.x - half.x, joint.anchor.y - half.y},
+                           {joint.anchor.x + half.x, joint.anchor.y + half.y}};
+    const auto between = [&](Point p) {
+      const Point of_a = px(a(p)), of_b = px(b(p));
+      return Point{(of_a.x + of_b.x) / 2, (of_a.y + of_b.y) / 2};
+    };
+    const auto line = [](Point p, Point q) {
+      return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", p.x, p.y, q.x, q.y);
+    };
+    Node group = add(to, "g", "class", "joint", "stroke-linecap", "round");
+    hover(group, about(index));
+    const std::string paint = colour(index);
+    const bool broken = !panel_.joints.empty() && panel_.joints[index].broken;
+    if (broken) {
+      for (const Pose* bank : {&a, &b}) {
+        const std::string d = line(px((*bank)(ends[0])), px((*bank)(ends[1])));
+        add(group, "path", "d", d, "stroke", paint, "stroke-width", 3 * mark_);
+        draw_broken_end(group, px((*bank)(joint.anchor)), paint);
+      }
+      return;
+    }
+    if (joint.height > 0) {
+      const std::string d = line(between(ends[0]), between(ends[1]));
+      add(group, "path", "d", d, "stroke", ink, "stroke-width", 4.6 * mark_);
+      add(group, "path", "d", d, "stroke", paint, "stroke-width", 3 * mark_);
+    }
+    const Point at = between(joint.anchor);
+    if (joint.a < 0) draw_support(group, at);
+    if (!panel_.motions.empty()) {  // of a mechanism, a mode or a bent shape: only hinges have dots
+      if (is_hinge(index)) draw_hinge(group, at, index);
+      return;
+    }
+    const double hinge = panel_.joints.empty() ? 0 : hinge_dot(panel_.joints[index].accumulated_rotation);
+    const double smallest = panel_.joints.empty() ? 4.5 : 4;
+    add(group, "circle", "cx", at.x, "cy", at.y, "r",
+        std::max({smallest * mark_, 20 * mark_ * hinge, hinge * joint.height * scale_}), "fill", paint,
+        "stroke", ink, "stroke-width", "1");
+  }
+
+  void draw_support(Node to, Point at) const {
+    add(to, "path", "d",
+        fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}h{:.1f}z", at.x, at.y, -7 * mark_, 12 * mark_, 14 * mark_),
+        "fill", still, "stroke", ink);
+  }
+
+  void draw_hinge(Node to, Point at, std::size_t index) const {
+    const double r = (panel_.numbered ? 9 : 6.5) * mark_;
+    add(to, "circle", "cx", at.x, "cy", at.y, "r", r, "fill", colour(index), "stroke", ink, "stroke-width",
+        "1.4");
+    if (!panel_.numbered) return;
+    const auto number = std::find(panel_.hinges.begin(), panel_.hinges.end(), static_cast<int>(index)) -
+                        panel_.hinges.begin() + 1;
+    write(to, std::to_string(number), at.x, at.y + 4 * mark_, "text-anchor", "middle", "font-size",
+          12 * mark_);
+  }
+
+  void draw_broken_end(Node to, Point at, const std::string& paint) const {
+    const double size = 10 * mark_;
+    const std::string d = fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}m0 {3:.1f}l{3:.1f} {2:.1f}",
+                                      at.x - size / 2, at.y - size / 2, size, -size);
+    add(to, "path", "d", d, "stroke", "#ffffff", "stroke-width", 6 * mark_, "fill", "none");
+    add(to, "path", "d", d, "stroke", paint, "stroke-width", 3 * mark_, "fill", "none");
+  }
+
+  struct Arrow {
+    int piece;
+    Point at, force;
+    double moment;
+  };
+
+  /// What acts at the panel's time, added up point by point; without a time, the largest load of each point.
+  std::vector<Arrow> loads() const {
+    std::vector<Arrow> arrows;
+    for (const Plan::Load& load : plan_.loads) {
+      const LoadDef& def = load.def;
+      double factor = 1;
+      if (panel_.time) {
+        const double since = *panel_.time - def.from;
+        factor = since < 0 || *panel_.time >= def.to ? 0 : def.ramp > 0 ? std::min(1.0, since / def.ramp) : 1;
+      }
+      const Arrow arrow{
+          load.piece, load.at, {factor * def.force.x, factor * def.force.y}, factor * def.moment};
+      const auto same = std::find_if(arrows.begin(), arrows.end(), [&](const Arrow& other) {
+        return other.piece == arrow.piece && other.at == arrow.at;
+      });
+      if (same == arrows.end()) {
+        arrows.push_back(arrow);
+      } else if (panel_.time) {
+        same->force = {same->force.x + arrow.force.x, same->force.y + arrow.force.y};
+        same->moment += arrow.moment;
+      } else if (std::hypot(arrow.force.x, arrow.force.y) > std::hypot(same->force.x, same->force.y)) {
+        *same = arrow;
+      }
+    }
+    return arrows;
+  }
+
+  struct Shaft {
+    Point tail, tip, along;  // px
+  };
+  Shaft shaft(const Arrow& arrow) const {
+    const double force = std::hypot(arrow.force.x, arrow.force.y);
+    const Point at = px(Pose(plan_, panel_, arrow.piece)(arrow.at));
+    if (force == 0) return {at, at, {}};
+    const Point along{arrow.force.x / force, -arrow.force.y / force};
+    return {at, at + 60 * mark_ * along, along};
+  }
+
+  void avoid(const Arrow& arrow) {
+    const Shaft s = shaft(arrow);
+    if (arrow.force != Point{}) labels_.avoid(s.tail, s.tip);
+    if (arrow.moment != 0)
+      for (const double turn : {-1., 1.})
+        labels_.avoid(s.tail + Point{-18, turn * 18}, s.tail + Point{18, turn * 18});
+  }
+
+  void draw_arrow(Node to, const Arrow& arrow) {
+    const double force = std::hypot(arrow.force.x, arrow.force.y);
+    if (force == 0 && arrow.moment == 0) return;
+    const auto [at, tip, along] = shaft(arrow);
+    Node group = add(to, "g", "class", "load", "stroke", ink, "stroke-width", "2.4", "fill", "none");
+    if (force > 0) {
+      const double x = along.x, y = along.y;
+      add(group, "path", "d",
+          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", at.x, at.y, tip.x - 6 * x, tip.y - 6 * y));
+      add(group, "path", "fill", ink, "stroke", "none", "d",
+          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", tip.x, tip.y, tip.x - 12 * x - 5 * y,
+                      tip.y - 12 * y + 5 * x, tip.x - 12 * x + 5 * y, tip.y - 12 * y - 5 * x));
+      // Beside the shaft, above one that lies, to the right of one that stands; else on its other side, or
+      // beyond its tip.
+      std::vector<Labels::Spot> spots;
+      for (const double share : {0.6, 0.85, 0.3, 1.1}) {
+        const Point p = at + share * (tip - at);
+        if (std::abs(x) > std::abs(y)) {
+          spots.push_back({p + Point{0, -9}, "middle"});
+          spots.push_back({p + Point{0, 20}, "middle"});
+        } else {
+          spots.push_back({p + Point{10, 4}});
+          spots.push_back({p + Point{-10, 4}, "end"});
+        }
+      }
+      spots.push_back({tip + Point{12 * x, 14 * y + 4}, x < -0.3 ? "end" : x > 0.3 ? "start" : "middle"});
+      label(group, quantity(force, "N"), spots);
+    }
+    if (arrow.moment != 0) {
+      // Three quarters of a circle; counter-clockwise is positive.
+      const int side = arrow.moment > 0 ? 1 : -1;
+      add(group, "path", "d",
+          fmt::format("M{:.1f} {:.1f}a18 18 0 1 {} {} 18m{} -5l{} 5l{} 5", at.x + side * 18, at.y,
+                      side > 0 ? 0 : 1, -side * 18, -side * 5, side * 5, -side * 5));
+      label(group, quantity(std::abs(arrow.moment), "N m"),
+            {{at + Point{24, -12}},
+             {at + Point{-24, -12}, "end"},
+             {at + Point{24, 22}},
+             {at + Point{-24, 22}, "end"},
+             {at + Point{0, -26}, "middle"}});
+    }
+  }
+
+  void label(Node to, const std::string& text, const std::vector<Labels::Spot>& spots, bool must = true) {
+    const auto spot = labels_.place(text, spots, must);
+    if (!spot) return;
+    write(to, text, spot->at.x, spot->at.y, "font-size", "13", "fill", ink, "stroke", "#ffffff",
+          "stroke-width", "3", "paint-order", "stroke", "stroke-linejoin", "round", "text-anchor",
+          spot->anchor);
+  }
+
+  // --- what pieces carry ---
+
+  double value(const Station& station) const {
+    return *panel_.diagram == axial ? station.N : *panel_.diagram == shear ? station.Q : station.M;
+  }
+  /// Toward positive ordinates: moments on the side in tension, others above, and left of what stands.
+  Point aside(const Strip& strip) const {
+    const Point n = left(strip.axis);
+    if (*panel_.diagram == rotation) return -n;
+    return n.y > 1e-9 || (n.y > -1e-9 && n.x < 0) ? n : -n;
+  }
+
+  void draw_diagram(Node to) {
+    const std::vector<Strip> all = strips(plan_, panel_.joints);
+    double largest = 0;
+    for (const Strip& strip : all)
+      for (const Station& station : strip.stations) largest = std::max(largest, std::abs(value(station)));
+    const double height =  // px per unit
+        largest > 0 ? ordinate_share * scale_ * std::max(view_.width(), view_.height()) / largest : 0;
+    Node group = add(to, "g", "class", "diagram", "stroke-linejoin", "round");
+    for (const Strip& strip : all) draw_strip(group, strip, height);
+    label_extremes(group, all, height, largest);
+  }
+
+  /// Parts of one sign, each a polygon between the line of the strip and its ordinates.
+  void draw_strip(Node to, const Strip& strip, double height) const {
+    const Point n{aside(strip).x, -aside(strip).y};
+    Node group = add(to, "g", "class", "strip");
+    hover(group, plan_.pieces[static_cast<std::size_t>(strip.piece)].name);
+    const auto part = [&](const std::vector<std::pair<Point, double>>& ordinates) {
+      double most = 0;
+      for (const auto& [at, v] : ordinates)
+        if (std::abs(v) > std::abs(most)) most = v;
+      std::string d;
+      for (const auto& [at, v] : ordinates) {
+        const Point tip = at + height * v * n;
+        d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? "M" : "L", tip.x, tip.y);
+      }
+      for (auto it = ordinates.rbegin(); it != ordinates.rend(); ++it)
+        d += fmt::format("L{:.1f} {:.1f}", it->first.x, it->first.y);
+      const std::string paint = hex(*panel_.diagram == rotation || most >= 0 ? positive : negative);
+      add(group, "path", "d", d + "Z", "fill", paint, "fill-opacity", "0.35", "stroke", paint);
+    };
+    std::vector<std::pair<Point, double>> open;
+    for (const Station& station : strip.stations) {
+      const Point at = px(station.at);
+      const double v = value(station);
+      if (!open.empty() && open.back().second * v < 0) {
+        const auto [before, was] = open.back();
+        const std::pair zero{before + was / (was - v) * (at - before), 0.};
+        open.push_back(zero);
+        part(open);
+        open = {zero};
+      }
+      open.emplace_back(at, v);
+    }
+    if (open.size() > 1) part(open);
+  }
+
+  /// Each body's largest and smallest ordinate.
+  void label_extremes(Node to, const std::vector<Strip>& all, double height, double largest) {
+    struct Extreme {
+      double v;
+      Point at, n;
+    };
+    std::vector<Extreme> extremes;
+    for (std::size_t body = 0; body < plan_.bodies.size(); ++body)
+      for (const double sign : {1., -1.}) {
+        Extreme most{0, {}, {}};
+        for (const Strip& strip : all) {
+          if (plan_.pieces[static_cast<std::size_t>(strip.piece)].body != static_cast<int>(body)) continue;
+          const Point n{aside(strip).x, -aside(strip).y};
+          // Signs of moments are sides, which a strip's direction does not decide.
+          const double own = *panel_.diagram == rotation && (n.y > 1e-9 || (n.y > -1e-9 && n.x > 0)) ? -1 : 1;
+          for (const Station& station : strip.stations)
+            if (const double v = value(station); own * sign * v > std::abs(most.v) * (1 + 1e-6))
+              most = {v, px(station.at), n};
+        }
+        if (std::abs(most.v) > 0.02 * largest) extremes.push_back(most);
+      }
+    std::stable_sort(extremes.begin(), extremes.end(),
+                     [](const Extreme& a, const Extreme& b) { return std::abs(a.v) > std::abs(b.v); });
+    const bool signs = *panel_.diagram != rotation;
+    for (const Extreme& e : extremes) {
+      const Point side = e.v > 0 ? e.n : -e.n, tip = e.at + height * e.v * e.n;
+      std::vector<Labels::Spot> spots;
+      for (const double off : {6., 20., 34.}) {
+        const Point p = tip + off * side + Point{0, 4 + 5 * side.y};
+        const char* anchor = side.x > 0.5 ? "start" : side.x < -0.5 ? "end" : "middle";
+        for (const double aside : {0., 18., -18.}) spots.push_back({p + aside * left(side), anchor});
+      }
+      for (const double off : {-8., -22.}) spots.push_back({tip + off * side + Point{0, 4}, "middle"});
+      label(to, quantity(signs ? e.v : std::abs(e.v), *panel_.diagram == rotation ? "N m" : "N"), spots,
+            false);
+    }
+  }
+
+  const Plan& plan_;
+  const Panel& panel_;
+  const MomentScale& moments_;
+  const Box view_;
+  double scale_, mark_;
+  Point corner_;
+  Labels labels_;
+};
+
+}  // namespace
+
+void draw_panel(Node to, const Plan& plan, const Panel& panel, const MomentScale& moments,
+                const Frame& frame) {
+  Artist(plan, panel, moments, frame).draw(to);
+}
+
+}  // namespace ductile::picture

@@ -1,0 +1,155 @@
+#include "diagram.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ductile/moments.h"
+#include "ductile/plane.h"
+
+namespace ductile::picture {
+namespace {
+
+constexpr int intervals = 4;     // between two places where something acts
+constexpr double aligned = 0.9;  // |cos| between axes of one straight strip
+constexpr double slender = 2.5;  // length over width from which on an uncut body is a bar
+
+// A force with a moment about its point, on a piece.
+struct Action {
+  Point at, force;
+  double moment;
+  const PlannedJoint* cut = nullptr;  // that it comes from
+};
+
+Action of_joint(const PlannedJoint& joint, const JointReading& carries, double sign) {
+  return {joint.anchor, sign * (carries.N * joint.axis + carries.Q * left(joint.axis)), sign * carries.M,
+          joint.height > 0 ? &joint : nullptr};
+}
+
+class PieceStrips {
+ public:
+  PieceStrips(const Plan& plan, int index, const std::vector<JointReading>& joints)
+      : piece_(plan.pieces[static_cast<std::size_t>(index)]), index_(index) {
+    for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+      const PlannedJoint& joint = plan.joints[i];
+      if (joint.a != index && joint.b != index) continue;
+      actions_.push_back(of_joint(joint, joints[i], joint.a == index ? 1 : -1));
+      if (joint.height > 0) cuts_.push_back(&joint);
+    }
+    for (const Plan::Load& load : plan.loads)
+      if (load.piece == index) actions_.push_back({load.at, load.def.force, load.def.moment});
+    weight_ = piece_.mass * plan.gravity;
+  }
+
+  void add_to(std::vector<Strip>& strips) const {
+    for (const Action& action : actions_)
+      if (!std::isfinite(action.force.x + action.force.y + action.moment)) return;
+    if (piece_.circle > 0 || actions_.empty()) return;
+    if (cuts_.empty()) {
+      const LongAxis axis = long_axis(piece_.outline, moments(piece_.outline));
+      const auto [low, high] = extent(axis.direction);
+      const auto [right, left_] = extent(left(axis.direction));
+      if (high - low > slender * (left_ - right)) strips.push_back(whole(axis.direction));
+      return;
+    }
+    const Point axis = cuts_.front()->axis;
+    const bool straight = std::all_of(cuts_.begin(), cuts_.end(), [&](const PlannedJoint* cut) {
+      return std::abs(dot(cut->axis, axis)) > aligned;
+    });
+    if (straight) {
+      strips.push_back(whole(axis));
+    } else {
+      for (const PlannedJoint* cut : cuts_) strips.push_back(stub(*cut));
+    }
+  }
+
+ private:
+  std::pair<double, double> extent(Point axis) const {
+    double low = unlimited, high = -unlimited;
+    for (const Point& p : piece_.outline.outer) {
+      low = std::min(low, dot(p - piece_.center, axis));
+      high = std::max(high, dot(p - piece_.center, axis));
+    }
+    return {low, high};
+  }
+
+  /// From end to end. Ends at cuts are their anchors; where there is none, the line goes on as it is.
+  Strip whole(Point axis) const {
+    auto [low, high] = extent(axis);
+    const PlannedJoint *first = nullptr, *last = nullptr;
+    for (const PlannedJoint* cut : cuts_)
+      (dot(cut->anchor - piece_.center, axis) < 0 ? first : last) = cut;
+    Point from = piece_.center + low * axis, to = piece_.center + high * axis;
+    if (first) from = first->anchor;
+    if (last) to = last->anchor;
+    if (first && !last) to = from + dot(to - from, axis) * axis;
+    if (last && !first) from = to + dot(from - to, axis) * axis;
+    const double length_ = length(to - from);
+    if (!(length_ > 0)) return {index_, axis, {}};
+    return along(from, to, (1 / length_) * weight_);
+  }
+
+  /// From a cut as far as the piece's middle is from it; the piece's weight is left to the rest of it.
+  Strip stub(const PlannedJoint& cut) const {
+    const Point inward = cut.a == index_ ? -cut.axis : cut.axis;
+    const double depth = std::max(0., dot(piece_.center - cut.anchor, inward));
+    return along(cut.anchor + depth * inward, cut.anchor, {}, &cut);
+  }
+
+  /// Stations between two points, from what acts ahead of each: all of the piece's, or what acts on the part
+  /// behind one of its cuts.
+  Strip along(Point from, Point to, Point weight_per_metre, const PlannedJoint* only = nullptr) const {
+    const double span = length(to - from);
+    Strip strip{index_, span > 0 ? (1 / span) * (to - from) : Point{1, 0}, {}};
+    if (!(span > 0)) return strip;
+    struct Placed {
+      double s;
+      const Action* action;
+    };
+    std::vector<Placed> placed;
+    std::vector<double> breaks{0, span};
+    for (const Action& action : actions_) {
+      double s = dot(action.at - from, strip.axis);
+      if (only && (action.cut ? action.cut != only : s < 1e-9 * span)) continue;
+      s = std::clamp(s, 0., span);
+      if (s < 1e-9 * span) s = 0;
+      if (s > (1 - 1e-9) * span) s = span;
+      placed.push_back({s, &action});
+      breaks.push_back(s);
+    }
+    std::sort(breaks.begin(), breaks.end());
+    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    const auto station = [&](double s, bool before) {
+      const Point at = from + s * strip.axis;
+      Point force = (span - s) * weight_per_metre;
+      double moment = (span - s) / 2 * cross(strip.axis, force);
+      for (const Placed& each : placed) {
+        if (before ? each.s < s : each.s <= s) continue;
+        force = force + each.action->force;
+        moment += each.action->moment + cross(each.action->at - at, each.action->force);
+      }
+      strip.stations.push_back({at, dot(force, strip.axis), dot(force, left(strip.axis)), moment});
+    };
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+      for (int k = 0; k <= intervals; ++k)
+        station(breaks[i] + (breaks[i + 1] - breaks[i]) * k / intervals, k > 0);
+    return strip;
+  }
+
+  const Piece& piece_;
+  int index_;
+  std::vector<Action> actions_;
+  std::vector<const PlannedJoint*> cuts_;
+  Point weight_;
+};
+
+}  // namespace
+
+std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints) {
+  std::vector<Strip> result;
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    if (plan.is_dynamic(static_cast<int>(i)) && plan.pieces[i].part_of < 0)
+      PieceStrips(plan, static_cast<int>(i), joints).add_to(result);
+  return result;
+}
+
+}  // namespace ductile::picture

@@ -1,0 +1,29 @@
+// What pieces carry between their joints: the ordinates of axial, shear and moment diagrams.
+#pragma once
+
+#include <vector>
+
+#include "ductile/calibrate.h"
+#include "ductile/simulation.h"
+
+namespace ductile::picture {
+
+/// A section through a piece, and what it carries there.
+struct Station {
+  Point at;                    ///< m, on the line of the piece's anchors
+  double N = 0, Q = 0, M = 0;  ///< N, N, N m; of the sign that a joint there with the strip's axis would have
+};
+
+/// Along one straight piece, or from a joint to the middle of a piece that branches or turns a corner.
+struct Strip {
+  int piece = 0;
+  Point axis;                     ///< unit
+  std::vector<Station> stations;  ///< along the axis; two at one place where something acts there
+};
+
+/// By equilibrium of each moving piece under its joints' forces, the plan's loads at their full size, and its
+/// weight, evenly along a straight piece. Pieces that are neither cut nor long, as discs and blocks, have
+/// none.
+std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints);
+
+}  // namespace ductile::picture
