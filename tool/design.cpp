@@ -18,7 +18,8 @@ struct Options {
   SceneFile scene;
   std::string target, by, out;
   std::vector<std::string> among, bodies;
-  bool json = false;
+  std::vector<std::string> together;
+  bool each = false, json = false;
 };
 
 struct Target {
@@ -169,6 +170,40 @@ Found found(const SceneDef& scene, const std::vector<std::size_t>& bodies, const
   return {reached.value, fmt::format("{:.6g}{}", reached.value, number->unit), std::move(reached)};
 }
 
+// Bodies one by one, but for those that are named together.
+std::vector<std::vector<std::size_t>> groups_of(const SceneDef& scene, const std::vector<std::size_t>& bodies,
+                                                const Options& options) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::size_t> alone = bodies;
+  for (const std::string& list : options.together) {
+    groups.emplace_back();
+    for (const std::string& name : CLI::detail::split(list, ',')) {
+      const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                      [&](std::size_t i) { return scene.bodies[i].name == name; });
+      if (found == bodies.end())
+        refuse("--together", "'" + name + "' is none of the bodies that change", "name bodies with a depth");
+      groups.back().push_back(*found);
+      alone.erase(std::remove(alone.begin(), alone.end(), *found), alone.end());
+    }
+  }
+  for (const std::size_t i : alone) groups.push_back({i});
+  return groups;
+}
+
+Found of_least_mass(const SceneDef& scene, const std::vector<std::size_t>& bodies, const Target& target,
+                    const Options& options) {
+  if (options.by != "depth" || target.measure != Measure::collapse || !options.among.empty())
+    refuse("--each", "goes with --by depth and --for collapse alone", "write --for collapse=1.5 --by depth --each");
+  LeastMass least = least_mass(scene, groups_of(scene, bodies, options), target.value);
+  Found found{Json::object(), "", {0, least.collapse, std::move(least.scene)}};
+  for (const std::size_t i : bodies) {
+    const BodyDef& body = found.reach.scene.bodies[i];
+    found.value[body.name] = body.depth;
+    found.shown += fmt::format("{}{:.6g} m of {}", found.shown.empty() ? "" : ", ", body.depth, body.name);
+  }
+  return found;
+}
+
 std::string run(const Options& options) {
   const Target target = target_of(options.target);
   const std::string text = read_text(options.scene.name);
@@ -177,7 +212,10 @@ std::string run(const Options& options) {
         {{options.scene.name, "is a level of R.U.B.E.", "design works on scene files and drawings"}});
   const SceneDef scene = scene_of(options.scene, text);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
-  const Found answer = in_file(options.scene, [&] { return found(scene, bodies, target, options); });
+  const Found answer = in_file(options.scene, [&] {
+    return options.each ? of_least_mass(scene, bodies, target, options)
+                        : found(scene, bodies, target, options);
+  });
   const double mass = measured(calibrate(answer.reach.scene), Measure::mass);
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
@@ -186,8 +224,9 @@ std::string run(const Options& options) {
   if (options.json)
     return Json{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}}.dump() + "\n";
   std::string of;
-  for (const std::size_t i : bodies) of += (of.empty() ? "" : ", ") + scene.bodies[i].name;
-  return fmt::format("{}: {} {} of {}\n{} of {:.6g}{}{}\n", options.scene.name, options.by, answer.shown, of,
+  for (const std::size_t i : bodies)
+    if (!options.each) of += (of.empty() ? " of " : ", ") + scene.bodies[i].name;
+  return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n", options.scene.name, options.by, answer.shown, of,
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass));
 }
@@ -216,6 +255,13 @@ void add_design(CLI::App& app, std::string& output) {
                    "the lightest of these: profiles, their series or section files; materials; numbers of "
                    "pieces; separated by commas")
       ->delimiter(',');
+  auto* each = command->add_flag("--each", options->each,
+                                 "each body's depth by itself, for the least mass: --for collapse only");
+  command
+      ->add_option("--together", options->together,
+                   "A,B,...: bodies whose depths keep their proportion; may be repeated")
+      ->needs(each)
+      ->allow_extra_args(false);
   command->add_option("--out", options->out, "the scene that reaches it, to this file");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });

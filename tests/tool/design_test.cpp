@@ -70,4 +70,27 @@ TEST_F(DesignCommand, BadInput) {
     expect_bad_input(design(wrong));
 }
 
+// The outer half of a cantilever needs half of what the inner one does: b h²/4 f_y = λ P x.
+TEST_F(DesignCommand, TheLeastMassOfSeveralBodies) {
+  const std::string two = folder.write("two.scene.json", R"({"gravity": [0,0],
+  "bodies": [{"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+             {"name": "inner", "outline": [[0,0],[2,0],[2,0.3],[0,0.3]], "depth": 0.02, "material": "S235"},
+             {"name": "outer", "outline": [[2,0],[4,0],[4,0.3],[2,0.3]], "depth": 0.02, "material": "S235"}],
+  "joints": [{"between": ["wall","inner"], "shear": null}, {"between": ["inner","outer"], "shear": null}],
+  "loads": [{"body": "outer", "at": [4,0.3], "force": [0,-30e3]}]})");
+  const std::string out = (folder / "out.scene.json").string();
+  const Ran ran = run("design " + two + " --for collapse=1.5 --by depth --each --json --out " + out);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const double inner = 1.5 * 30e3 * 4 * 4 / 0.09 / 235e6;
+  EXPECT_NEAR(ran.json()["value"]["inner"].get<double>() / inner, 1, 1e-9);
+  EXPECT_NEAR(ran.json()["value"]["outer"].get<double>() / inner, 0.5, 1e-9);
+  EXPECT_NEAR(ran.json()["mass"].get<double>() / (7850 * 0.3 * 2 * 1.5 * inner), 1, 1e-9);
+  EXPECT_NEAR(run("limit " + out + " --json").json()["load_factor"].get<double>(), 1.5, 1e-7);
+  const Ran alike = run("design " + two + " --for collapse=1.5 --by depth --each --together inner,outer --json");
+  EXPECT_NEAR(alike.json()["value"]["outer"].get<double>() / inner, 1, 1e-9);
+  expect_bad_input(run("design " + two + " --for reserve=1.5 --by depth --each"), "goes with --by depth");
+  expect_bad_input(run("design " + two + " --for collapse=1.5 --by depth --each --together inner,wall"),
+                   "'wall' is none");
+}
+
 }  // namespace

@@ -98,6 +98,22 @@ Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, d
 /// The lightest of them; of equally light ones the first.
 Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target);
 
+/// Bodies of the depths with which a scene weighs least.
+struct LeastMass {
+  double mass = 0;      ///< kg, of all that moves
+  double collapse = 0;  ///< LimitAnalysis::load_factor
+  SceneDef scene;
+};
+
+/// The scene of least mass that collapses at no less than that factor on loads and gravity, over the depths
+/// of groups of bodies (indices), those of a group in proportion to what they are: by linear programming
+/// over all depths and all forces in equilibrium (Foulkes, Q. Appl. Math. 10 (1953) 347), rigid-plastic and
+/// in the geometry as drawn, of every load case at once. No depth becomes less than a thousandth of what is
+/// drawn. Throws InvalidInput where no depths bear it, where Plan::interaction is set, and as
+/// limit_analysis() does.
+LeastMass least_mass(const SceneDef& scene, const std::vector<std::vector<std::size_t>>& groups,
+                     double collapse);
+
 /// Draws a body that is one straight strip with another profile: its outline, cuts, and the supports and
 /// loads on it are stretched across the strip, about its middle line, to the profile's height. What touches
 /// it on its sides, a column under a girder, does so no more where the height changes: join such bodies at
