@@ -94,9 +94,15 @@ struct Frame {
   double scale = 1;  ///< px per m
   Box place;         ///< px
   double mark = 1;   ///< how large marks are, 1 where the panel is as wide as the picture
+
+  /// Where a point is: y up in metres, down in px, in the middle of the place.
+  Point px(Point p) const {
+    return {(place.x0 + place.x1 - scale * view.width()) / 2 + (p.x - view.x0) * scale,
+            (place.y0 + place.y1 - scale * view.height()) / 2 + (view.y1 - p.y) * scale};
+  }
 };
 
-/// Draws the panel, y up in metres to y down in px.
+/// Draws the panel.
 void draw_panel(Node to, const Plan& plan, const Panel& panel, const MomentScale& moments,
                 const Frame& frame);
 

@@ -48,6 +48,14 @@ class Labels {
     return first;
   }
 
+  /// Writes the text there, in a white halo.
+  void write(Node to, const std::string& text, const std::vector<Spot>& spots, bool must = true) {
+    if (const auto spot = place(text, spots, must))
+      picture::write(to, text, spot->at.x, spot->at.y, "font-size", size, "fill", ink, "stroke", "#ffffff",
+                     "stroke-width", "3", "paint-order", "stroke", "stroke-linejoin", "round", "text-anchor",
+                     spot->anchor);
+  }
+
   static constexpr double size = 13;  // px
 
  private:
