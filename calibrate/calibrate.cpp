@@ -164,9 +164,12 @@ class Check {
       if (s.displacement[row] == 0) continue;
       moves = true;
       if (!held[row])
-        add(place, std::string("its ground moves in the free row \"") + (row == 0   ? "x"
-                                                                        : row == 1 ? "y"
-                                                                                   : "angle") + '"',
+        add(place,
+            std::string("its ground moves in the free row \"") +
+                (row == 0   ? "x"
+                 : row == 1 ? "y"
+                            : "angle") +
+                '"',
             "fix that row, give it a spring, or make the displacement 0 there");
     }
     if (!moves && s.ramp > 0) add(place, "has a ramp, and its ground does not move", "give a displacement");

@@ -16,8 +16,8 @@ namespace ductile {
 struct Growth {
   Eigen::VectorXd fixed, growing;
   Eigen::VectorXd elongation;  ///< that grows, by joints' rows (LoadCase)
-  double time = 0;         ///< s: the plan's loads that act then turn with their pieces
-  bool loads_grow = true;  ///< or do not act at all
+  double time = 0;             ///< s: the plan's loads that act then turn with their pieces
+  bool loads_grow = true;      ///< or do not act at all
   Eigen::VectorXd at(double factor) const { return fixed + factor * growing; }
 };
 

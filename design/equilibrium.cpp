@@ -228,8 +228,8 @@ std::vector<LoadCase> Equilibrium::cases() const {
     if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
   std::vector<LoadCase> result;
   for (const double time : starts) {
-    LoadCase& now = result.emplace_back(
-        LoadCase{time, gravity(), VectorXd::Zero(B.cols()), VectorXd::Zero(B.rows())});
+    LoadCase& now =
+        result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols()), VectorXd::Zero(B.rows())});
     for (const Plan::Load& each : plan_.loads)
       if (each.def.from <= time && each.def.to > time) {
         now.loads += load(each);

@@ -3,9 +3,9 @@
 // With depths d_g = s_g d_g⁰ of groups of bodies, masses, weights and what sections bear all grow with s_g,
 // so that
 //   minimise Σ m_g s_g   with   Bᵀ R = λ (f + Σ s_g w_g),   R_i ≤ s_g c_gi
-// is linear: R any forces in equilibrium with λ times loads f and weights w_g (lower bound theorem), c_gi what
-// row i of a joint bears on the side of group g. At the least mass the frame collapses in a mechanism, or
-// several at once, whose hinges in each group dissipate in proportion to its mass (Foulkes' condition: the
+// is linear: R any forces in equilibrium with λ times loads f and weights w_g (lower bound theorem), c_gi
+// what row i of a joint bears on the side of group g. At the least mass the frame collapses in a mechanism,
+// or several at once, whose hinges in each group dissipate in proportion to its mass (Foulkes' condition: the
 // programme's dual).
 #include <glpk.h>
 
@@ -112,8 +112,9 @@ class LeastMassProgramme {
         (glp_get_status(problem_.get()) != GLP_OPT && glp_get_status(problem_.get()) != GLP_NOFEAS))
       throw std::runtime_error("least mass: the linear programme was not solved");
     if (glp_get_status(problem_.get()) == GLP_NOFEAS)
-      throw InvalidInput({{"target", "no depths of these bodies bear it: other bodies, or what joints are "
-                                     "given, govern, or gravity grows with the depths",
+      throw InvalidInput({{"target",
+                           "no depths of these bodies bear it: other bodies, or what joints are "
+                           "given, govern, or gravity grows with the depths",
                            "change those, or the target"}});
     std::vector<double> shares;
     for (std::size_t g = 0; g < mass_.size(); ++g)
@@ -133,9 +134,7 @@ class LeastMassProgramme {
     return yields;
   }
   static int share(int group) { return group + 1; }
-  int group_of(std::size_t piece) const {
-    return group_[static_cast<std::size_t>(plan_.pieces[piece].body)];
-  }
+  int group_of(std::size_t piece) const { return group_[static_cast<std::size_t>(plan_.pieces[piece].body)]; }
 
   void add_shares(std::size_t groups) {
     mass_.resize(groups);
@@ -202,8 +201,8 @@ class LeastMassProgramme {
       for (int c = 0; c < 3; ++c)
         unit[statics_.column[p] + c] = s[static_cast<std::size_t>(c)] * units_.of(c);
       VectorXd& own = group_of(p) < 0 ? fixed : weight[static_cast<std::size_t>(group_of(p))];
-      statics_.add(own, static_cast<int>(p), Point{plan_.pieces[p].mass * plan_.gravity.x,
-                                                   plan_.pieces[p].mass * plan_.gravity.y}, 0);
+      statics_.add(own, static_cast<int>(p),
+                   Point{plan_.pieces[p].mass * plan_.gravity.x, plan_.pieces[p].mass * plan_.gravity.y}, 0);
     }
     for (Index c = 0; c < unit.size(); ++c) {
       std::vector<std::pair<int, double>> entries;

@@ -220,11 +220,10 @@ LimitAnalysis limit_analysis(const Plan& plan, bool fixed_gravity) {
     if (now.load_factor < worst.load_factor) worst = std::move(now);
   }
   if (!loaded)
-    refuse("are none: there is nothing to multiply", plan.settles()
-                                                         ? "follow supports that are displaced by --second-order"
-                                                     : fixed_gravity
-                                                         ? "give the scene loads, or let gravity grow too"
-                                                         : "give the scene gravity or loads");
+    refuse("are none: there is nothing to multiply",
+           plan.settles()  ? "follow supports that are displaced by --second-order"
+           : fixed_gravity ? "give the scene loads, or let gravity grow too"
+                           : "give the scene gravity or loads");
   return worst;
 }
 

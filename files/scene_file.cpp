@@ -168,7 +168,8 @@ SupportDef read_support(const Value& value) {
   if (const auto displacement = object.find("displacement")) {
     const auto rows = displacement->elements();
     if (displacement->json().is_array() && rows.size() != 3)
-      displacement->wrong("has " + std::to_string(rows.size()) + " numbers", "write [x, y, angle], m and rad");
+      displacement->wrong("has " + std::to_string(rows.size()) + " numbers",
+                          "write [x, y, angle], m and rad");
     for (std::size_t row = 0; row < std::min<std::size_t>(3, rows.size()); ++row)
       rows[row].read(any_number, def.displacement[row]);
   }

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "ductile/plane.h"
 #include "draw_diagram.h"
+#include "ductile/plane.h"
 #include "labels.h"
 
 namespace ductile::picture {
@@ -299,11 +299,11 @@ class Artist {
           fmt::format("M{:.1f} {:.1f}a18 18 0 1 {} {} 18m{} -5l{} 5l{} 5", at.x + side * 18, at.y,
                       side > 0 ? 0 : 1, -side * 18, -side * 5, side * 5, -side * 5));
       labels_.write(group, quantity(std::abs(arrow.moment), "N m"),
-            {{at + Point{24, -12}},
-             {at + Point{-24, -12}, "end"},
-             {at + Point{24, 22}},
-             {at + Point{-24, 22}, "end"},
-             {at + Point{0, -26}, "middle"}});
+                    {{at + Point{24, -12}},
+                     {at + Point{-24, -12}, "end"},
+                     {at + Point{24, 22}},
+                     {at + Point{-24, 22}, "end"},
+                     {at + Point{0, -26}, "middle"}});
     }
   }
 

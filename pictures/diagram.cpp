@@ -76,8 +76,7 @@ class PieceStrips {
   Strip whole(Point axis) const {
     auto [low, high] = extent(axis);
     const PlannedJoint *first = nullptr, *last = nullptr;
-    for (const PlannedJoint* cut : cuts_)
-      (dot(cut->anchor - piece_.center, axis) < 0 ? first : last) = cut;
+    for (const PlannedJoint* cut : cuts_) (dot(cut->anchor - piece_.center, axis) < 0 ? first : last) = cut;
     Point from = piece_.center + low * axis, to = piece_.center + high * axis;
     if (first) from = first->anchor;
     if (last) to = last->anchor;

@@ -29,7 +29,9 @@ class DiagramArtist {
     for (const Strip& strip : all)
       for (const Station& station : strip.stations) largest = std::max(largest, std::abs(value(station)));
     const double height =  // px per unit
-        largest > 0 ? ordinate_share * frame_.scale * std::max(frame_.view.width(), frame_.view.height()) / largest : 0;
+        largest > 0
+            ? ordinate_share * frame_.scale * std::max(frame_.view.width(), frame_.view.height()) / largest
+            : 0;
     Node group = add(to, "g", "class", "diagram", "stroke-linejoin", "round");
     for (const Strip& strip : all) draw_strip(group, strip, height);
     label_extremes(group, all, height, largest);
@@ -114,8 +116,8 @@ class DiagramArtist {
         for (const double aside : {0., 18., -18.}) spots.push_back({p + aside * left(side), anchor});
       }
       for (const double off : {-8., -22.}) spots.push_back({tip + off * side + Point{0, 4}, "middle"});
-      labels_.write(to, quantity(signs ? e.v : std::abs(e.v), *panel_.diagram == rotation ? "N m" : "N"), spots,
-            false);
+      labels_.write(to, quantity(signs ? e.v : std::abs(e.v), *panel_.diagram == rotation ? "N m" : "N"),
+                    spots, false);
     }
   }
 

@@ -193,7 +193,8 @@ std::vector<std::vector<std::size_t>> groups_of(const SceneDef& scene, const std
 Found of_least_mass(const SceneDef& scene, const std::vector<std::size_t>& bodies, const Target& target,
                     const Options& options) {
   if (options.by != "depth" || target.measure != Measure::collapse || !options.among.empty())
-    refuse("--each", "goes with --by depth and --for collapse alone", "write --for collapse=1.5 --by depth --each");
+    refuse("--each", "goes with --by depth and --for collapse alone",
+           "write --for collapse=1.5 --by depth --each");
   LeastMass least = least_mass(scene, groups_of(scene, bodies, options), target.value);
   Found found{Json::object(), "", {0, least.collapse, std::move(least.scene)}};
   for (const std::size_t i : bodies) {

@@ -40,19 +40,18 @@ BodyDef floor_to(double l) {
   return {.name = "floor", .type = BodyType::static_body, .outline = {rectangle(-2, -1, l + 2, 0), {}}};
 }
 
-double bears(const SceneDef& scene, std::size_t body) {
-  return scene.bodies[body].depth * moment_per_depth;
-}
+double bears(const SceneDef& scene, std::size_t body) { return scene.bodies[body].depth * moment_per_depth; }
 double mass(double length, double moment) { return mass_per_volume * t * length * moment / moment_per_depth; }
 
-// Fixed feet, V in the middle of the beam and H at its height, span 1.2 h. Active are the beam's mechanism with
-// hinges in the columns' heads, V l/2 = 2 M_b + 2 M_c, and the combined one, V l/2 + H h = 2 M_b + 4 M_c:
-// 0.2 h times the first's (2, 2) and 0.4 h times the second's (2, 4) are the lengths (1.2 h, 2 h).
+// Fixed feet, V in the middle of the beam and H at its height, span 1.2 h. Active are the beam's mechanism
+// with hinges in the columns' heads, V l/2 = 2 M_b + 2 M_c, and the combined one, V l/2 + H h = 2 M_b + 4
+// M_c: 0.2 h times the first's (2, 2) and 0.4 h times the second's (2, 4) are the lengths (1.2 h, 2 h).
 TEST(LeastMass, APortalWithFixedFeet) {
   const double h = 10, l = 12, V = 2e6 / (l / 2), H = 0.2e6 / h;
   SceneDef scene = bending_only();
   scene.bodies = {floor_to(l), member("left", {0, 0}, {0, h}, false, false),
-                  member("right", {l, 0}, {l, h}, false, false), member("girder", {0, h}, {l, h}, true, true)};
+                  member("right", {l, 0}, {l, h}, false, false),
+                  member("girder", {0, h}, {l, h}, true, true)};
   scene.joints = {{.a = "floor", .b = "left"},
                   {.a = "floor", .b = "right"},
                   node({"left", "girder"}, {0, h}),
@@ -101,8 +100,8 @@ TEST(LeastMass, ABeamOfTwoSpans) {
   EXPECT_NEAR(least.collapse, 1, 1e-7);
 }
 
-// Two storeys with fixed feet under wind, span less than 2 h. With S the storey's shear times h/2, equal column
-// ends are lightest, and beams carry what columns bring: columns S_1/2 and S_2/2, roof S_2/2, floor
+// Two storeys with fixed feet under wind, span less than 2 h. With S the storey's shear times h/2, equal
+// column ends are lightest, and beams carry what columns bring: columns S_1/2 and S_2/2, roof S_2/2, floor
 // (S_1 + S_2)/2.
 TEST(LeastMass, ATwoStoreyFrameUnderWind) {
   const double h = 5, l = 8, H1 = 60e3, H2 = 40e3;
@@ -146,8 +145,7 @@ TEST(LeastMass, WeightGrowsWithTheDepths) {
   scene.joints = {{.a = "wall", .b = "inner"}, {.a = "inner", .b = "outer"}};
   scene.loads = {{.body = "outer", .at = {2 * l, 0}, .force = {0, -P}}};
   const double outer = factor * P * l / (m - factor * w * l * l / 2);
-  const double inner =
-      factor * (2 * P * l + 1.5 * w * outer * l * l) / (m - factor * w * l * l / 2);
+  const double inner = factor * (2 * P * l + 1.5 * w * outer * l * l) / (m - factor * w * l * l / 2);
   const LeastMass least = least_mass(scene, {{1}, {2}}, factor);
   EXPECT_NEAR(least.scene.bodies[1].depth / inner, 1, 1e-8);
   EXPECT_NEAR(least.scene.bodies[2].depth / outer, 1, 1e-8);

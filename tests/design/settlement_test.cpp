@@ -55,8 +55,8 @@ TEST(Settlement, OfASupportThatTurns) {
   EXPECT_GT(check.turn.back(), 0);
 }
 
-// N = EA u/(L − L/2n) of a bar that is pulled: half of its last piece is rigid. A support's axis is [1, 0], so what
-// holds the bar back at its right end is negative.
+// N = EA u/(L − L/2n) of a bar that is pulled: half of its last piece is rigid. A support's axis is [1, 0],
+// so what holds the bar back at its right end is negative.
 TEST(Settlement, PullsABar) {
   SceneDef scene = clamped(10, {1e-3, 0, 0});
   scene.joint.stiffness_axial.reset();

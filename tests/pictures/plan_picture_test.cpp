@@ -232,8 +232,8 @@ std::array<double, 2> reach(const Node& path, double y) {
   return most;
 }
 
-// 4 m beam out of a wall, 2 kN at its tip, no weight: M = −8 kN m at the wall, in proportion to the distance from
-// the tip, above the line (in tension); Q = −2 kN all along, below it.
+// 4 m beam out of a wall, 2 kN at its tip, no weight: M = −8 kN m at the wall, in proportion to the distance
+// from the tip, above the line (in tension); Q = −2 kN all along, below it.
 TEST(Picture, DrawsDiagramsOfWhatPiecesCarry) {
   Plan plan = beam();
   plan.gravity = {};
@@ -252,7 +252,8 @@ TEST(Picture, DrawsDiagramsOfWhatPiecesCarry) {
     return std::stod(d.substr(d.rfind(' ') + 1));
   };
   const Node first = named(moments, "strip", "beam/0"), last = named(moments, "strip", "beam/3");
-  const auto at_wall = reach(first.child("path"), line(first)), at_tip = reach(last.child("path"), line(last));
+  const auto at_wall = reach(first.child("path"), line(first)),
+             at_tip = reach(last.child("path"), line(last));
   EXPECT_NEAR(at_wall[0] / at_tip[0], 4, 0.05);
   EXPECT_NEAR(at_wall[1], 0, 0.11);
   for (const Node& strip : all(shears, "strip")) {

@@ -81,8 +81,8 @@ TEST(CheckCommand, DrawsWhatPiecesCarry) {
   const Ran ran = run("check " + scene + " --picture " + (folder / "a.svg").string());
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const std::string svg = slurp(folder / "a.svg");
-  for (const char* said : {"moment, on the side in tension", ">10 MN m<", "shear force", ">-1 MN<", "axial force",
-                           "displacements times 50"})
+  for (const char* said : {"moment, on the side in tension", ">10 MN m<", "shear force", ">-1 MN<",
+                           "axial force", "displacements times 50"})
     EXPECT_NE(svg.find(said), std::string::npos) << said;
   EXPECT_EQ(std::regex_search(svg, std::regex("[ (,\"](nan|-?inf)")), false);
 }

@@ -86,7 +86,8 @@ TEST_F(DesignCommand, TheLeastMassOfSeveralBodies) {
   EXPECT_NEAR(ran.json()["value"]["outer"].get<double>() / inner, 0.5, 1e-9);
   EXPECT_NEAR(ran.json()["mass"].get<double>() / (7850 * 0.3 * 2 * 1.5 * inner), 1, 1e-9);
   EXPECT_NEAR(run("limit " + out + " --json").json()["load_factor"].get<double>(), 1.5, 1e-7);
-  const Ran alike = run("design " + two + " --for collapse=1.5 --by depth --each --together inner,outer --json");
+  const Ran alike =
+      run("design " + two + " --for collapse=1.5 --by depth --each --together inner,outer --json");
   EXPECT_NEAR(alike.json()["value"]["outer"].get<double>() / inner, 1, 1e-9);
   expect_bad_input(run("design " + two + " --for reserve=1.5 --by depth --each"), "goes with --by depth");
   expect_bad_input(run("design " + two + " --for collapse=1.5 --by depth --each --together inner,wall"),

@@ -48,8 +48,9 @@ TEST(LimitCommand, PushesASupport) {
   const Folder folder;
   std::string text = fixed_fixed("[0,0]", "");
   text.replace(text.find(R"(, {"between": ["beam","right"]})"), 31, "");
-  text.insert(text.rfind('}'),
-              R"(, "supports": [{"body": "beam", "at": [10,0.5], "fix": ["y"], "displacement": [0, -0.1, 0]}])");
+  text.insert(
+      text.rfind('}'),
+      R"(, "supports": [{"body": "beam", "at": [10,0.5], "fix": ["y"], "displacement": [0, -0.1, 0]}])");
   const std::string scene = folder.write("scene.json", text);
   expect_bad_input(run("limit " + scene), "--second-order");
   const Ran ran = run("limit " + scene + " --second-order --json");

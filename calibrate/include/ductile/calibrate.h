@@ -197,11 +197,11 @@ struct PlannedJoint {
   /// Of a joint that is several intervals: from and to, m to the left of the axis, from the anchor, which is
   /// their centroid. Empty where there is one; `height` is from the first's start to the last's end.
   std::vector<std::array<double, 2>> intervals;
-  int governed_by = -1;  ///< index into Plan::reasons
-  bool hold = false;     ///< JointOverrides::hold
+  int governed_by = -1;                  ///< index into Plan::reasons
+  bool hold = false;                     ///< JointOverrides::hold
   std::array<double, 3> displacement{};  ///< SupportDef::displacement, by rows
   double ramp = 0;                       ///< s, SupportDef::ramp
-  int node = 0;          ///< ≠ 0: of one node, whose bodies hold together where body a goes
+  int node = 0;                          ///< ≠ 0: of one node, whose bodies hold together where body a goes
 };
 
 /// What an automatic split came to.

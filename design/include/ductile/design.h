@@ -111,8 +111,8 @@ struct Pushover {
 /// (displacements small against the structure), joints yielding one by one and elastic again where they
 /// unload: hinge by hinge to the point where no stable equilibrium follows. Joints are the plan's springs
 /// between rigid pieces, as a slow simulation has them, perfectly plastic and unbreakable. Where a mechanism
-/// forms that tension might yet hold, it counts as collapse. Supports' displacements grow with the loads; where
-/// nothing else does (displacement control), the load factor is theirs, and unlimited where what their
+/// forms that tension might yet hold, it counts as collapse. Supports' displacements grow with the loads;
+/// where nothing else does (displacement control), the load factor is theirs, and unlimited where what their
 /// supports carry no longer grows. Throws InvalidInput as limit_analysis() does.
 Pushover second_order_limit(const Plan& plan, bool fixed_gravity = false);
 
