@@ -51,10 +51,10 @@ struct JointOverrides {
   double elastic_rotation = 0;         ///< rad, with `elastic`
   std::optional<double> max_rotation;  ///< rad, accumulated; unlimited: never breaks by it
   /// m, accumulated; likewise. By default ε_f L_p; the hinge's length, or that of the material that the joint
-  /// stands for if it is less, for then nothing is left of it; the cut's height, for then its faces have passed
-  /// each other.
+  /// stands for if it is less, for then nothing is left of it; the cut's height, for then its faces have
+  /// passed each other.
   std::optional<double> max_elongation, max_compression, max_slip;
-  std::optional<double> hinge_length;                               ///< L_p, m; default: the section's height
+  std::optional<double> hinge_length;  ///< L_p, m; default: the section's height
   /// m, from the joint to where the moment is 0, instead of `hinge_length`: the hinge is as long as hardening
   /// makes it. A moment that falls linearly from M_u = (f_u/f_y) M_p to 0 over the shear span is above M_p in
   /// L_p = span · (1 − f_y/f_u), by similar triangles. A hinge within a span: the sum of both sides'. The
