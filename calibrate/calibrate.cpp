@@ -452,7 +452,7 @@ class Planner {
     const auto middle_of = [](const Cut& cut) { return middle(cut.from, cut.to); };
     Point u = body.pieces > 1 ? right(cuts.front().to - cuts.front().from)
                               : middle_of(cuts.back()) - middle_of(cuts.front());
-    if (body.automatic || u == Point{}) u = {std::cos(body.angle), -std::sin(body.angle)};  // the world's x
+    if (body.automatic || u == Point{}) u = frame_of(body).rotation.inverse({1, 0});  // the world's x
     u = unit(u);
     const double level = 1e-6 * bounds_of(body.outline.outer).diagonal();
     std::vector<std::pair<double, double>> key;

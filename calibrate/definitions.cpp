@@ -10,6 +10,7 @@
 #include "convex.h"
 #include "ductile/box2d.h"
 #include "ductile/plane.h"
+#include "ductile/turn.h"
 
 namespace ductile {
 using namespace calibration;
@@ -105,7 +106,7 @@ constexpr double at_once = 1e30;
 ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint& j) {
   ElasticPlasticJointDef def;
   place_anchors(def, plan, j);
-  def.axisAngle = static_cast<float>(std::atan2(j.axis.y, j.axis.x));
+  def.axisAngle = static_cast<float>(angle_of(j.axis.x, j.axis.y));
   if (j.a < 0) def.axisFollow = 0;  // a support's axis stays with the ground
   const auto row = [&](double k, double cap, double reverse) {
     return RowDef{.stiffness = k,

@@ -123,8 +123,16 @@ double fundamental(const Plan& plan, const Connected& structure) {
 
   // Some of every mode, and none of them by accident of symmetry.
   Vector start(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    start[i] = mass[i] > 0 ? 1 + 0.3 * std::sin(1.7 * static_cast<double>(i)) : 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double turns = std::numbers::phi * static_cast<double>(i);
+    start[i] = mass[i] > 0 ? 0.7 + 0.6 * (turns - std::floor(turns)) : 0;
+  }
+  // Eigen adds up in another order where the processor has vectors; this is the same everywhere.
+  const auto product = [n](const Vector& a, const Vector& b) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < n; ++i) sum += a[i] * b[i];
+    return sum;
+  };
   double shift = 1;  // σ, 1/s²
   for (int attempt = 0; attempt < 12; ++attempt) {
     Matrix H = K;
@@ -136,11 +144,11 @@ double fundamental(const Plan& plan, const Connected& structure) {
     for (int round = 0; round < 60; ++round) {
       const Vector strained = factor.solve(Vector(K * x));
       x = factor.solve(Vector(mass.cwiseProduct(strained)));
-      const double norm = x.dot(mass.cwiseProduct(x));
+      const double norm = product(x, mass.cwiseProduct(x));
       if (!(norm > 0) || !std::isfinite(norm)) return 0;
       x /= std::sqrt(norm);
       const double last = square;
-      square = x.dot(K * x);
+      square = product(x, K * x);
       if (std::abs(square - last) <= 1e-6 * square) break;
     }
     if (!(square < 4 * shift)) return std::sqrt(square) / (2 * std::numbers::pi);

@@ -39,9 +39,23 @@ AreaMoments moments(const Outline& outline) {
   return m;
 }
 
+namespace {
+
+// At φ with tan 2φ = 2 xy/(xx − yy), from cos² φ = (1 + cos 2φ)/2 and 2 sin φ cos φ = sin 2φ: a root has the
+// same bits with any C library, an arc tangent has not. With x ≥ 0.
+Point principal_direction(const AreaMoments& m) {
+  const double r = std::sqrt((m.xx - m.yy) * (m.xx - m.yy) + 4 * m.xy * m.xy);
+  if (!(r > 0)) return {1, 0};
+  const double larger = std::sqrt((1 + std::abs(m.xx - m.yy) / r) / 2), smaller = std::abs(m.xy) / (r * larger);
+  if (m.xx >= m.yy) return {larger, m.xy < 0 ? -smaller : smaller};
+  if (smaller < 1e-9) return {0, 1};
+  return {smaller, m.xy < 0 ? -larger : larger};
+}
+
+}  // namespace
+
 LongAxis long_axis(const Outline& outline, const AreaMoments& m) {
-  const double angle = std::atan2(2 * m.xy, m.xx - m.yy) / 2;
-  LongAxis axis{std::abs(std::cos(angle)) > 1e-9 ? Point{std::cos(angle), std::sin(angle)} : Point{0, 1}};
+  LongAxis axis{principal_direction(m)};
   for (const Point& p : outline.outer) {
     axis.low = std::min(axis.low, dot(p - m.centroid, axis.direction));
     axis.high = std::max(axis.high, dot(p - m.centroid, axis.direction));

@@ -4,6 +4,10 @@ set(DUCTILE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/ductile)
 # Our own code is built with warnings as errors when ductile itself is what is being built; a project that adds
 # ductile keeps its own flags.
 add_library(ductile_options INTERFACE)
+set(DUCTILE_PIC ON)  # so that shared libraries can take the rooms in
+if(EMSCRIPTEN)
+  set(DUCTILE_PIC OFF)  # in WebAssembly, where there are none, it costs
+endif()
 target_compile_features(ductile_options INTERFACE cxx_std_20)
 if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(ductile_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Werror
@@ -19,7 +23,7 @@ function(ductile_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(ductile_${name} STATIC ${ROOM_SOURCES})
   add_library(ductile::${name} ALIAS ductile_${name})
-  set_target_properties(ductile_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(ductile_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ${DUCTILE_PIC})
   target_include_directories(ductile_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(ductile_${name} PUBLIC cxx_std_20)

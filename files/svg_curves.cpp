@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "ductile/turn.h"
 #include "svg_path.h"
 
 namespace ductile::svg {
@@ -16,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 /// The largest half diameter of an ellipse with conjugate half diameters u and v.
 double half_diameter(const Point& u, const Point& v) {
   const double uu = u.x * u.x + u.y * u.y, vv = v.x * v.x + v.y * v.y, uv = u.x * v.x + u.y * v.y;
-  return std::sqrt((uu + vv + std::hypot(uu - vv, 2 * uv)) / 2);
+  return std::sqrt((uu + vv + length({uu - vv, 2 * uv})) / 2);
 }
 
 }  // namespace
@@ -68,8 +69,8 @@ Point at(const Cubic& c, const Point& start, double t) {
   return s * s * s * start + 3 * s * s * t * c.control1 + 3 * s * t * t * c.control2 + t * t * t * c.end;
 }
 Point at(const Arc& a, const Point&, double t) {
-  const double angle = a.from + t * a.sweep;
-  return a.center + std::cos(angle) * a.u + std::sin(angle) * a.v;
+  const Turn turn = turn_of(a.from + t * a.sweep);
+  return a.center + turn.c * a.u + turn.s * a.v;
 }
 
 }  // namespace

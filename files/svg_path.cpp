@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "ductile/turn.h"
+
 namespace ductile::svg {
 namespace {
 
@@ -68,7 +70,8 @@ void Pen::arc_to(double rx, double ry, double rotation, bool large, bool positiv
   ry = std::abs(ry);
   if (p == here) return;
   if (rx == 0 || ry == 0) return line(p);
-  const Point ex{std::cos(rotation), std::sin(rotation)}, ey{-ex.y, ex.x};
+  const Turn turn = turn_of(rotation);
+  const Point ex{turn.c, turn.s}, ey{-ex.y, ex.x};
   const Point half = 0.5 * (here - p);
   // In the frame in which the ellipse is the unit circle:
   Point q{(half.x * ex.x + half.y * ex.y) / rx, (half.x * ey.x + half.y * ey.y) / ry};
@@ -81,8 +84,8 @@ void Pen::arc_to(double rx, double ry, double rotation, bool large, bool positiv
   const double square = std::min(reach * reach, 1.0);
   const double offset = (large == positive ? -1 : 1) * std::sqrt((1 - square) / square);
   const Point c{offset * q.y, -offset * q.x};
-  const double from = std::atan2(q.y - c.y, q.x - c.x);
-  double sweep = std::atan2(-q.y - c.y, -q.x - c.x) - from;
+  const double from = angle_of(q.x - c.x, q.y - c.y);
+  double sweep = angle_of(-q.x - c.x, -q.y - c.y) - from;
   if (positive && sweep < 0) sweep += 2 * pi;
   if (!positive && sweep > 0) sweep -= 2 * pi;
   const Point u = rx * ex, v = ry * ey;
@@ -301,7 +304,7 @@ Affine parse_transform(std::string_view text) {
       } else if (name == "scale" && has(1, 2)) {
         all = all * Affine{n[0], 0, 0, n.back(), 0, 0};
       } else if (name == "rotate" && has(1, 3)) {
-        const double c = std::cos(n[0] * degree), s = std::sin(n[0] * degree);
+        const auto [c, s] = turn_of(n[0] * degree);
         const Point about = n.size() == 3 ? Point{n[1], n[2]} : Point{};
         all = all * Affine{1, 0, 0, 1, about.x, about.y} * Affine{c, s, -s, c, 0, 0} *
               Affine{1, 0, 0, 1, -about.x, -about.y};

@@ -17,7 +17,7 @@ namespace ductile::svg {
 inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
 inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
 inline Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
-inline double length(const Point& p) { return std::hypot(p.x, p.y); }
+inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
 /// (x, y) → (a x + c y + e, b x + d y + f), as SVG's matrix(a b c d e f).
 struct Affine {

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "ductile/turn.h"
+
 namespace ductile::svg {
 namespace {
 
@@ -14,7 +16,10 @@ constexpr double pi = std::numbers::pi;
 double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 Point left_of(const Point& d) { return {-d.y, d.x}; }
-Point turned(const Point& d, double angle) { return std::cos(angle) * d + std::sin(angle) * left_of(d); }
+Point turned(const Point& d, double angle) {
+  const Turn turn = turn_of(angle);
+  return turn.c * d + turn.s * left_of(d);
+}
 
 /// Draws the outline of one line. The rectangles over its segments all run counter-clockwise; strung together
 /// through the points where they meet, their boundaries are the two sides of the stroke, so the winding
@@ -86,7 +91,7 @@ class Outliner {
     if (pen_.join == Pen::miter && 2 <= (1 + cosine) * pen_.miter_limit * pen_.miter_limit) {
       ring.push_back(tip);
     } else if (pen_.join == Pen::round_join) {
-      fan(ring, p, m, std::atan2(sine, cosine));
+      fan(ring, p, m, angle_of(cosine, sine));
     }
     ring.push_back(to);
   }

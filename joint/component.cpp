@@ -84,8 +84,9 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     // Fixtures came or went.
     const double x = double{mirrors[i].local_center.x} - known.local_center.x;
     const double y = double{mirrors[i].local_center.y} - known.local_center.y;
-    at.x += std::cos(at.angle) * x - std::sin(at.angle) * y;
-    at.y += std::sin(at.angle) * x + std::cos(at.angle) * y;
+    const Turn turn = turn_of(at.angle);
+    at.x += turn.c * x - turn.s * y;
+    at.y += turn.s * x + turn.c * y;
     const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
     if (!same(left, mirrors[i].left)) return;
     put(solver.places[i], {at.x - origin_x, at.y - origin_y, at.angle});
@@ -203,7 +204,7 @@ void Component::hand_back(Member& m) const {
 }
 
 bool Component::fits_bodies() const {
-  return std::ranges::all_of(mirrors, [](const Mirror& m) { return m.guest || m.fits(); });
+  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return m.guest || m.fits(); });
 }
 
 void Component::Mirror::keep(Tape& tape) {

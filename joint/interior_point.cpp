@@ -229,8 +229,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     const double affine = step_within(reach);
     double left = 0;  // share of Σ z p that the predictor leaves
     for (const Bound& b : bounds_) left += (b.z + affine * b.dz) * (b.p + affine * b.dp) / now.products;
-    const double centring =
-        std::max(std::pow(std::max(std::min(left, 1.0), 1 - affine), 3), stalls ? 0.5 : 0);
+    const double remains = std::max(std::min(left, 1.0), 1 - affine);
+    const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
     find_direction(system, hessian, centring * now.products / count, stalls ? 0 : affine * affine);
     move(step_within(reach));
     scale = balance(system, current);

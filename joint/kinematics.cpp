@@ -14,7 +14,7 @@ Rows locate(Joint& j, const Place& a, const Place& b) {
   const double wx = b.pose.x - a.pose.x, wy = b.pose.y - a.pose.y;
   const double dx = a.turn.c * wx + a.turn.s * wy + relative.c * f.bx - relative.s * f.by - f.ax;
   const double dy = -a.turn.s * wx + a.turn.c * wy + relative.s * f.bx + relative.c * f.by - f.ay;
-  const double length = f.line ? std::hypot(dx, dy) : 0;
+  const double length = f.line ? std::sqrt(dx * dx + dy * dy) : 0;
   J.axis_a = length > 0      ? Turn{dx / length, dy / length}
              : f.follow == 0 ? f.axis
                              : f.axis * turn_of(f.follow * bend);

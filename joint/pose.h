@@ -21,19 +21,6 @@ inline constexpr bool all_doubles<Place> = true;
 template <>
 inline constexpr bool all_doubles<Pose> = true;
 
-/// The turn by any angle: series below 0.06 rad, which is exact to the last bit, std::cos and std::sin above.
-Turn turn_of_large(double angle);
-
-constexpr double over(double n) { return 1 / n; }
-
-/// Joints bend little from step to step and in all, so a few terms of the series are exact to the last bit.
-inline Turn turn_of(double angle) {
-  const double t = angle * angle;
-  if (!(t < 6e-5)) return turn_of_large(angle);
-  return {1 - t * over(2) * (1 - t * over(12) * (1 - t * over(30))),
-          angle * (1 - t * over(6) * (1 - t * over(20)))};
-}
-
 /// Puts a body at a pose.
 inline void put(Place& place, const Pose& at) {
   if (at.angle != place.pose.angle) place.turn = turn_of(at.angle);

@@ -66,7 +66,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
     m.own_record.material.surface = m.surface.get();
   }
-  m.own.frame.axis = {std::cos(double{d.axisAngle}), std::sin(double{d.axisAngle})};
+  m.own.frame.axis = turn_of(d.axisAngle);
   m.own.frame.follow = d.axisFollow;
   m.own.frame.reference = weld->GetReferenceAngle();
   m.own.frame.line = d.line;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "ductile/turn.h"
 #include "tape.h"
 
 namespace ductile::dynamics {
@@ -21,11 +22,6 @@ inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
 inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
 inline Vec3 operator*(double t, const Vec3& a) { return {t * a.x, t * a.y, t * a.w}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.w * b.w; }
-
-/// A turn by an angle.
-struct Turn {
-  double c = 1, s = 0;
-};
 
 template <>
 inline constexpr bool all_doubles<Vec3> = true;

@@ -18,7 +18,7 @@ AreaMoments moments(const Outline& outline);
 
 /// How far an outline reaches along its principal axis of greatest extent, from its centroid.
 struct LongAxis {
-  Point direction{1, 0};     ///< unit vector
+  Point direction{1, 0};     ///< unit vector, x ≥ 0
   double low = 0, high = 0;  ///< m, ≤ 0 and ≥ 0
 };
 
