@@ -518,7 +518,9 @@ class Automatic {
   template <class Cuts>
   static auto cuts_of(Cuts& cuts, int way) {
     const auto first = std::partition_point(cuts.begin(), cuts.end(), [&](auto& c) { return c.way < way; });
-    return std::span(first, std::partition_point(first, cuts.end(), [&](auto& c) { return c.way == way; }));
+    const auto last = std::partition_point(first, cuts.end(), [&](auto& c) { return c.way == way; });
+    return std::span(cuts).subspan(static_cast<std::size_t>(first - cuts.begin()),
+                                   static_cast<std::size_t>(last - first));
   }
 
   // --- error ---

@@ -132,13 +132,14 @@ class Structure::Impl::Save {
   // Members stand in the order of their ids, which is not that of the world's joints where welds were
   // adopted.
   void number(std::uint32_t next_id) {
-    const auto id = [](const auto& m) { return m->id; };
-    std::ranges::sort(s_.members, {}, id);
-    if (std::ranges::adjacent_find(s_.members, {}, id) != s_.members.end() ||
-        (!s_.members.empty() && s_.members.back()->id >= next_id))
+    std::vector<std::unique_ptr<Member>>& members = s_.members;
+    std::sort(members.begin(), members.end(), [](const auto& m, const auto& n) { return m->id < n->id; });
+    const auto twice = [](const auto& m, const auto& next) { return m->id == next->id; };
+    if (std::adjacent_find(members.begin(), members.end(), twice) != members.end() ||
+        (!members.empty() && members.back()->id >= next_id))
       a_.refuse("joints", "each must have an id of its own, below next_id");
     s_.next_id = next_id;
-    std::ranges::transform(s_.members, s_.joints.begin(), [](const auto& m) { return m->joint; });
+    std::transform(members.begin(), members.end(), s_.joints.begin(), [](const auto& m) { return m->joint; });
   }
 
   void joint(Archive& a, std::size_t i) {
@@ -220,9 +221,10 @@ class Structure::Impl::Save {
   // asked again: where it is read, bodies stand in for them while it is formed.
   Guests touching(Archive& a, const Component* c) {
     Guests guests;
+    const std::vector<b2Body*>& known = world_.all_bodies;
     for (std::size_t i = 0; c != nullptr && i < c->mirrors.size(); ++i) {
       const Component::Mirror& m = c->mirrors[i];
-      if (!m.guest || (std::ranges::count(world_.all_bodies, m.body) != 0 && m.fits())) continue;
+      if (!m.guest || (std::count(known.begin(), known.end(), m.body) != 0 && m.fits())) continue;
       const Body& b = c->solver.bodies[i];
       const bool moves = i < c->solver.free_bodies();
       guests.gone.push_back({m.body, moves ? b.mass : 0, moves ? b.inertia : 0});
@@ -241,7 +243,7 @@ class Structure::Impl::Save {
       g.body = world_.world().CreateBody(&def);
       g.body->SetMassData(&data);
     });
-    std::vector<b2Body*> all = world_.all_bodies;
+    std::vector<b2Body*> all = known;
     for (const Gone& g : guests.gone) all.push_back(g.body);
     std::vector<std::uint32_t> numbers;
     const auto add = [&](const b2Body* body) {
@@ -262,7 +264,8 @@ class Structure::Impl::Save {
   // The component keeps addresses of what stood in, and masses as they were, which floats may not hold.
   void dismiss(Component& c, const std::vector<Gone>& gone) {
     for (const Gone& g : gone) {
-      const auto mirror = std::ranges::find(c.mirrors, g.body, &Component::Mirror::body);
+      const auto mirror = std::find_if(c.mirrors.begin(), c.mirrors.end(),
+                                       [&](const Component::Mirror& m) { return m.body == g.body; });
       if (mirror != c.mirrors.end() && g.mass > 0)
         c.solver.bodies[static_cast<std::size_t>(mirror - c.mirrors.begin())].inertia = g.inertia;
       world_.world().DestroyBody(g.body);

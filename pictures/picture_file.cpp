@@ -33,6 +33,9 @@ struct Scratch {
   const fs::path file;
 };
 
+#ifdef __EMSCRIPTEN__
+int run(const std::vector<std::string>&) { return 127; }  // in a browser there is none
+#else
 /// Runs a program without a shell in between; its exit code, 127 where there is no such program.
 int run(std::vector<std::string> words) {
   std::vector<char*> arguments;
@@ -46,6 +49,7 @@ int run(std::vector<std::string> words) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
+#endif
 
 }  // namespace
 

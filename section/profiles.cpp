@@ -74,7 +74,8 @@ Ring rounded(std::span<const Corner> corners, double tolerance, double& modulus_
   };
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const auto& [p, r] = corners[i];
+    const Point p = corners[i].at;
+    const double r = corners[i].radius;
     if (r == 0) {
       add(p);
       continue;
