@@ -19,7 +19,7 @@ def chromium():
 
 
 class Page:
-    def __init__(self, file, width=1280, height=720, scale=1, dark=False, timeout=60):
+    def __init__(self, file, width=1280, height=720, scale=1, dark=False, timeout=60, gl=False):
         self.requests, self.errors = [], []
         self._timeout, self._id, self._rest, self._replies = timeout, 0, b"", {}
         self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -32,7 +32,8 @@ class Page:
                 os.dup2(fd, place)
 
         self._browser = subprocess.Popen(
-            [chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+            [chromium(), "--headless", "--no-sandbox",
+             *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader") if gl else ("--disable-gpu",)), "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync",
              "--disable-dev-shm-usage", "--remote-debugging-pipe", f"--user-data-dir={self._profile.name}",
              "about:blank"],
@@ -49,7 +50,7 @@ class Page:
                    mobile=False)
         self._call("Emulation.setEmulatedMedia",
                    features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.url = Path(file).absolute().as_uri()
+        self.url = file if str(file).startswith("http:") else Path(file).absolute().as_uri()
         self._call("Page.navigate", url=self.url)
 
     def __enter__(self):
@@ -93,6 +94,18 @@ class Page:
     def key(self, key, code):
         for kind in ("keyDown", "keyUp"):
             self._call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
+
+    def key_with_control(self, key, code):
+        for kind in ("rawKeyDown", "keyUp"):
+            self._call("Input.dispatchKeyEvent", type=kind, key="Control", code="ControlLeft", windowsVirtualKeyCode=17,
+                       modifiers=2)
+            if kind == "rawKeyDown":
+                time.sleep(0.2)
+                self._call("Input.dispatchKeyEvent", type=kind, key=key, code=f"Key{key.upper()}", windowsVirtualKeyCode=code,
+                           modifiers=2)
+                time.sleep(0.2)
+                self._call("Input.dispatchKeyEvent", type="keyUp", key=key, code=f"Key{key.upper()}",
+                           windowsVirtualKeyCode=code, modifiers=2)
 
     def middle(self, selector):
         """Centre of an element on the screen."""

@@ -39,11 +39,14 @@ int run(int argc, char** argv) {
       "Every command prints a table, or with --json one JSON object. Exit 0: done, 1: our failure, 2: bad "
       "input.");
   std::string output;
-  for (const auto add :
-       {tool::add_section, tool::add_materials, tool::add_calibrate, tool::add_simulate, tool::add_check,
-        tool::add_limit, tool::add_design, tool::add_report, tool::add_view}) {
+  for (const auto add : {tool::add_section, tool::add_materials, tool::add_calibrate, tool::add_simulate,
+                         tool::add_check, tool::add_limit, tool::add_design}) {
     add(app, output);
   }
+#ifndef __EMSCRIPTEN__  // where the report has no programs to call, and the window is a page of its own
+  tool::add_report(app, output);
+  tool::add_view(app, output);
+#endif
   try {
     Exit exit = done;
     try {
