@@ -202,7 +202,7 @@ namespace {
 std::vector<Interaction> cracking_curve(const Section& section, Point d) {
   const Elastic e = section.elastic(d);
   const auto brittle = [](const Region& region) { return region.material.brittle; };
-  if (!std::ranges::all_of(section.regions(), brittle) || !(e.I > 0)) return {};
+  if (!std::all_of(section.regions().begin(), section.regions().end(), brittle) || !(e.I > 0)) return {};
   const Material& m = section.regions().front().material;
   const double c = dot(e.centroid, d), ft = m.yield_stress, fc = m.compression();
   const auto [low, high] = section.extent(d);

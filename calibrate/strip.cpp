@@ -48,7 +48,7 @@ Strength of(const Section& section) {
   const Elastic e = section.elastic(tension_side);
   const auto [low, high] = section.extent(tension_side);
   const auto is_brittle = [](const Region& region) { return region.material.brittle; };
-  const bool brittle = std::ranges::all_of(section.regions(), is_brittle);
+  const bool brittle = std::all_of(section.regions().begin(), section.regions().end(), is_brittle);
   const double middle = dot(e.centroid, tension_side);
   return {.N = c.N,
           .Nc = c.Nc,
