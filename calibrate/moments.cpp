@@ -46,7 +46,8 @@ namespace {
 Point principal_direction(const AreaMoments& m) {
   const double r = std::sqrt((m.xx - m.yy) * (m.xx - m.yy) + 4 * m.xy * m.xy);
   if (!(r > 0)) return {1, 0};
-  const double larger = std::sqrt((1 + std::abs(m.xx - m.yy) / r) / 2), smaller = std::abs(m.xy) / (r * larger);
+  const double larger = std::sqrt((1 + std::abs(m.xx - m.yy) / r) / 2),
+               smaller = std::abs(m.xy) / (r * larger);
   if (m.xx >= m.yy) return {larger, m.xy < 0 ? -smaller : smaller};
   if (smaller < 1e-9) return {0, 1};
   return {smaller, m.xy < 0 ? -larger : larger};

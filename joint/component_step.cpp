@@ -426,7 +426,8 @@ void Component::limit_speed(const b2SolverData& data) {
     const bool together = pass == 4;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       Body& b = solver.bodies[i];
-      const double linear = together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
+      const double linear =
+          together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
       const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
