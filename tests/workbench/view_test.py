@@ -48,7 +48,7 @@ class Batch(unittest.TestCase):
 
     def test_drawing_grows_no_faster_than_the_joints(self):
         """A frame of 2085 joints costs at most 13 times one of 160, as there are 13 times as many; with the square of their
-        number it would be 60 times (drawing 160 joints takes some 40 % of a frame's fixed cost). Twice is granted to the
+        number it would be some 60 times, as 160 joints are 40 % of what that frame costs. Twice is granted to the
         machine's noise, of three runs in turns the least counts. How many ms it is, the machine decides (docs/window.md)."""
         cost = {"frame": [], "frame_large": []}
         for _ in range(3):
