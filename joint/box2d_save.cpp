@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "reveal.h"
@@ -460,7 +461,11 @@ void WorldArchive::contact(Archive& a, b2Contact& c) {
   });
   m.pointCount = static_cast<int32>(points);
   if (points == 0) return;  // and Box2D leaves the rest unset
-  auto type = static_cast<std::uint8_t>(m.type);
+  // Where a new manifold is read, Box2D has not yet set its type: any bits, no enumerator.
+  std::underlying_type_t<b2Manifold::Type> bits{};
+  static_assert(sizeof bits == sizeof m.type);
+  std::memcpy(&bits, &m.type, sizeof bits);
+  auto type = static_cast<std::uint8_t>(bits);
   a("manifold", type);
   if (type > b2Manifold::e_faceB) a.refuse("manifold", "must be 0, 1 or 2");
   m.type = static_cast<b2Manifold::Type>(type);
