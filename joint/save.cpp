@@ -178,13 +178,7 @@ class Structure::Impl::Save {
   Member& make(Archive& a, ElasticPlasticJointDef& def, const Turn& axis) {
     def.axisAngle = static_cast<float>(std::atan2(axis.s, axis.c));
     if (const auto wrong = s_.problems(def); !wrong.empty()) a.refuse("rows", wrong.front());
-    b2WeldJointDef weld;
-    static_cast<b2JointDef&>(weld) = def;
-    weld.type = e_weldJoint;
-    weld.localAnchorA = def.localAnchorA;
-    weld.localAnchorB = def.localAnchorB;
-    weld.referenceAngle = def.referenceAngle;
-    ElasticPlasticJoint* joint = s_.take(static_cast<b2WeldJoint*>(world_.world().CreateJoint(&weld)), def);
+    ElasticPlasticJoint* joint = s_.join(world_.world(), def);
     world_.all_joints.push_back(joint);
     Member& m = *s_.members.back();
     m.own.frame.axis = axis;

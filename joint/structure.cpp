@@ -39,6 +39,16 @@ void Structure::Impl::watch_is_gone(bool with_world) {
   if (with_world) world = nullptr;
 }
 
+ElasticPlasticJoint* Structure::Impl::join(b2World& in, const ElasticPlasticJointDef& def) {
+  b2WeldJointDef weld;
+  static_cast<b2JointDef&>(weld) = def;
+  weld.type = e_weldJoint;
+  weld.localAnchorA = def.localAnchorA;
+  weld.localAnchorB = def.localAnchorB;
+  weld.referenceAngle = def.referenceAngle;
+  return take(static_cast<b2WeldJoint*>(in.CreateJoint(&weld)), def);
+}
+
 ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlasticJointDef& d) {
   auto member = std::make_unique<Member>();
   Member& m = *member;
@@ -272,13 +282,7 @@ ElasticPlasticJoint* Structure::create_joint(const ElasticPlasticJointDef& def) 
   if (const auto problems = impl_->problems(def); !problems.empty()) refuse(problems);
   if (impl_->watch == nullptr) impl_->watch = watch_world(*impl_->world, *impl_);
   impl_->join_orphans();
-  b2WeldJointDef weld;
-  static_cast<b2JointDef&>(weld) = def;
-  weld.type = e_weldJoint;
-  weld.localAnchorA = def.localAnchorA;
-  weld.localAnchorB = def.localAnchorB;
-  weld.referenceAngle = def.referenceAngle;
-  return impl_->take(static_cast<b2WeldJoint*>(impl_->world->CreateJoint(&weld)), def);
+  return impl_->join(*impl_->world, def);
 }
 
 ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJointDef& def) {

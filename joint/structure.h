@@ -23,6 +23,8 @@ struct Structure::Impl {
   Impl(b2World& w, const StructureDef& d);
   ~Impl();
 
+  /// Makes the weld in a world and takes it.
+  ElasticPlasticJoint* join(b2World& in, const ElasticPlasticJointDef& def);
   ElasticPlasticJoint* take(b2WeldJoint* weld, const ElasticPlasticJointDef& joint_def);
   void forget(dynamics::Member& member);
   /// With its world, or with all bodies of it, or alone.
