@@ -54,12 +54,12 @@ class Fibres {
 
 }  // namespace
 
-Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order) {
+FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order) {
   std::vector<Fibres> fibres;
   for (const PlannedJoint& joint : plan.joints) fibres.emplace_back(plan, joint);
   const Between between = order == Order::first ? Between::rigid_pieces : Between::elastic_bars;
   const Equilibrium statics(plan, between);
-  Reached least;
+  FirstFibre least{{}, std::vector(fibres.size(), unlimited)};
   for (const LoadCase& load_case : statics.cases()) {
     if (load_case.time != check.time) continue;
     const auto usage = [&](std::size_t i, const Eigen::Vector3d& R) {
@@ -73,8 +73,13 @@ Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order) {
       for (std::size_t i = 0; i < fibres.size(); ++i)
         reached.push_back(1 / usage(i, forces.segment<3>(3 * static_cast<Eigen::Index>(i))));
     }
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      if (reached[i] < least.factor) least = {static_cast<int>(i), reached[i]};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      least.joints[i] = std::min(least.joints[i], reached[i]);
+      if (reached[i] < least.factor) {
+        least.joint = static_cast<int>(i);
+        least.factor = reached[i];
+      }
+    }
   }
   return least;
 }

@@ -1,6 +1,7 @@
-// Rules of EN 1993-1-1:2005 that need a profile's parts by name.
+// Rules of EN 1993-1-1:2005, and of EN 1993-1-5:2006 for class 4, that need a profile's parts by name.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "ductile/rolled.h"
@@ -15,8 +16,12 @@ double area(const Rolled& p) {
   switch (p.shape) {
     case Shape::i_section:
       return 2 * p.b * p.tf + (p.h - 2 * p.tf) * p.tw + (4 - pi) * p.r * p.r;
-    case Shape::channel:
-      return 2 * p.b * p.tf + (p.h - 2 * p.tf) * p.tw + (2 - pi / 2) * p.r * p.r;
+    case Shape::channel: {
+      // Its corners turn by a right angle less the slope's; an arc there fills r² (tan(turn/2) − turn/2).
+      const double outstand = p.b - p.tw, turn = pi / 2 - std::atan(p.slope);
+      return p.h * p.tw + 2 * outstand * (p.tf + p.slope * (outstand / 2 - p.u)) +
+             2 * (p.r * p.r - p.toe * p.toe) * (std::tan(turn / 2) - turn / 2);
+    }
     case Shape::angle:
       return p.tw * (p.h + p.b - p.tw) + (1 - pi / 4) * (p.r * p.r - 2 * p.toe * p.toe);
     case Shape::round_tube:
@@ -39,6 +44,41 @@ int compressed(double c_t, double e) { return of(c_t, 33 * e, 38 * e, 42 * e); }
 int outstand(double c_t, double e) { return of(c_t, 9 * e, 10 * e, 14 * e); }
 int round_tube(double d_t, double e) { return of(d_t, 50 * e * e, 70 * e * e, 90 * e * e); }
 
+double epsilon(double yield_stress) { return std::sqrt(235e6 / yield_stress); }
+
+/// c/t of a web or side, and of what stands out from it or the other side; of an angle, of its legs.
+struct Slenderness {
+  double web, flange;
+};
+Slenderness slenderness(const Rolled& p) {
+  switch (p.shape) {
+    case Shape::i_section:
+      return {(p.h - 2 * p.tf - 2 * p.r) / p.tw, (p.b - p.tw - 2 * p.r) / 2 / p.tf};
+    case Shape::channel: {
+      // The web is straight between the fillets' ends, which a slope moves toward each other.
+      const double at_web = p.tf + p.slope * (p.b - p.u - p.tw),
+                   fillet = p.r * (std::hypot(1, p.slope) - p.slope);
+      return {(p.h - 2 * at_web - 2 * fillet) / p.tw, (p.b - p.tw - p.r) / p.tf};
+    }
+    case Shape::angle:
+      return {p.h / p.tw, p.b / p.tw};
+    case Shape::round_tube:
+      return {p.h / p.tw, p.h / p.tw};
+    case Shape::rectangular_tube:
+      break;
+  }
+  // c = b − 3 t, between the corners' inner ends as EN 10210-2 rounds them.
+  return {p.h / p.tw - 3, p.b / p.tw - 3};
+}
+
+/// (1 − ρ) c t, m², of a part of class 4 whose stress is uniform, ψ = 1: EN 1993-1-5 4.4 (2), tables 4.1
+/// and 4.2.
+double lost(double c_t, double t, double e, bool internal) {
+  const double buckling = c_t / (28.4 * e * std::sqrt(internal ? 4 : 0.43)),
+               rho = (buckling - (internal ? 0.22 : 0.188)) / (buckling * buckling);
+  return (1 - std::min(rho, 1.0)) * c_t * t * t;
+}
+
 }  // namespace
 
 double shear_area(const Rolled& p) {
@@ -59,39 +99,56 @@ double shear_area(const Rolled& p) {
 }
 
 Classes section_class(const Rolled& p, double yield_stress) {
-  const double e = std::sqrt(235e6 / yield_stress);
+  const double e = epsilon(yield_stress);
+  const auto [web, flange] = slenderness(p);
   switch (p.shape) {
     case Shape::i_section: {
-      const double web = (p.h - 2 * p.tf - 2 * p.r) / p.tw, flange = (p.b - p.tw - 2 * p.r) / 2 / p.tf;
       const int tip = outstand(flange, e);
       // About z the web lies on the neutral axis, and half of each flange is bent with its tip compressed:
       // held to the limits of uniform compression, which are the stricter ones.
       return {std::max(compressed(web, e), tip), std::max(bent(web, e), tip), tip};
     }
     case Shape::channel: {
-      const double web = (p.h - 2 * p.tf - 2 * p.r) / p.tw, flange = (p.b - p.tw - p.r) / p.tf;
       const int tip = outstand(flange, e);
       const int back = compressed(web, e);  // about z, when the back is in compression
       return {std::max(back, tip), std::max(bent(web, e), tip), std::max(back, tip)};
     }
     case Shape::angle: {
-      const double leg = std::max(p.h, p.b) / p.tw, both = (p.b + p.h) / (2 * p.tw);
       const double s = 1 - 1e-12;
-      const int pressed = leg * s <= 15 * e && both * s <= 11.5 * e ? 3 : 4;
-      const int up = std::max(3, outstand(p.h / p.tw, e)), across = std::max(3, outstand(p.b / p.tw, e));
-      return {pressed, std::max(up, across), std::max(up, across)};
+      const int pressed = std::max(web, flange) * s <= 15 * e && (web + flange) / 2 * s <= 11.5 * e ? 3 : 4;
+      const int leg = std::max({3, outstand(web, e), outstand(flange, e)});
+      return {pressed, leg, leg};
     }
     case Shape::round_tube: {
-      const int wall = round_tube(p.h / p.tw, e);
+      const int wall = round_tube(web, e);
       return {wall, wall, wall};
     }
     case Shape::rectangular_tube:
       break;
   }
-  // c = b − 3 t, between the corners' inner ends as EN 10210-2 rounds them.
-  const double side = p.h / p.tw - 3, top = p.b / p.tw - 3;
-  return {std::max(compressed(side, e), compressed(top, e)), std::max(bent(side, e), compressed(top, e)),
-          std::max(compressed(side, e), bent(top, e))};
+  return {std::max(compressed(web, e), compressed(flange, e)), std::max(bent(web, e), compressed(flange, e)),
+          std::max(compressed(web, e), bent(flange, e))};
+}
+
+double effective_area(const Rolled& p, double yield_stress) {
+  const double A = area(p), e = epsilon(yield_stress);
+  if (section_class(p, yield_stress).compression < 4) return A;
+  const auto [web, flange] = slenderness(p);
+  const auto side = [&](double c_t) { return compressed(c_t, e) == 4 ? lost(c_t, p.tw, e, true) : 0; };
+  const double tip = outstand(flange, e) == 4 ? lost(flange, p.tf, e, false) : 0;
+  switch (p.shape) {
+    case Shape::i_section:
+      return A - side(web) - 4 * tip;
+    case Shape::channel:
+      return A - side(web) - 2 * tip;
+    case Shape::angle:
+      return A - lost(web, p.tw, e, false) - lost(flange, p.tw, e, false);
+    case Shape::round_tube:
+      return std::numeric_limits<double>::quiet_NaN();
+    case Shape::rectangular_tube:
+      break;
+  }
+  return A - 2 * side(web) - 2 * side(flange);
 }
 
 }  // namespace ductile

@@ -201,6 +201,33 @@ Profile channel(double h, double b, double tw, double tf, double r, double toler
   return profile;
 }
 
+Profile tapered_channel(double h, double b, double tw, double tf, double slope, double u, double root_radius,
+                        double toe_radius, double tolerance) {
+  require_flanged("channel", h, b, tw, tf, root_radius, 1, tolerance);
+  require_radius("channel", "toe radius", toe_radius);
+  const double at_web = tf + slope * (b - u - tw), at_tip = tf - slope * u;
+  require(
+      slope >= 0 && slope < 1 && u >= 0 && u <= b - tw && toe_radius <= at_tip &&
+          tw + root_radius + toe_radius <= b && 2 * (at_web + root_radius) <= h,
+      "channel",
+      "flanges of " + mm(tf) + ", " + mm(u) + " from their tips, with a slope of " + std::to_string(slope) +
+          " and radii of " + mm(root_radius) + " and " + mm(toe_radius) + " do not fit " + mm(h) + " by " +
+          mm(b),
+      "the tips must be thicker than their radius, the flanges at the web must leave room for the fillets");
+  const double H = h / 2, root = H - at_web, tip = H - at_tip;
+  const Corner corners[] = {{{0, H}},
+                            {{0, -H}},
+                            {{b, -H}},
+                            {{b, -tip}, toe_radius},
+                            {{tw, -root}, root_radius},
+                            {{tw, root}, root_radius},
+                            {{b, tip}, toe_radius},
+                            {{b, H}}};
+  Profile profile;
+  profile.outline.outer = rounded(corners, tolerance, profile.modulus_error);
+  return profile;
+}
+
 Profile angle(double h, double b, double t, double root_radius, double toe_radius, double tolerance) {
   require_positive("angle", {{"leg", h}, {"other leg", b}, {"thickness", t}, {"tolerance", tolerance}});
   require_radius("angle", "root radius", root_radius);

@@ -29,6 +29,8 @@ constexpr std::array families{
     Family{"UB", Shape::i_section, profiles::i_sections, "UB 533x210x92"},
     Family{"UC", Shape::i_section, profiles::i_sections, "UC 203x203x46"},
     Family{"PFC", Shape::channel, profiles::channels, "PFC 230x75x26"},
+    Family{"UPE", Shape::channel, profiles::channels, "UPE 200"},
+    Family{"UPN", Shape::channel, profiles::tapered_channels, "UPN 200"},
     Family{"L", Shape::angle, profiles::angles, "L 100x100x10"},
     Family{"CHS", Shape::round_tube, {}, "CHS 168.3x5"},
     Family{"RHS", Shape::rectangular_tube, {}, "RHS 200x100x5"},
@@ -81,6 +83,13 @@ Rolled from_table(const Dimensions& row, Shape shape) {
     profile.tw = profile.tf = row.tw / 1000;
     profile.r = row.tf / 1000;
     profile.toe = row.r / 1000;
+  } else if (profile.name.starts_with("UPN")) {
+    const bool low = row.h <= 300;
+    profile.tw = row.tw / 1000;
+    profile.tf = profile.r = row.tf / 1000;
+    profile.toe = row.r / 1000;
+    profile.slope = low ? 0.08 : 0.05;
+    profile.u = (low ? profile.b : profile.b - profile.tw) / 2;
   } else {
     profile.tw = row.tw / 1000;
     profile.tf = row.tf / 1000;
@@ -144,6 +153,7 @@ std::vector<Rolled> rolled_profiles() {
   std::vector<Rolled> all;
   for (const Dimensions& row : profiles::i_sections) all.push_back(from_table(row, Shape::i_section));
   for (const Dimensions& row : profiles::channels) all.push_back(from_table(row, Shape::channel));
+  for (const Dimensions& row : profiles::tapered_channels) all.push_back(from_table(row, Shape::channel));
   for (const Dimensions& row : profiles::angles) all.push_back(from_table(row, Shape::angle));
   return all;
 }
@@ -153,7 +163,9 @@ Profile draw(const Rolled& p, double tolerance) {
     case Shape::i_section:
       return profiles::i_section(p.h, p.b, p.tw, p.tf, p.r, tolerance);
     case Shape::channel:
-      return profiles::channel(p.h, p.b, p.tw, p.tf, p.r, tolerance);
+      return p.slope == 0
+                 ? profiles::channel(p.h, p.b, p.tw, p.tf, p.r, tolerance)
+                 : profiles::tapered_channel(p.h, p.b, p.tw, p.tf, p.slope, p.u, p.r, p.toe, tolerance);
     case Shape::angle:
       return profiles::angle(p.h, p.b, p.tw, p.r, p.toe, tolerance);
     case Shape::round_tube:

@@ -99,7 +99,10 @@ Json json(const Plan& plan) {
                         {"time_saved", item.time_saved},
                         {"measured", item.measured}});
   }
-  return {{"bodies", std::move(bodies)}, {"joints", std::move(joints)}, {"left_out", std::move(left_out)}};
+  return {{"bodies", std::move(bodies)},
+          {"joints", std::move(joints)},
+          {"profiles", profiles_json(plan)},
+          {"left_out", std::move(left_out)}};
 }
 
 std::string table(const Plan& plan, const std::string& scene) {
@@ -128,6 +131,7 @@ std::string table(const Plan& plan, const std::string& scene) {
   }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
     text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
+  if (const std::string profiles = profile_lines(plan); !profiles.empty()) text += '\n' + profiles;
   return text;
 }
 

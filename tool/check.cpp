@@ -23,7 +23,8 @@ struct Options {
 struct Found {
   StaticCheck check;
   CriticalLoad critical;
-  Reached fibre, hinge;
+  FirstFibre fibre;
+  Reached hinge;
 };
 
 Json json(const Plan& plan, const Reached& reached) {
@@ -42,6 +43,7 @@ Json json(const Plan& plan, const Found& found) {
          {"Q", number(j.Q)},
          {"M", number(j.M)},
          {"usage", {{"N", number(j.usage.N)}, {"Q", number(j.usage.Q)}, {"M", number(j.usage.M)}}},
+         {"first_fibre_at", number(found.fibre.joints[i])},
          {"yields_at", number(j.yields_at)}});
   }
   for (const int i : check.first_to_yield) first.push_back(joint_name(plan, i));
@@ -52,6 +54,7 @@ Json json(const Plan& plan, const Found& found) {
           {"critical_load_factor", number(found.critical.factor)},
           {"first_fibre", json(plan, found.fibre)},
           {"first_hinge", json(plan, found.hinge)},
+          {"profiles", profiles_json(plan)},
           {"time", check.time},
           {"loose", std::move(loose)}};
 }
@@ -73,17 +76,18 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
   text += '\n' + buckling_line(options.second_order, found.critical.factor);
   if (options.second_order && found.critical.factor <= 1)
     text += ": these loads leave it no state to tell of";
-  text += fmt::format("\n\n{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>10}\n", "joint", widest, "N [N]",
-                      "Q [N]", "M [N m]", "N use", "Q use", "M use", "yields at");
+  text += fmt::format("\n\n{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>11} {:>10}\n", "joint", widest,
+                      "N [N]", "Q [N]", "M [N m]", "N use", "Q use", "M use", "first fibre", "yields at");
   const auto percent = [](double share) {
     return std::isfinite(share) ? fmt::format("{:.0f} %", 100 * share) : std::string("-");
   };
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const StaticJoint& j = check.joints[i];
-    text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>10}\n", plan.joints[i].name, widest,
-                        shown(j.N), shown(j.Q), shown(j.M), percent(j.usage.N), percent(j.usage.Q),
-                        percent(j.usage.M), shown(j.yields_at));
+    text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>11} {:>10}\n", plan.joints[i].name,
+                        widest, shown(j.N), shown(j.Q), shown(j.M), percent(j.usage.N), percent(j.usage.Q),
+                        percent(j.usage.M), shown(found.fibre.joints[i]), shown(j.yields_at));
   }
+  if (const std::string profiles = profile_lines(plan); !profiles.empty()) text += '\n' + profiles;
   if (check.time > 0) text += fmt::format("\nthe loads are those from {:g} s on\n", check.time);
   for (std::size_t i = 0; i < check.loose.size(); ++i)
     text += (i == 0 ? "\nloose, and not looked at: " : ", ") + piece_name(plan, check.loose[i]);

@@ -65,6 +65,11 @@ std::string joint_name(const Plan& plan, int joint);
 /// "first order; buckles at 1.2 times the loads": what check and limit say of stability.
 std::string buckling_line(bool second_order, double critical_load_factor);
 
+/// Of each body with a profile of rolled.h: its classes by EN 1993-1-1 Table 5.2, as lines of a table and for
+/// --json.
+std::string profile_lines(const Plan& plan);
+Json profiles_json(const Plan& plan);
+
 /// JSON of a number; null where it is infinite (unlimited) or NaN (does not exist).
 Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.

@@ -132,7 +132,8 @@ Utilisation utilisation(const Options& options, const Section& section, Point d,
 
 /// What a reader of the numbers has to know.
 std::vector<std::string> remarks(const Subject& subject, const Section& section, Point d,
-                                 const Principal& axes, std::optional<int> bending_class) {
+                                 const Principal& axes, std::optional<int> bending_class, double A_eff,
+                                 double N) {
   std::vector<std::string> result;
   const double extent = std::max(section.extent({1, 0}).second - section.extent({1, 0}).first,
                                  section.extent({0, 1}).second - section.extent({0, 1}).first);
@@ -151,6 +152,9 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
     result.push_back(fmt::format("class {} in bending: {}", *bending_class,
                                  *bending_class == 3 ? "it buckles locally before M; design with yield_moment"
                                                      : "it buckles locally before its first fibre yields"));
+  if (A_eff < section.area() * (1 - 1e-9) && N < 0)
+    result.push_back(fmt::format("class 4 in compression: it buckles locally at N = {:.6g} N, A_eff f_y",
+                                 -A_eff * subject.regions.front().material.compression()));
   for (const Region& region : subject.regions) {
     if (const double strain = ductility(region.material); strain < 5) {
       result.push_back(
@@ -184,8 +188,10 @@ std::string run(const Options& options) {
     if (d.y == 0) bending_class = classes->bending_z;
   }
   std::optional<Utilisation> used;
+  const double A_eff =
+      subject.profile ? effective_area(*subject.profile, subject.regions[0].material.yield_stress) : unknown;
   if (options.N || options.Q || options.M) used = utilisation(options, section, d, c, e, shear.Q);
-  const auto notes = remarks(subject, section, d, axes, bending_class);
+  const auto notes = remarks(subject, section, d, axes, bending_class, A_eff, options.N.value_or(0));
 
   if (!options.pictures.empty()) {
     const std::string svg = section_svg(section, d, title_of(options.file));
@@ -221,6 +227,7 @@ std::string run(const Options& options) {
     if (classes)
       result["class"] = {{"compression", classes->compression},
                          {"bending", bending_class ? Json(*bending_class) : Json(nullptr)}};
+    if (subject.profile) result["A_eff"] = number(A_eff);
     if (used)
       result["utilisation"] = {{"N", number(used->N)},
                                {"Q", number(used->Q)},
@@ -239,16 +246,20 @@ std::string run(const Options& options) {
     while (table.back() == ' ') table.pop_back();
     table += '\n';
   };
+  const auto [low, high] = section.extent(d);
+  const auto place = [size = high - low](double x) {
+    return std::abs(x) < 1e-12 * size ? 0 : x;
+  };  // rounding
   row("area", section.area(), "m2");
-  row("centroid x", centroid.x, "m");
-  row("centroid y", centroid.y, "m");
+  row("centroid x", place(centroid.x), "m");
+  row("centroid y", place(centroid.y), "m");
   row("N", c.N, "N", "full tension");
   row("Nc", c.Nc, "N", "full compression");
   row("Q", shear.Q, "N", "full shear, A_v tau_y");
   row("A_v", shear.A_v, "m2", shear.source);
   row("M", c.M, "N m", "fully plastic, the side toward the direction in tension");
   row("M_reverse", c.M_reverse, "N m", "fully plastic, the other side in tension");
-  row("pna", c.pna, "m", "plastic neutral axis of M, along the direction");
+  row("pna", place(c.pna), "m", "plastic neutral axis of M, along the direction");
   row("EA", where_known(e.EA), "N");
   row("EI", where_known(e.EI), "N m2");
   row("I", e.I, "m4");
@@ -265,6 +276,7 @@ std::string run(const Options& options) {
   if (classes) {
     row("class", classes->compression, "", "in compression, EN 1993-1-1 Table 5.2");
     if (bending_class) row("", *bending_class, "", "in bending");
+    if (classes->compression == 4) row("A_eff", A_eff, "m2", "in compression, EN 1993-1-5 4.4");
   }
   if (used) {
     row("N used", used->N, "");

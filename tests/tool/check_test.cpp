@@ -36,6 +36,30 @@ TEST(CheckCommand, ACantileverWithALoadAtItsTip) {
       << table.out;
 }
 
+// IPE 300 of S355: class 4 in compression (web 248.6/7.1 = 35.0 > 34.2), 1 in bending; P L = W_el f_y and
+// W_pl f_y.
+TEST(CheckCommand, ProfilesHaveTheirClassAndJointsTheirFirstFibre) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+    {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+    {"name": "beam", "outline": [[0,-0.15],[3,-0.15],[3,0.15],[0,0.15]], "material": "S355", "profile": "IPE300",
+     "split": {"pieces": 3}}], "joints": [{"between": ["wall","beam"]}],
+    "loads": [{"body": "beam", "at": [3,0], "force": [0,-10e3]}]})");
+  const json result = run("check " + scene + " --json").json();
+  ASSERT_EQ(result["profiles"].size(), 1u);
+  EXPECT_EQ(result["profiles"][0]["profile"], "IPE 300");
+  EXPECT_EQ(result["profiles"][0]["class"], (json{{"compression", 4}, {"bending", 1}}));
+  EXPECT_EQ(run("calibrate " + scene + " --json").json()["profiles"], result["profiles"]);
+  for (const json& joint : result["joints"]) {
+    if (joint["name"] != "wall-beam/0") continue;
+    EXPECT_NEAR(joint["first_fibre_at"].get<double>(), 557.1e-6 * 355e6 / 30e3, 1e-3 * 6.6);
+    EXPECT_NEAR(joint["yields_at"].get<double>(), 628.4e-6 * 355e6 / 30e3, 1e-3 * 7.4);
+  }
+  const std::string table = run("check " + scene).out;
+  EXPECT_NE(table.find("beam: IPE 300, class 4 in compression, 1 in bending"), std::string::npos) << table;
+  EXPECT_NE(table.find("A_eff f_y"), std::string::npos) << table;
+}
+
 // P_cr = π²EI/4L² = π² 200e9/12/400; first fibre at M_p/1.5; M = −P L tan φ/φ of a beam-column.
 TEST(CheckCommand, BucklingFirstFibreAndSecondOrder) {
   const Folder folder;

@@ -78,10 +78,15 @@ struct Reached {
   double factor = unlimited;
 };
 
+/// The joint whose section's first fibre yields first, and the factor for each.
+struct FirstFibre : Reached {
+  std::vector<double> joints;  ///< by Plan::joints; unlimited: it never does
+};
+
 /// The joint in whose section the first fibre yields, of N and M: N E/EA + M E y/EI = f_y. A section bears
 /// more, up to its plastic moment, which is what joints yield at (StaticCheck::first_to_yield). Of second
 /// order when the check is. Joints without a section, as supports, are passed over.
-Reached first_fibre(const Plan& plan, const StaticCheck& check, Order order = Order::first);
+FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order = Order::first);
 
 /// What it takes to collapse.
 struct LimitAnalysis {

@@ -31,6 +31,10 @@ Profile tube(double diameter, double thickness, double tolerance);
 Profile i_section(double h, double b, double tw, double tf, double r, double tolerance);
 /// The same of a channel with parallel flanges; b from the web's back to the flanges' tips.
 Profile channel(double h, double b, double tw, double tf, double r, double tolerance);
+/// A channel whose flanges taper toward their tips: `slope` of their inner faces, tf thick at u from the
+/// tips, with the inner edge of each tip rounded by the toe radius.
+Profile tapered_channel(double h, double b, double tw, double tf, double slope, double u, double root_radius,
+                        double toe_radius, double tolerance);
 /// Legs h (upright) and b, both t thick, a root fillet and toes rounded on their inner side.
 Profile angle(double h, double b, double t, double root_radius, double toe_radius, double tolerance);
 

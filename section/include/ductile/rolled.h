@@ -20,14 +20,16 @@ struct Rolled {
   double tw = 0;        ///< web or wall
   double tf = 0;        ///< flange; tw where all is equally thick
   double r = 0;         ///< root or inner radius
-  double toe = 0;       ///< toe radius of an angle, outer radius of a rectangular tube
+  double toe = 0;       ///< toe radius of an angle or a tapered flange, outer radius of a rectangular tube
+  double slope = 0;     ///< of a tapered flange's inner face
+  double u = 0;         ///< from a tapered flange's tip to where it is tf thick
 };
 
 /// The profile of that name; blanks, case and × for x do not matter ("ipe300", "SHS100x5"). Throws
 /// InvalidInput that lists what there is. In tables: IPE 80 … 600, HEA, HEB, HEM 100 … 1000, UB 127x76x13 …
-/// 914x419x388 and UC 152x152x23 … 356x406x634 (EN 10365), PFC 100x50x10 … 430x100x64 (EN 10365), L (EN
-/// 10056-1). Of any size: CHS D x t, RHS H x B x t and SHS B x t (EN 10210-2, corners of 1.5 t outside and t
-/// inside).
+/// 914x419x388 and UC 152x152x23 … 356x406x634 (EN 10365), PFC 100x50x10 … 430x100x64, UPE 80 … 400 and UPN
+/// 80 … 400 (EN 10365), L (EN 10056-1). Of any size: CHS D x t, RHS H x B x t and SHS B x t (EN 10210-2,
+/// corners of 1.5 t outside and t inside).
 Rolled rolled(std::string_view name);
 
 /// Whether a name begins as those do: a profile rather than a file.
@@ -52,5 +54,10 @@ struct Classes {
 };
 /// f_y in Pa. An angle's least class is 3, as the table has no limits for it that would tell 1 and 2 apart.
 Classes section_class(const Rolled& profile, double yield_stress);
+
+/// A_eff, m², in uniform compression: parts of class 4 count with the width that EN 1993-1-5 4.4 leaves them,
+/// each leg of an angle with its own; without such parts, A. NaN of a round tube of class 4, which EN
+/// 1993-1-6 judges as a shell. f_y in Pa.
+double effective_area(const Rolled& profile, double yield_stress);
 
 }  // namespace ductile
