@@ -241,7 +241,8 @@ constexpr Row british[] = {
 };
 
 /// DIN 1026-2 as two public tables of it print it, W_pl as ArcelorMittal's catalogue: read in copies, not in
-/// the sources. Where copies contradict each other, in W_pl,z of two, it is left out; so is I_z 55.5 of UPE 120, 0.2 % too much.
+/// the sources. Where copies contradict each other, in W_pl,z of two, it is left out; so is I_z 55.5 of UPE
+/// 120, 0.2 % too much.
 constexpr Row upe[] = {
     {"UPE 80", "10.1", "107", "26.8", "31.2", "3.26", "25.5~", "8.0", "13.94", "1.59"},
     {"UPE 100", "12.5", "207", "41.4", "48.0", "4.07", "38.3~", "10.6", "18.88", "1.75"},
