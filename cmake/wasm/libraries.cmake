@@ -41,7 +41,7 @@ set(rounding ${PROJECT_BINARY_DIR}/sinf)
 foreach(file sinf.c cosf.c sincosf.h sincosf_data.c math_config.h)
   configure_file(${newlib}/newlib/libm/common/${file} ${rounding}/${file} COPYONLY)
 endforeach()
-file(WRITE ${rounding}/fdlibm.h "#include <math.h>\n")  # newlib's own asks for the rest of newlib
+file(CONFIGURE OUTPUT ${rounding}/fdlibm.h CONTENT "#include <math.h>\n")  # newlib's own asks for the rest of newlib
 wasm_library(sinf SOURCES ${rounding}/*.c INCLUDE)
 target_compile_definitions(sinf PRIVATE __OBSOLETE_MATH=0)
 target_compile_options(sinf PRIVATE -fno-builtin)
