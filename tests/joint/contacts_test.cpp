@@ -305,6 +305,20 @@ TEST(Contacts, MoveBelts) {
   EXPECT_NEAR(std::abs(block->GetLinearVelocity().x), 2, 1e-3);
 }
 
+// A block that has turned three times before it meets the beam, fast: its angle goes on from there.
+TEST(Contacts, KeepWholeTurns) {
+  Beam beam(light);
+  b2Body* block = add(beam.world, {.x = 9.5, .bottom = 1, .mass = piece_mass});
+  const double turned = 6 * b2_pi;
+  block->SetTransform(block->GetPosition(), static_cast<float>(turned));
+  block->SetLinearVelocity({0, -60});
+  for (int i = 0; i < 10; ++i) {
+    beam.run(dt);
+    EXPECT_NEAR(block->GetAngle(), turned, 1) << i;
+  }
+  EXPECT_GT(block->GetLinearVelocity().y, -10) << "it has not met the beam";
+}
+
 // Disabled contacts are none: what rises goes through a beam that lets it, and then rests on it.
 TEST(Contacts, DisabledOnesLetPass) {
   struct OneWay : b2ContactListener {
