@@ -91,21 +91,35 @@ class Page:
         self.mouse("mousePressed", x, y, "left", 1)
         self.mouse("mouseReleased", x, y, "left")
 
+    def wheel(self, x, y, pixels):
+        """Down for pixels > 0; a notch has 100."""
+        self._call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=pixels)
+        self.frame()
+
     def key(self, key, code):
         for kind in ("keyDown", "keyUp"):
             self._call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
 
-    def key_with_control(self, key, code):
-        for kind in ("rawKeyDown", "keyUp"):
-            self._call("Input.dispatchKeyEvent", type=kind, key="Control", code="ControlLeft", windowsVirtualKeyCode=17,
-                       modifiers=2)
-            if kind == "rawKeyDown":
-                time.sleep(0.2)
-                self._call("Input.dispatchKeyEvent", type=kind, key=key, code=f"Key{key.upper()}", windowsVirtualKeyCode=code,
-                           modifiers=2)
-                time.sleep(0.2)
-                self._call("Input.dispatchKeyEvent", type="keyUp", key=key, code=f"Key{key.upper()}",
-                           windowsVirtualKeyCode=code, modifiers=2)
+    def frame(self):
+        """Waits for two of the page's: the one that is being made, and one that has seen all input."""
+        self.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
+
+    def chord(self, *keys):
+        """Keys that are held together for a frame, each (key, code, number of its key code)."""
+        for kind, order in (("rawKeyDown", keys), ("keyUp", keys[::-1])):
+            for key, code, number in order:
+                self._call("Input.dispatchKeyEvent", type=kind, key=key, code=code, windowsVirtualKeyCode=number)
+                self.frame()
+
+    def touch(self, kind, *points):
+        """kind: touchStart, touchMove or touchEnd; points: those that touch now."""
+        self._call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
+        self.frame()
+
+    def cpu_seconds(self):
+        """What the page's process has used of the processor so far."""
+        processes = self._call("SystemInfo.getProcessInfo", session=False)["processInfo"]
+        return sum(process["cpuTime"] for process in processes if process["type"] == "renderer")
 
     def middle(self, selector):
         """Centre of an element on the screen."""

@@ -16,7 +16,8 @@
 namespace ductile::viewer {
 namespace {
 
-constexpr double left_width = 238, right_width = 336, bottom_height = 68;  // px at scale 1
+constexpr double left_width = 238, right_width = 336, bottom_height = 68,
+                 narrow_bottom_height = 104, least_width = 200;  // px at scale 1
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -36,15 +37,19 @@ void Desk::draw(Point size, double ui) {
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   rests_ = moved.x != 0 || moved.y != 0 ? 0 : rests_ + ImGui::GetIO().DeltaTime;
   if (!ImGui::IsAnyItemActive()) edited_ = false;
-  const double left = left_width * ui, right = right_width * ui, bottom = bottom_height * ui;
-  const Box middle{{left, 0}, {std::max(size.x - right, left + 1), std::max(size.y - bottom, 1.)}};
-  camera_.screen = middle;
+  // Beside the scene where there is room, else below it, one at a time.
+  narrow_ = size.x < (left_width + right_width + least_width) * ui;
+  const double left = narrow_ ? 0 : left_width * ui, right = narrow_ ? size.x : size.x - right_width * ui;
+  const double top = narrow_ ? std::round(0.42 * size.y) : std::max(size.y - bottom_height * ui, 1.);
+  const double bottom = narrow_ ? top + narrow_bottom_height * ui : size.y;
+  camera_.screen = {{left, 0}, {right, top}};
   if (edition_ != bench_.edition()) adopt();
   if (!ImGui::GetIO().WantTextInput) keys();
-  centre(middle);
-  scene({{0, 0}, {left, size.y - bottom}});
-  details({{size.x - right, 0}, {size.x, size.y - bottom}});
-  time({{0, size.y - bottom}, size});
+  centre(camera_.screen);
+  time({{0, top}, {size.x, bottom}});
+  const Box below{{0, bottom}, size};
+  if (!narrow_ || !details_) scene(narrow_ ? below : Box{{0, 0}, {left, top}});
+  if (!narrow_ || details_) details(narrow_ ? below : Box{{right, 0}, {size.x, top}});
   if (!bench_.message.empty()) message();
   if (helping_) help();
 }
@@ -102,6 +107,7 @@ void Desk::save() {
     bench_.save(save_as_);
     scene_ = save_as_;
     bench_.message = "Saved to " + save_as_;
+    if (when_saved_) when_saved_(save_as_);
   } catch (const std::exception& error) {
     bench_.message = "Not saved.\n" + std::string(error.what());
   }
@@ -215,6 +221,10 @@ void Desk::centre(const Box& box) {
   const ImGuiIO& io = ImGui::GetIO();
   const Point mouse = point(io.MousePos);
   const bool over = ImGui::IsItemHovered();
+  if (ImGui::IsItemActive() &&
+      (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))) {
+    camera_.pan(point(io.MouseDelta));
+  }
   std::optional<std::size_t> pointed;
   if (over) {
     if (io.MouseWheel != 0) camera_.zoom(std::pow(1.15, io.MouseWheel), mouse);
@@ -228,10 +238,6 @@ void Desk::centre(const Box& box) {
         hand_.press(camera_, mouse, {io.KeyShift, io.KeyCtrl});
       }
     }
-  }
-  if (ImGui::IsItemActive() &&
-      (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))) {
-    camera_.pan(point(io.MouseDelta));
   }
   if (hand_.doing() != Hand::Doing::nothing) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
@@ -285,6 +291,10 @@ void Desk::message() {
 void Desk::time(const Box& box) {
   place_window(box);
   ImGui::Begin("time", nullptr, fixed | ImGuiWindowFlags_NoScrollbar);
+  const auto gap = static_cast<float>(16 * ui_);
+  const auto next_group = [&] {  // on a line of its own where it is narrow
+    if (!narrow_) ImGui::SameLine(0, gap);
+  };
   if (button("Restart", "restart", "Back to the start, with nothing thrown in (R).")) bench_.restart();
   ImGui::SameLine();
   if (button("<", "back", "One step back (,).")) bench_.step_by(-1);
@@ -294,20 +304,24 @@ void Desk::time(const Box& box) {
   }
   ImGui::SameLine();
   if (button(">", "step", "One step on (O).")) bench_.step_by(1);
-  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  if (narrow_) {
+    ImGui::SameLine(0, gap);
+    panel_buttons();
+  }
+  next_group();
   ImGui::SetNextItemWidth(static_cast<float>(110 * ui_));
   constexpr double slowest = 0.01, fastest = 4;
   ImGui::SliderScalar("pace", ImGuiDataType_Double, &bench_.pace, &slowest, &fastest, "%.2f x",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tip("pace", "Seconds of the scene per second: slow motion to the left.");
-  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  ImGui::SameLine(0, gap);
   ImGui::SetNextItemWidth(static_cast<float>(90 * ui_));
   int stop = static_cast<int>(bench_.stop_at);
   if (choose("stop at", "Pauses by itself when a joint yields or breaks.", stop,
              {"never", "yield", "break"})) {
     bench_.stop_at = static_cast<Workbench::StopAt>(stop);
   }
-  ImGui::SameLine(0, static_cast<float>(16 * ui_));
+  next_group();
   if (button("First yield", "first yield", "Rewinds to the step in which the first joint yielded (Y).") &&
       !bench_.seek_first(JointEvent::yield)) {
     bench_.message = "Nothing has yielded so far.";
@@ -318,13 +332,22 @@ void Desk::time(const Box& box) {
     bench_.message = "Nothing has broken so far.";
   }
   if (bench_.run().busy() && bench_.run().progress() < 0.999) {
-    ImGui::SameLine(0, static_cast<float>(16 * ui_));
+    ImGui::SameLine(0, gap);
     ImGui::TextColored({0.5f, 0.3f, 0, 1}, "simulating again: %.0f %%", 100 * bench_.run().progress());
   }
-  ImGui::SameLine(static_cast<float>(box.size().x - 70 * ui_));
-  if (button("Keys", "keys", "What keys and pointer do (H).")) helping_ = !helping_;
+  if (!narrow_) {
+    ImGui::SameLine(static_cast<float>(box.size().x - 70 * ui_));
+    if (button("Keys", "keys", "What keys and pointer do (H).")) helping_ = !helping_;
+  }
   time_slider();
   ImGui::End();
+}
+
+// Which of the panels is seen, where there is room for one.
+void Desk::panel_buttons() {
+  if (button("Scene", "panel scene", "Which scene, how it is run, what is drawn of it.")) details_ = false;
+  ImGui::SameLine();
+  if (button("Details", "panel details", "Joints, edits, events, energy.")) details_ = true;
 }
 
 // All steps seen so far, with a mark for each event.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -26,6 +27,9 @@ class Desk {
   /// One frame, of `size` px; `ui`: pixels per pixel of a window at scale 1.
   void draw(Point size, double ui);
 
+  /// What is done with a file after it has been saved: a page hands it over to the user.
+  void when_saved(std::function<void(const std::filesystem::path&)> what) { when_saved_ = std::move(what); }
+
   const Camera& camera() const { return camera_; }
   /// The box of every control of the last frame, px, by name.
   const std::map<std::string, Box>& controls() const { return controls_; }
@@ -40,6 +44,7 @@ class Desk {
   void throwing();
   void time(const Box& box);
   void time_slider();
+  void panel_buttons();
   void details(const Box& box);
   void joint();
   void joints();
@@ -62,6 +67,7 @@ class Desk {
   void seek(std::optional<long> step);
 
   Workbench& bench_;
+  std::function<void(const std::filesystem::path&)> when_saved_;
   std::string first_tab_;  // to be opened in the next frame
   Camera camera_;
   Canvas canvas_;
@@ -79,6 +85,7 @@ class Desk {
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
   bool placing_ = false, helping_ = false;
+  bool narrow_ = false, details_ = false;  // one panel at a time; the one on the right
 };
 
 }  // namespace ductile::viewer

@@ -1,0 +1,228 @@
+"""The window as a page, in headless Chromium.
+
+    page_test.py PAGE SCENES COMMAND [PICTURE]     exit 77: there is no Chromium here (Debian: chromium)
+"""
+import functools
+import gzip
+import http.server
+import json
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import chromium  # noqa: E402
+
+page, scenes, command = (Path(argument).resolve() for argument in sys.argv[1:4])
+picture = sys.argv[4:]
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def served(folder):
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return f"http://127.0.0.1:{server.server_port}"
+
+
+def state(tab):
+    return tab.evaluate("JSON.parse(Module.ccall('page_state', 'string'))")
+
+
+def click(tab, control):
+    low_x, low_y, high_x, high_y = state(tab)["controls"][control]
+    tab.click((low_x + high_x) / 2, (low_y + high_y) / 2)
+
+
+def wait_until(tab, holds):
+    end = time.monotonic() + 60
+    while not holds(state(tab)):
+        assert time.monotonic() < end, state(tab)
+        time.sleep(0.05)
+
+
+def opens_on_the_crane(address):
+    with chromium.Page(f"{address}/index.html", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        used = tab.cpu_seconds()  # whatever else this machine does meanwhile
+        print(f"  first frame after {tab.evaluate('firstFrame'):.0f} ms, {1e3 * used:.0f} ms of them of the processor")
+        assert used <= 2, used
+        now = state(tab)
+        assert now["file"].endswith("harbour_crane.scene.json") and not now["message"], now
+        wait_until(tab, lambda s: s["step"] > 60)
+        for file in picture:
+            wait_until(tab, lambda s: s["time"] > 3)
+            tab.screenshot(file)
+        click(tab, "play")
+        wait_until(tab, lambda s: not s["playing"])
+        click(tab, "restart")
+        wait_until(tab, lambda s: s["step"] == 0)
+        assert not tab.errors, tab.errors
+        assert all(url.startswith((address, "data:", "blob:")) for url in tab.requests), tab.requests
+
+
+def at(tab, name):
+    """The middle of a joint, px of the page."""
+    return [value / tab.evaluate("devicePixelRatio") for value in state(tab)["joints"][name]]
+
+
+def is_touched(address):
+    """On the screen of a telephone: a tap on a joint, a drag of the time, two fingers that zoom and move the view."""
+    with chromium.Page(f"{address}/index.html?scene=cantilever", width=390, height=844, scale=2, gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        wait_until(tab, lambda s: s["step"] > 10)
+
+        def middle(control):
+            x0, y0, x1, y1 = (value / 2 for value in state(tab)["controls"][control])
+            assert 0 <= x0 < x1 <= 390 and 0 <= y0 < y1 <= 844, control
+            return (x0 + x1) / 2, (y0 + y1) / 2
+
+        def tap(point):
+            tab.touch("touchStart", point)
+            tab.touch("touchEnd")
+
+        tap(middle("play"))
+        wait_until(tab, lambda s: not s["playing"])
+        joint = next(iter(state(tab)["joints"]))
+        tap(at(tab, joint))
+        wait_until(tab, lambda s: s["selected"] == [joint])
+        tap(middle("panel details"))
+        wait_until(tab, lambda s: "tab joint" in s["controls"])
+        x, y = middle("time slider")
+        tab.touch("touchStart", (x, y))
+        tab.touch("touchMove", (x - 300, y))
+        tab.touch("touchEnd")
+        wait_until(tab, lambda s: s["step"] == 0)
+        scale, (x, y) = state(tab)["scale"], at(tab, joint)
+        tab.touch("touchStart", (150, 150), (230, 150))
+        tab.touch("touchMove", (110, 170), (270, 170))
+        tab.touch("touchEnd", (110, 170))
+        tab.touch("touchEnd")
+        wait_until(tab, lambda s: abs(s["scale"] / scale / (160 / 80) - 1) < 1e-3)
+        moved = at(tab, joint)
+        # What was in the middle of the two fingers still is: (x, y) about (190, 150), then twice as large about (190, 170).
+        assert abs(moved[0] - (190 + 2 * (x - 190))) < 1 and abs(moved[1] - (170 + 2 * (y - 150))) < 1, (x, y, moved)
+        assert state(tab)["selected"] == [joint]
+
+
+def zooms_by_the_wheel(address):
+    with chromium.Page(f"{address}/index.html?scene=cantilever", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        tab.mouse("mouseMoved", 600, 300)
+        scale = state(tab)["scale"]
+        for pixels in (-100, -50, 300):
+            tab.wheel(600, 300, pixels)
+            scale *= 1.15 ** (-pixels / 100)
+            wait_until(tab, lambda s: abs(s["scale"] / scale - 1) < 1e-6)
+
+
+def fits_what_it_may(address):
+    size = len(gzip.compress(page.read_bytes(), 9))
+    print(f"  {size / 1e6:.2f} MB compressed, {page.stat().st_size / 1e6:.2f} MB as it is")
+    assert size <= 4e6
+
+
+def opens_what_the_address_names(address):
+    with chromium.Page(f"{address}/index.html?scene=car", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        assert state(tab)["file"].endswith("/car.scene.json")
+    with chromium.Page(f"{address}/index.html?scene=scenes/CS1.scene.json", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        assert state(tab)["file"] == "/CS1.scene.json", state(tab)["file"]
+    with chromium.Page(f"{address}/index.html?scene=scenes/viaduct.scene.json", gl=True) as tab:  # and its drawing
+        tab.wait_for("window.firstFrame")
+        assert state(tab)["file"] == "/viaduct.scene.json" and not state(tab)["message"], state(tab)["message"]
+    with chromium.Page(f"{address}/index.html?scene=nowhere.scene.json", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        now = state(tab)
+        assert now["file"].endswith("harbour_crane.scene.json") and "cannot be opened" in now["message"], now
+
+
+def takes_dropped_files(address):
+    with chromium.Page(f"{address}/index.html", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+
+        def drop(**files):
+            tab.evaluate(f"""{{
+                const data = new DataTransfer();
+                for (const [name, text] of Object.entries({json.dumps(files)})) data.items.add(new File([text], name));
+                Module.canvas.dispatchEvent(new DragEvent('drop', {{dataTransfer: data, bubbles: true, cancelable: true}}));
+            }}""")
+
+        drop(**{"dropped.scene.json": (scenes / "cantilever.scene.json").read_text()})
+        wait_until(tab, lambda s: s["file"].endswith("dropped.scene.json"))
+        assert not state(tab)["message"]
+        drop(**{"bad.scene.json": "{"})
+        wait_until(tab, lambda s: "bad.scene.json cannot be opened" in s["message"])
+        assert state(tab)["file"].endswith("dropped.scene.json")
+        click(tab, "close message")
+        # With its drawing.
+        text = (scenes / "viaduct.scene.json").read_text().replace("viaduct.svg", "arches.svg")
+        drop(**{"mine.scene.json": text, "arches.svg": (scenes / "viaduct.svg").read_text()})
+        wait_until(tab, lambda s: s["file"].endswith("mine.scene.json"))
+        assert not state(tab)["message"]
+
+
+def saves_by_download(address):
+    with chromium.Page(f"{address}/index.html?scene=cantilever", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        tab.evaluate("HTMLAnchorElement.prototype.click = function () { window.saved = [this.download, this.href]; }")
+        tab.chord(("Control", "ControlLeft", 17), ("s", "KeyS", 83))
+        tab.wait_for("window.saved")
+        assert tab.evaluate("saved[0]") == "cantilever.scene.json"
+        assert '"bodies"' in tab.evaluate("fetch(saved[1]).then((answer) => answer.text())")
+
+
+def runs_600_steps_to_the_bit(address):
+    """Every scene, beside the command on this machine."""
+    names = [file.name for file in scenes.glob("*.scene.json")]
+    assert len(names) > 15
+    with chromium.Page(f"{address}/index.html", gl=True, timeout=300) as tab:
+        tab.wait_for("window.firstFrame")
+        while names:
+            tab.chord(("]", "BracketRight", 221))
+            now = state(tab)
+            ours = tab.evaluate("JSON.parse(Module.ccall('page_poses', 'string', ['number'], [600]))")
+            file = scenes / Path(now["file"]).name
+            words = [command, "simulate", file, "--time", repr(600 * now["dt"]), "--dt", repr(now["dt"]), "--json"]
+            theirs = json.loads(subprocess.run(words, capture_output=True, check=True).stdout)["pieces"]
+            assert ours == [[*piece["position"], piece["angle"]] for piece in theirs], file.name
+            names.remove(file.name)
+            print(f"  {file.name}: {len(ours)} pieces, {600 * now['dt']:.4g} s")
+
+
+def runs_from_a_file(_):
+    with chromium.Page(page, gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+        wait_until(tab, lambda s: s["step"] > 10)
+        assert tab.requests == [tab.url] or all(url.startswith(("file:", "data:")) for url in tab.requests), tab.requests
+
+
+def main():
+    if not chromium.chromium():
+        print("SKIPPED: there is no Chromium here (Debian: chromium)")
+        return 77
+    failed = 0
+    with tempfile.TemporaryDirectory() as name:
+        (Path(name) / "index.html").symlink_to(page)
+        (Path(name) / "scenes").symlink_to(scenes)
+        address = served(name)
+        for test in (fits_what_it_may, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files, saves_by_download, is_touched, zooms_by_the_wheel,
+                     runs_600_steps_to_the_bit, runs_from_a_file):
+            try:
+                test(address)
+                print("ok     ", test.__name__)
+            except (AssertionError, TimeoutError, RuntimeError) as error:
+                failed += 1
+                print("FAILED ", test.__name__, str(error)[:2000])
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
