@@ -72,7 +72,8 @@ void put_back(b2Body& guest, float share, const b2Vec2& gravity) {
   const b2Vec2 from = sweep.c;
   b2Transform at;
   sweep.GetTransform(&at, share);
-  guest.SetTransform(at.p, (1 - share) * sweep.a0 + share * sweep.a);  // b2Rot::GetAngle() forgets whole turns
+  guest.SetTransform(at.p,
+                     (1 - share) * sweep.a0 + share * sweep.a);  // b2Rot::GetAngle() forgets whole turns
   const b2Vec2 v = guest.GetLinearVelocity();
   const float gain = -guest.GetGravityScale() * b2Dot(gravity, guest.GetWorldCenter() - from);
   const float speed2 = v.LengthSquared();

@@ -16,8 +16,8 @@
 namespace ductile::viewer {
 namespace {
 
-constexpr double left_width = 238, right_width = 336, bottom_height = 68,
-                 narrow_bottom_height = 104, least_width = 200;  // px at scale 1
+constexpr double left_width = 238, right_width = 336, bottom_height = 68, narrow_bottom_height = 104,
+                 least_width = 200;  // px at scale 1
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
