@@ -63,6 +63,7 @@ struct Table {
   std::string name, title;
   std::vector<Column> columns;
   std::vector<std::vector<Json>> rows;
+  bool open = false;  // shown at once
 };
 
 /// What the case must show, and whether it does.
@@ -108,6 +109,6 @@ struct Case {
 };
 
 /// A new case is one of these, and its name in the list of report.cpp.
-extern const Case sections, joints, discretisation, stability, interaction, leaving_out, growth;
+extern const Case benchmarks, sections, joints, discretisation, stability, interaction, leaving_out, growth;
 
 }  // namespace ductile::report

@@ -12,7 +12,7 @@
 
 #include "bodies.h"
 #include "case.h"
-#include "parkes.h"
+#include "parkes_run.h"
 #include "structures.h"
 
 namespace ductile::report {
@@ -111,32 +111,6 @@ struct Struck {
       structure.update();
     }
     return joint->compression();
-  }
-};
-
-/// Parkes: a tip mass as heavy as the beam, struck with 12 m/s; rotation of the root.
-struct ParkesRun {
-  static constexpr double moment = Steel::fy / 4, tip = Steel::density * length * height, speed = 12;
-  static double exact() { return parkes(tip, Steel::density * height, length, speed, moment).root_rotation; }
-  static double root_rotation(int n, double dt) {
-    Layout layout = bench::chains(1, n, false);
-    layout.E = unlimited;
-    layout.breaks = false;
-    const int box = layout.box(length, 0, 0, 0.1, 0.1);
-    layout.pieces.back().density = tip / 0.01;
-    layout.weld(box - 1, box, length, 0, 0, 1);
-    Built b(layout, Built::ours, 0);
-    // Of bending alone: the rest holds, as the theory has it.
-    for (b2Joint* joint : b.joints) {
-      auto* j = static_cast<ElasticPlasticJoint*>(joint);
-      for (const Row row : {axial, shear}) j->set_caps(row, unlimited, unlimited);
-      const double cap = joint == b.joints.back() ? unlimited : moment;
-      j->set_caps(rotation, cap, cap);
-    }
-    b.pieces.back()->SetLinearVelocity(vec(0, -speed));
-    // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): steps of time
-    for (double t = 0; t < 0.7; t += dt) b.step(dt);
-    return std::abs(static_cast<ElasticPlasticJoint*>(b.joints[0])->plastic(rotation));
   }
 };
 

@@ -37,7 +37,7 @@ static void to_json(Json& j, const Matrix& m) {
 }
 static void to_json(Json& j, const Column& c) { j = {{"name", c.name}, {"measured", c.measured}}; }
 static void to_json(Json& j, const Table& t) {
-  j = {{"name", t.name}, {"title", t.title}, {"columns", t.columns}, {"rows", t.rows}};
+  j = {{"name", t.name}, {"title", t.title}, {"columns", t.columns}, {"rows", t.rows}, {"open", t.open}};
 }
 static void to_json(Json& j, const Claim& c) {
   j = {{"what", c.what}, {"measured", c.measured}, {"holds", c.holds}, {"by_clock", c.by_clock}};
@@ -45,8 +45,8 @@ static void to_json(Json& j, const Claim& c) {
 
 namespace {
 
-const Case* const cases[] = {&sections,    &joints,      &discretisation, &stability,
-                             &interaction, &leaving_out, &growth};
+const Case* const cases[] = {&benchmarks, &sections,    &joints,      &discretisation,
+                             &stability,  &interaction, &leaving_out, &growth};
 
 std::string csv(const Json& table) {
   const auto cell = [](const Json& value) {

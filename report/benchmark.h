@@ -1,0 +1,27 @@
+// A row of the benchmarks: what the literature or a closed form has, and what ductile makes of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case.h"
+
+namespace ductile::report {
+
+struct Benchmark {
+  std::string problem;
+  std::string source;  // author, year, equation or table
+  std::string read;    // the source itself, a secondary one, or a closed form worked out here
+  std::string input;   // all that it takes to repeat it
+  std::string quantity;
+  double reference, ours;
+  double allowed;  // relative deviation
+  double deviation() const { return ours / reference - 1; }
+};
+
+/// In equilibrium.
+std::vector<Benchmark> static_benchmarks(const Context& context);
+/// In motion, at small steps and at 60 Hz.
+std::vector<Benchmark> motion_benchmarks(const Context& context);
+
+}  // namespace ductile::report

@@ -1,0 +1,66 @@
+// Benchmarks of structural mechanics and dynamics.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "benchmark.h"
+
+namespace ductile::report {
+namespace {
+
+Claim claim(std::string what, const std::vector<Benchmark>& rows) {
+  const auto worst = std::max_element(rows.begin(), rows.end(), [](const Benchmark& a, const Benchmark& b) {
+    return std::abs(a.deviation()) / a.allowed < std::abs(b.deviation()) / b.allowed;
+  });
+  const auto kept = std::count_if(rows.begin(), rows.end(),
+                                  [](const Benchmark& b) { return std::abs(b.deviation()) <= b.allowed; });
+  return {std::move(what),
+          fmt::format("{} of {}; the nearest to its bound, {} ({}), is {:+.2g} % off", kept, rows.size(),
+                      worst->problem, worst->quantity, 100 * worst->deviation()),
+          kept == static_cast<std::ptrdiff_t>(rows.size())};
+}
+
+Table table(std::string name, std::string title, const std::vector<Benchmark>& rows) {
+  Table result{.name = std::move(name),
+               .title = std::move(title),
+               .columns = {{"problem"},
+                           {"quantity"},
+                           {"reference"},
+                           {"ductile"},
+                           {"deviation [%]"},
+                           {"allowed [%]"},
+                           {"source"},
+                           {"read"},
+                           {"input"}},
+               .rows = {},
+               .open = true};
+  for (const Benchmark& b : rows)
+    result.rows.push_back({b.problem, b.quantity, b.reference, b.ours, 100 * b.deviation(), 100 * b.allowed,
+                           b.source, b.read, b.input});
+  return result;
+}
+
+Result run_benchmarks(const Context& context) {
+  const auto rest = static_benchmarks(context);
+  context.progress(0.6);
+  const auto motion = motion_benchmarks(context);
+  Result result;
+  result.text = {
+      "Problems of the literature, each with its source, whether that was read or is quoted after others, "
+      "all its input, and how far ductile's value is from the reference. Where the reference is a closed "
+      "form, "
+      "or an integral that takes a few lines, it is worked out here, by code that shares nothing with the "
+      "solver (reference/elastica.h, reference/parkes.h), and not copied from a table."};
+  result.claims = {claim("In equilibrium, within 1 % of the reference", rest),
+                   claim("In motion, within 3 % at small steps and 10 % at 60 Hz", motion)};
+  result.tables = {table("statics", "In equilibrium", rest), table("motion", "In motion", motion)};
+  return result;
+}
+
+}  // namespace
+
+const Case benchmarks{"benchmarks", "Benchmarks: published problems and closed forms", run_benchmarks};
+
+}  // namespace ductile::report
