@@ -32,6 +32,7 @@ struct Layout {
   std::vector<Piece> pieces;
   std::vector<Weld> welds;
   double E = Steel::E;  // infinite: rigid
+  double damping = 0;   // s: c/k of every row, of a material that damps; none of rigid ones
   bool yields = true, breaks = true;
 
   int box(double x, double y, double angle, double length, double height) {
@@ -183,7 +184,10 @@ struct Built {
       } else {
         b2WeldJointDef def;
         def.Initialize(a, b, vec(w.x, w.y));
-        if (kind == stock_soft) def.stiffness = static_cast<float>(ep.rows[rotation].stiffness);
+        if (kind == stock_soft) {
+          def.stiffness = static_cast<float>(ep.rows[rotation].stiffness);
+          def.damping = static_cast<float>(ep.rows[rotation].damping);
+        }
         joints.push_back(world.CreateJoint(&def));
       }
     }
@@ -244,6 +248,9 @@ struct Built {
     def.rows[rotation] = {.stiffness = layout.E * h * h * h / 12 / w.span, .cap = M, .cap_reverse = M};
     if (!layout.yields) {
       for (RowDef& row : def.rows) row.cap = row.cap_reverse = unlimited;
+    }
+    if (layout.damping > 0) {
+      for (RowDef& row : def.rows) row.damping = layout.damping * row.stiffness;
     }
     if (w.pinned) def.rows[rotation] = RowDef::free();
     if (layout.yields && layout.breaks) {

@@ -4,11 +4,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "benchmark.h"
 #include "parkes_run.h"
+#include "period.h"
 
 namespace ductile::report {
 namespace {
@@ -18,21 +18,6 @@ using bench::Layout;
 using bench::Steel;
 
 constexpr double pi = std::numbers::pi;
-
-/// The mean period of what `at` tells: between its first and last rise through zero.
-double period(int rises, double dt, const std::function<double()>& step_and_tell) {
-  double before = step_and_tell(), first = 0;
-  int seen = 0;
-  for (long i = 1;; ++i) {
-    const double now = step_and_tell();
-    if (before < 0 && now >= 0) {
-      const double at = dt * (static_cast<double>(i) - now / (now - before));
-      if (seen == 0) first = at;
-      if (++seen > rises) return (at - first) / rises;
-    }
-    before = now;
-  }
-}
 
 /// A bar of 20 m from its wall along x, in n pieces.
 Layout bar(int n, double thick, double E) {
@@ -65,22 +50,12 @@ struct Wave {
   }
 };
 
-/// A cantilever of Euler and Bernoulli in its slowest vibration.
+/// A cantilever of Euler and Bernoulli.
 double bending_period(double dt) {
-  constexpr int n = 40;
-  Built b(bar(n, 0.2, Steel::E), Built::ours, 0);
+  Built b(bar(40, 0.2, Steel::E), Built::ours, 0);
   for (b2Joint* joint : b.joints)
     static_cast<ElasticPlasticJoint*>(joint)->set_stiffness(shear, unlimited, 0);
-  for (b2Body* piece : b.pieces) {
-    const double x =
-        piece->GetPosition().x / 20;  // velocity and turn of x² (6 − 4 x + x²)/3, as a load bends it
-    piece->SetLinearVelocity(vec(0, x * x * (6 - 4 * x + x * x) / 3));
-    piece->SetAngularVelocity(static_cast<float>((12 * x - 12 * x * x + 4 * x * x * x) / 60));
-  }
-  return period(5, dt, [&] {
-    b.step(dt);
-    return double{b.pieces.back()->GetPosition().y};
-  });
+  return slowest_period(b, 20, dt);
 }
 
 constexpr double g = 9.81, rod = 1;  // m/s², m

@@ -74,6 +74,7 @@ struct Claim {
 };
 
 struct Result {
+  std::string summary;            // one sentence with the numbers that matter, for the head of the page
   std::vector<std::string> text;  // paragraphs
   std::vector<Claim> claims;
   std::vector<Figure> figures;

@@ -13,6 +13,7 @@
 #include "bodies.h"
 #include "case.h"
 #include "parkes_run.h"
+#include "period.h"
 #include "structures.h"
 
 namespace ductile::report {
@@ -26,11 +27,13 @@ constexpr double length = 20, height = 1, g = 10;
 constexpr double EI = Steel::E / 12, shear_stiffness = 5. / 6 * Steel::E / 2.6,
                  weight = Steel::density * height * g;
 
-/// The elastic beam of n pieces at rest under its own weight: its first second's swing has died away
-/// (implicit Euler damps it by h ω²/2 = 1.4 /s).
+constexpr double settling = 0.1;  // s, c/k: what is to come to rest is damped
+
+/// The elastic beam of n pieces at rest under its own weight.
 double elastic_sag(int n) {
   Layout layout = bench::chains(1, n, false);
   layout.yields = false;
+  layout.damping = settling;
   Built b(layout, Built::ours, g);
   b.run(15);
   // The tip, from the last piece and its turn.
@@ -42,6 +45,7 @@ double elastic_sag(int n) {
 double end_moment(int n, double gravity) {
   Layout layout = bench::chains(1, n, false);
   layout.yields = false;
+  layout.damping = settling;
   Built b(layout, Built::ours, gravity);
   Layout::Weld right{-1, n - 1, length, 0, 0, length / n / 2};
   ElasticPlasticJointDef def = Built::joint(layout, right, height, b.pieces.back(), b.ground);
@@ -50,18 +54,12 @@ double end_moment(int n, double gravity) {
   return std::abs(joint->force(rotation));
 }
 
-/// How far the tip swings where gravity sets in at once, over the sag at rest, on the first swing.
-double first_swing(double dt) {
+/// Of its slowest vibration, of 20 pieces.
+double vibration(double dt) {
   Layout layout = bench::chains(1, 20, false);
   layout.yields = false;
-  Built b(layout, Built::ours, g);
-  double lowest = 0;
-  // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): steps of time
-  for (double t = 0; t < 0.5; t += dt) {
-    b.step(dt);
-    lowest = std::min(lowest, double{b.pieces.back()->GetPosition().y});
-  }
-  return -lowest;
+  Built b(layout, Built::ours, 0);
+  return slowest_period(b, length, dt);
 }
 
 /// Where a rigid-plastic cantilever, M/M_p = 1.05, comes to rest.
@@ -134,20 +132,20 @@ Result run_discretisation(const Context& context) {
   const double sag =
       weight * std::pow(length, 4) / (8 * EI) + weight * length * length / (2 * shear_stiffness);
   constexpr double tiny = 0.1;
-  // The swing in the limit of small steps is that of the 20 pieces' own modes; the finest step stands for it.
-  const double finest_swing = first_swing(quick ? 1. / 7680 : 1. / 61440);
+  // The period in the limit of small steps is that of the 20 pieces; the finest step stands for it.
+  const double finest = vibration(quick ? 1. / 7680 : 1. / 15360);
   const std::vector<Sweep> sweeps{
       {"sag", "Elastic sag of a cantilever, against Timoshenko's beam", "pieces", sag, pieces,
        [](double n) { return elastic_sag(static_cast<int>(n)); }, 2, 1e-5},
       {"end", "End moment of a beam built in at both ends, against qL²/12", "pieces",
        weight / g * tiny * length * length / 12, even,
        [](double n) { return end_moment(static_cast<int>(n), tiny); }, 2, 1e-5},
-      {"swing", "First swing of the tip, gravity at once, against the finest step", "dt", finest_swing, steps,
-       first_swing, 1, 1e-4},
+      {"vibration", "Period of a cantilever's slowest vibration, against the finest step", "dt", finest,
+       steps, vibration, 2, 1e-5},
       {"rest", "Plastic rotation at rest, M/M_p = 1.05, against sin θ/θ = M_p/M", "dt", -exact_rest_angle(),
        steps, rest_angle, 2, 5e-5},
       {"struck", "Set of a bar struck by a mass, against (mv)²/2N(m+m_p)", "dt", Struck::exact(), steps,
-       Struck::set, 1, 1e-5},
+       Struck::set, 2, 1e-5},
       {"parkes-dt", "Parkes' struck cantilever, 20 pieces: root rotation, against rigid-plastic theory", "dt",
        ParkesRun::exact(), steps, [](double dt) { return ParkesRun::root_rotation(20, dt); }, 0, 0},
       {"parkes", "Parkes' struck cantilever at 6000 Hz: root rotation, against rigid-plastic theory",
@@ -173,13 +171,19 @@ Result run_discretisation(const Context& context) {
   double done = 0;
   for (const Sweep& sweep : sweeps) {
     Series series{.name = sweep.title.substr(0, sweep.title.find(", against")), .look = sweep.name};
-    double first_error = 0, first_at = 0, last_order = NAN;
+    double before = 0, before_at = 0, first = 0, first_at = 0, overall = NAN;
     for (const double at : sweep.at) {
       const double value = sweep.value(at), error = std::abs(value / sweep.exact - 1);
+      const auto order_since = [&](double e, double where) {
+        return std::abs(std::log(error / e) / std::log(at / where));
+      };
       double order = NAN;
-      if (first_error > 0 && error > sweep.told)
-        last_order = order = std::abs(std::log(error / first_error) / std::log(at / first_at));
-      first_error = error, first_at = at;
+      if (first == 0) first = error, first_at = at;
+      if (before > 0 && error > sweep.told) {
+        order = order_since(before, before_at);
+        overall = order_since(first, first_at);
+      }
+      before = error, before_at = at;
       series.x.push_back(at), series.y.push_back(error);
       series.marked.push_back(sweep.axis == "dt" && std::abs(at * 60 - 1) < 1e-9);
       series.told.push_back(
@@ -192,14 +196,17 @@ Result run_discretisation(const Context& context) {
     (sweep.axis == "dt" ? by_step : by_pieces).series.push_back(std::move(series));
     if (sweep.order > 0) {
       result.claims.push_back({sweep.title,
-                               fmt::format("order {:.2f}, expected {:g}", last_order, sweep.order),
-                               std::abs(last_order - sweep.order) < 0.25});
+                               fmt::format("order {:.2f}, at least {:g} expected", overall, sweep.order),
+                               overall > sweep.order - 0.25});
     } else {
       const double last = std::abs(table.rows.back()[4].get<double>());
       result.claims.push_back(
           {sweep.title, fmt::format("{:.1f} % off at the finest", 100 * last), last < 0.1});
     }
   }
+  result.summary = fmt::format(
+      "Errors fall with the pieces (sag: {}) and with the time step; Parkes' travelling hinge: {}.",
+      result.claims.front().measured, result.claims.back().measured);
   result.figures = {std::move(by_pieces), std::move(by_step)};
   result.tables = {std::move(table)};
   result.text = {
@@ -207,7 +214,9 @@ Result run_discretisation(const Context& context) {
       "time into steps. A "
       "cantilever of 20 m × 1 m unless said otherwise. Statics converges with the square of the number of "
       "pieces; what moves, "
-      "with the time step (implicit Euler): quick interactions need a small one. 60 Hz is drawn large."};
+      "with the square of the time step, until floats tell no more; what strikes within a step has a "
+      "staircase, which falls as fast. The order of a claim is that over the whole sweep. 60 Hz is drawn "
+      "large."};
   return result;
 }
 

@@ -25,6 +25,7 @@ using bench::Layout;
 using bench::Steel;
 
 constexpr double g = 10, frequency = 60, duration = 15;  // m/s², Hz, s
+constexpr double settling = 0.1;  // s, c/k of elastic joints: without it they would swing for ever
 
 /// How a structure is stepped.
 struct Way {
@@ -177,7 +178,10 @@ double ground_moment(const Built& b, double inv_dt) {
 
 Outcome run(const Structure& s, const Way& way) {
   Layout layout = s.layout;
-  if (!way.elastic) layout.E = unlimited;
+  if (way.elastic)
+    layout.damping = settling;
+  else
+    layout.E = unlimited;
   layout.yields = s.yields;
   const Eigen::VectorXd u = way.elastic
                                 ? displacements(layout, s.gravity)
@@ -390,7 +394,8 @@ Result run_joints(const Context& context) {
       "(linear "
       "statics of the same springs, solved apart; nothing for rigid joints), and where a cantilever whose "
       "weight is 5 % "
-      "more than its root can carry comes to rest (sin θ/θ = M_p/M).",
+      "more than its root can carry comes to rest (sin θ/θ = M_p/M). Elastic joints, ours and stock, are "
+      "damped as a material is, c = 0.1 s · k, or they would swing on.",
       "Time is that of the whole run, settling included, divided by its steps: ours as it stands there, "
       "stock as it "
       "folds there. Each is timed in turn with the same structure in stock welds at 8/3 iterations that "
@@ -399,6 +404,13 @@ Result run_joints(const Context& context) {
       "Chains are "
       "20 m × 1 m cantilevers, frames the storeys and bays of the paper, grids boxes of 1 m held at one side "
       "(columns x rows)."};
+  result.summary = fmt::format(
+      "At 60 Hz the direct solver has at least {:.2g} times less error than stock welds that are given its "
+      "time (from 10 "
+      "pieces on); it is on the front of error against time in {} of {} pictures, and takes at most {:.2g} "
+      "times the time "
+      "of the cheapest stock welds.",
+      least_gain, on, judged, dearest);
   result.claims.push_back({"Direct is on the Pareto front: none of the other solvers is as good and as cheap",
                            fmt::format("{} of {} pictures{}{}", on, judged,
                                        missed.empty() ? "" : "; one of both direct points is not:", missed),

@@ -75,6 +75,8 @@ Result run_leaving_out(const Context& context) {
       "where the run shows no "
       "more, and is 98 % sure to save time. The table names what was tried and kept, too. Colours: what "
       "becomes of the scene (stands, bends, breaks)."};
+  result.summary = fmt::format("{} of {} items that scenes can do without bring no more error than promised.",
+                               kept_promises, items);
   result.claims = {{"What was left out brings no more error than promised",
                     fmt::format("{} of {} items", kept_promises, items), kept_promises == items}};
   result.figures = {std::move(figure)};

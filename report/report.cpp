@@ -122,6 +122,7 @@ Json run(const Case& c, const ReportOptions& options, const Json& made_by) {
           {"made_by", made_by},
           {"machine", machine()},
           {"seconds", std::round(10 * took) / 10},
+          {"summary", r.summary},
           {"text", r.text},
           {"claims", r.claims},
           {"figures", r.figures},

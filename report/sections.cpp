@@ -311,6 +311,9 @@ Result run_sections(const Context& context) {
       "position, nothing shared with ductile but the coordinates). Each is timed in turn with ductile's; "
       "fibres and clipping "
       "are given the outline already turned and no memory to allocate."};
+  result.summary = fmt::format(
+      "Plastic moments of polygons are within {:.1e} of a reference in 113 bits, at 4 to 4096 vertices.",
+      worst);
   result.claims = {
       {"Within 1e-13 of the reference, 4 to 4096 vertices, up to 1e8 m away, 1 µm to 1 km in size",
        fmt::format("the worst {:.1e}", worst), worst <= 1e-13, false},
