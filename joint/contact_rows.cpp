@@ -22,13 +22,13 @@ double effective_mass(const System& system, const Joint& j, double arm_a, double
   return sum > 0 ? 1 / sum : 0;
 }
 
+}  // namespace
+
 // A friction that may hold nothing is no row: it would leave an interior point no room.
 void set_friction(Joint& j, JointRecord& r, double cap) {
   r.law.cap[1] = r.law.cap_reverse[1] = cap;
   r.law.G[1] = j.G[1] = cap > 0 ? contact_ratio * r.m_eff[1] : 0;
 }
-
-}  // namespace
 
 bool enter_contacts(System& system, std::span<const Contact> contacts, double h) {
   bool same = contacts.size() == system.contacts.size();

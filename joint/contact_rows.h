@@ -32,4 +32,7 @@ struct Lag {
 };
 Lag lag_friction(System& system, int round);
 
+/// The cap of friction of a contact's row, N s; 0: no row.
+void set_friction(Joint& joint, JointRecord& record, double cap);
+
 }  // namespace ductile::dynamics

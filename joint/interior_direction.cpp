@@ -11,6 +11,25 @@ namespace ductile::dynamics {
 // The curvature of a joint is C = BᵀB, with a row of B for each unknown, 1/√G, and for each bound, √(z/p) a.
 // With B = QR the solution of C x = y and what it means for the bounds, B x, come of Q alone, and as
 // accurately for rows of any weight: B x = Q Q₀ᵀ root⁻¹ y, Q₀ the rows of the unknowns.
+//
+// Caps couple no rows: B has one unknown a row, and its columns need but be of length 1.
+void InteriorPoint::eliminate_caps(Local& l) {
+  Row4 square;
+  for (std::size_t i = 0; i < 4; ++i) square[i] = l.root[i] * l.root[i];
+  for (std::size_t k = l.first; k < l.last; ++k) {
+    const Bound& b = bounds_[k];
+    for (std::size_t i = 0; i < 3; ++i) square[i] += b.weight * b.weight * b.a[i] * b.a[i];
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    l.q[i] = {};
+    l.q[i][i] = l.root[i] / std::sqrt(square[i]);
+  }
+  for (std::size_t k = l.first; k < l.last; ++k) {
+    Bound& b = bounds_[k];
+    for (std::size_t i = 0; i < 3; ++i) b.q[i] = b.weight * b.a[i] / std::sqrt(square[i]);
+  }
+}
+
 void InteriorPoint::eliminate(const Joint& j, Local& l) {
   for (unsigned i = 0; i < 3; ++i) l.root[i] = j.G[i] > 0 ? 1 / std::sqrt(j.G[i]) : 1;
   l.root[3] = 1;
@@ -19,6 +38,7 @@ void InteriorPoint::eliminate(const Joint& j, Local& l) {
     Bound& b = bounds_[k];
     b.weight = std::sqrt(b.z / (b.p + b.hardening * b.z));
   }
+  if (!l.on_surface) return eliminate_caps(l);
   if (l.shear > 0) {
     const Bound& cone = bounds_[l.last - 1];  // whose own curvature is z diag(1/(hQ)², 1) on (s_Q, t)
     l.root[1] = std::sqrt(1 / j.G[1] + cone.z / (l.shear * l.shear));

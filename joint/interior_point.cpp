@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "contact_rows.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -38,6 +40,12 @@ void InteriorPoint::form(const System& system) {
   d_.assign(system.bodies.size(), {});
   rows_.assign(most + 4, {});
   order_.assign(most + 4, 0);
+}
+
+void InteriorPoint::start_from(const System& system) {
+  best_.resize(system.joints.size());
+  for (std::size_t k = 0; k < best_.size(); ++k) best_[k] = system.joints[k].impulse;
+  start_known_ = true;
 }
 
 // v = v* − M⁻¹ Jᵀ s; |v − v*|²_M + |v|²_M. What s lacks is thus always a lack of compatibility, never of
@@ -113,23 +121,61 @@ void InteriorPoint::start(const System& system) {
     const Rows &bias = system.joints[k].bias, &m_eff = system.records[k].m_eff;
     for (unsigned i = 0; i < 3; ++i) energy += m_eff[i] * bias[i] * bias[i];
   }
+  if (!start_known_) start_from(system);
+  start_known_ = false;
   bounds_.clear();
   locals_.resize(system.joints.size());
-  best_.resize(system.joints.size());
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
     const JointRecord& r = system.records[k];
     Local& l = locals_[k];
     l = {};
     l.first = bounds_.size();
-    for (unsigned i = 0; i < 3; ++i) l.x[i] = j.G[i] > 0 ? j.impulse[i] : 0;
-    if (r.law.surface != nullptr) {
+    for (unsigned i = 0; i < 3; ++i) l.x[i] = j.G[i] > 0 ? best_[k][i] : 0;
+    l.on_surface = r.law.surface != nullptr;
+    if (l.on_surface) {
       enter_surface(j, r.law, l);
     } else {
       enter_caps(j, r, energy, l);
     }
     l.last = bounds_.size();
   }
+}
+
+// Within the rounds a contact that may press has friction, too: its normal impulse is never 0.
+void InteriorPoint::open_friction(System& system) {
+  for (std::size_t k = system.own(); k < system.joints.size(); ++k) {
+    const Contact& c = system.contacts[k - system.own()];
+    Joint& j = system.joints[k];
+    if (c.friction > 0 && !(j.G[1] > 0))
+      set_friction(j, system.record(j), c.friction * std::max(c.normal, 1.0));
+  }
+}
+
+// Caps of friction from the normal impulses of this round, where it matters among velocities of so much
+// energy. What friction carries stays the same share of its cap; and beside what opens z p does not fall
+// below the mean μ, or the next step would be as short as p has become. Whether any cap moved.
+bool InteriorPoint::follow_friction(System& system, double energy, double mu) {
+  bool moved = false;
+  for (std::size_t k = system.own(); k < system.joints.size(); ++k) {
+    Joint& j = system.joints[k];
+    if (!(j.G[1] > 0)) continue;
+    JointRecord& r = system.record(j);
+    Local& l = locals_[k];
+    const double cap = system.contacts[k - system.own()].friction * bounds_[l.first].p,
+                 share = cap / r.law.cap[1];
+    if (std::abs(cap - r.law.cap[1]) <= 1e-4 * cap + 1e-7 * std::sqrt(r.m_eff[1] * energy)) continue;
+    moved = true;
+    set_friction(j, r, cap);
+    l.x[1] *= share;
+    for (std::size_t c = l.first; c < l.last; ++c) {
+      Bound& b = bounds_[c];
+      if (b.a[1] == 0) continue;
+      b.p *= share;
+      if (b.z * b.p < mu) b.z = std::max(b.z, std::min(b.z / share, mu / b.p));
+    }
+  }
+  return moved;
 }
 
 // Multipliers of a cone and its facets that do not agree: either what they differ by is multiplied with t ≤
@@ -185,7 +231,9 @@ InteriorPoint::Distance InteriorPoint::measure(const System& system) {
 InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Evaluation& at) {
   Outcome outcome;
   const auto current = [this](std::size_t k) { return locals_[k].impulse(); };
+  open_friction(system);
   start(system);
+  follow_friction(system, 0, 0);
   double scale = balance(system, current), work = 0, moving = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Rows x = x_of(system, system.joints[k]);
@@ -195,11 +243,14 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   const double count = std::max(1.0, static_cast<double>(bounds_.size()));
   for (Bound& b : bounds_) {
     // z p = μ with p = p₀ + ηz
-    const double mu = 0.5 * std::max(work, moving) / count;
+    const double mu = tunables.start * std::max(work, moving) / count;
     b.z = 2 * mu / (b.p + std::sqrt(b.p * b.p + 4 * b.hardening * mu));
     b.p += b.hardening * b.z;
   }
 
+  const bool alone = system.contacts.empty();
+  const double goal = alone ? tunables.goal : tunables.contact_goal;
+  const double tolerance = alone ? tunables.tolerance : tunables.contact_tolerance;
   outcome.gap = infinity;
   std::array<double, 2> earlier{infinity, infinity};  // Σ z p two rounds ago and in the last
   for (int round = 0, idle = 0, careful = 0;; ++round) {
@@ -210,9 +261,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
       outcome.gap = now.gap();
       for (std::size_t k = 0; k < best_.size(); ++k) best_[k] = current(k);
     }
-    outcome.tolerance =
-        (system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance) * scale + now.rounding;
-    if (outcome.gap <= tunables.goal * scale + now.rounding || !std::isfinite(now.gap())) break;
+    outcome.tolerance = tolerance * scale + now.rounding;
+    if (outcome.gap <= goal * scale + now.rounding || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
 
     factor(system, hessian);
@@ -233,6 +283,9 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
     find_direction(system, hessian, centring * now.products / count, stalls ? 0 : affine * affine);
     move(step_within(reach));
+    // A gap is of the caps that it was measured with.
+    if (round < tunables.friction_rounds && follow_friction(system, scale, now.products / count))
+      outcome.gap = infinity;
     scale = balance(system, current);
   }
   outcome.reached = outcome.gap <= outcome.tolerance;

@@ -22,13 +22,21 @@ namespace ductile::dynamics {
 struct InteriorPointTunables {
   /// Of |v − v*|²_M + |v|²_M: the gap that rounds go on to. Velocities are good to its root.
   double goal = 1e-18;
+  /// Likewise with contacts: their caps of friction are not known as well.
+  double contact_goal = 1e-15;
   /// Likewise: the gap that will do, where rounding does not let it become less.
   double tolerance = 1e-12;
-  /// Likewise with contacts, whose caps of friction are not known as well either: velocities good to 1e-4.
+  /// Likewise with contacts: velocities good to 1e-4.
   double contact_tolerance = 1e-8;
+  /// Rounds in which caps of friction follow the normal impulses. They settle with these; if not, the solve
+  /// after it does the rest (lag_friction()).
+  int friction_rounds = 18;
   /// Share of the bounds that the impulses of the last step are drawn within: further out, the first rounds
   /// go but small steps.
   double inside = 0.9;
+  /// Mean of z p at the start as a share of the work that is asked for. With less, contacts that open let the
+  /// first rounds go but small steps, one after the other.
+  double start = 5;
   /// A solve takes 9 to 25 rounds; 3 of 1e5 random structures do not end within so many.
   int round_bound = 100;
 };
@@ -47,10 +55,15 @@ class InteriorPoint {
   /// Allocates; solve() does not.
   void form(const System& system);
 
-  /// Solves from the impulses that the joints hold. Afterwards they hold the solution's impulses and regimes,
-  /// records x = J v + b, and bodies v. Where the tolerance was not reached, these are the best impulses
-  /// found times the largest share at which they add no energy.
+  /// Solves from the impulses that the joints held at the last start_from(), or hold. Afterwards they hold
+  /// the solution's impulses and regimes, records x = J v + b, and bodies v. Where the tolerance was not
+  /// reached, these are the best impulses found times the largest share at which they add no energy.
   Outcome solve(System& system, Hessian& hessian, Evaluation& at);
+
+  /// The joints' impulses are where the next solve() starts, whatever other methods make of them till then.
+  void start_from(const System& system);
+  /// They are not.
+  void start_anew() { start_known_ = false; }
 
   std::size_t bytes() const;
 
@@ -73,6 +86,7 @@ class InteriorPoint {
     Row4 root{};                      // roots of the curvature without bounds: 1/√G
     std::array<Row4, 4> q{};          // its rows of Q
     double shear = 0;                 // h Q_max; 0: no cone
+    bool on_surface = false;          // bounds are facets, not caps
     std::size_t first = 0, last = 0;  // of its bounds; a cone is the last
 
     Rows impulse() const { return {x[0], x[1], x[2]}; }
@@ -88,6 +102,8 @@ class InteriorPoint {
   };
 
   void start(const System& system);
+  void open_friction(System& system);
+  bool follow_friction(System& system, double energy, double mu);
   void enter_caps(const Joint& joint, const JointRecord& record, double energy, Local& local);
   void enter_surface(const Joint& joint, const RowLaw& law, Local& local);
   template <class Impulse>
@@ -96,6 +112,7 @@ class InteriorPoint {
   double cone_lack(const Joint& joint, const Rows& m_eff, const Local& local) const;
   void factor(System& system, Hessian& hessian);
   void eliminate(const Joint& joint, Local& local);
+  void eliminate_caps(Local& local);
   Row4 project(const Local& local, const Row4& y) const;
   void find_direction(const System& system, const Hessian& hessian, double mu, double second_order);
   double step_within(double reach) const;
@@ -105,7 +122,8 @@ class InteriorPoint {
 
   std::vector<Local> locals_;
   std::vector<Bound> bounds_;
-  std::vector<Rows> best_;
+  std::vector<Rows> best_;  // from start_from() on where to start, from then on the best so far
+  bool start_known_ = false;
   std::vector<Vec3> d_;
   std::vector<Row4> rows_;
   std::vector<std::size_t> order_;

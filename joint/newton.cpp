@@ -180,6 +180,9 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
                        const LinearPrediction* prediction, SolveReport& report) {
   Round round;
   round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0;
+  // Rounds that do not end in a solution leave impulses that are far from any.
+  interior_point.start_anew();
+  if (last.flows || !system.contacts.empty()) interior_point.start_from(system);
   if (prediction != nullptr) prediction->next({z_.data(), system.free});
   Evaluation at = last;
   if (round.pushed_only) {
@@ -205,9 +208,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
          round.number < tunables.round_bound;
        ++round.number) {
-    if (round.number >= (system.contacts.empty() ? tunables.flow_rounds : tunables.contact_rounds) &&
-        (at.flows || round.crossed))
-      break;
+    if (round.number >= tunables.flow_rounds && (at.flows || round.crossed)) break;
     bool refactor = worth_refactoring(system, hessian, at, round);
     refactor |= hessian.factored() == Factored::nothing || hessian.factored() == Factored::holding ||
                 round.crossed || at.curved;

@@ -30,8 +30,6 @@ struct NewtonTunables {
   /// Rounds after which a solve in which rows flow is handed to the interior point method: many rows change
   /// their regime against each other, and each round finds out about few of them.
   int flow_rounds = 5;
-  /// Likewise, with contacts: most of them come and go alone.
-  int contact_rounds = 12;
   /// Likewise, of one in which none flows.
   int round_bound = 100;
 };

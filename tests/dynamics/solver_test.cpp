@@ -118,6 +118,40 @@ TEST(Solver, ACutOffSolveAddsNoEnergyAndIsCounted) {
   EXPECT_NEAR(momentum, 0, 1e-5);  // of 2000 N s
 }
 
+// Blocks that have just come down on a floor slide on it: v − μ g h, whatever they weigh. The interior point
+// method finds normal impulses and the caps of friction that follow from them together, from contacts that
+// knew none.
+TEST(Solver, FrictionIsFoundWithWhatPresses) {
+  constexpr int blocks = 4;
+  constexpr double h = 1.0 / 60, g = 10, mu = 0.3, speed = 3;
+  Line line(blocks);
+  line.solver.bodies.emplace_back();
+  put(line.solver.places.emplace_back(), {0, 0, 0});
+  line.solver.form(blocks);
+  line.solver.locate();
+  line.solver.tunables().flow_rounds = line.solver.tunables().round_bound = 0;
+  std::vector<Contact> contacts(blocks);
+  for (int i = 0; i < blocks; ++i) {
+    contacts[z(i)].a = blocks;
+    contacts[z(i)].b = i;
+    contacts[z(i)].normal_a = contacts[z(i)].normal_b = {0, 1};
+    contacts[z(i)].friction = mu;
+    line.solver.bodies[z(i)].v_free = line.solver.bodies[z(i)].v = {speed, -g * h, 0};
+  }
+  line.solver.begin(h);
+  line.solver.touch(contacts);
+  SolveReport report;
+  line.solver.solve(report);
+  EXPECT_FALSE(report.unsolved);
+  EXPECT_LE(report.factorisations, 25);  // of one solve, not of one after the other
+  for (int i = 0; i < blocks; ++i) {
+    const Body& b = line.solver.bodies[z(i)];
+    EXPECT_NEAR(line.solver.contacts[z(i)].normal, b.mass * g * h, 1e-6 * b.mass * g * h);
+    EXPECT_NEAR(b.v.x, speed - mu * g * h, 1e-3 * mu * g * h);  // as well as lag_friction() asks for
+    EXPECT_NEAR(b.v.y, 0, 1e-6 * g * h);
+  }
+}
+
 // The solution does not depend on how many times the step is solved.
 TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   Line line(6), other(6);
