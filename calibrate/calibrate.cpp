@@ -20,6 +20,7 @@
 #include "ductile/plane.h"
 #include "ductile/strip_line.h"
 #include "fundamental.h"
+#include "lines.h"
 #include "split.h"
 #include "strip.h"
 #include "touching.h"
@@ -81,7 +82,7 @@ class Check {
             static_cast<std::ptrdiff_t>(k))
           add(place, "joins '" + all[k] + "' to itself", "name each body once");
       if (j.at) finite(*j.at, place, "at");
-      if (!j.at && !j.others.empty())
+      if (!j.at && !j.is_line() && !j.others.empty())
         add(place, "joins " + std::to_string(all.size()) + " bodies where edges overlap",
             "give the node's point, `at`");
       if (j.at && (j.gap > 0 || j.overrides.elastic || j.overrides.hinge_length || j.overrides.shear_span))
@@ -92,10 +93,16 @@ class Check {
         finite((*j.across)[1], place, "across");
         if ((*j.across)[0] == (*j.across)[1]) add(place, "is across no length", "give two different points");
         if (j.at) add(place, "has both `at` and `across`", "give one of them: a node has no section");
-      } else if (!j.at && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
+      } else if (!j.at && !j.is_line() && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
         add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
+      if (j.line) {
+        finite((*j.line)[0], place, "at");
+        finite((*j.line)[1], place, "at");
+      }
       check(fields::joint, j, place);
+      if (j.drive) check(fields::drive, *j.drive, place + ".drive");
       overrides(j.overrides, place);
+      check_line(j, place, problems);
     }
     for (std::size_t i = 0; i < s.supports.size(); ++i) {
       const std::string place = "support " + std::to_string(i);
@@ -362,6 +369,10 @@ class Planner {
     const Outline own = in_world(body);
     for (const JointBetweenDef& j : scene_.joints) {
       if (!is_it(j.a) && !is_it(j.b)) continue;
+      if (j.line) {
+        holds.push_back({frame.local((*j.line)[is_it(j.a) ? 0 : 1]), false});
+        continue;
+      }
       if (j.across) {
         const Point from = frame.local((*j.across)[0]), to = frame.local((*j.across)[1]);
         holds.push_back({middle(from, to), j.overrides.moment != 0.0, {from, to}});
@@ -613,6 +624,81 @@ class Planner {
     return result;
   }
 
+  void number_repeats(PlannedJoint& joint) {
+    const auto repeat =
+        std::count_if(plan_.joints.begin(), plan_.joints.end(),
+                      [&](const PlannedJoint& other) { return other.a == joint.a && other.b == joint.b; });
+    if (repeat > 0) joint.name += '#' + std::to_string(repeat);
+  }
+
+  void require_near(int piece, Point at, int joint) {
+    const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+    const double size = body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal();
+    if (distance(plan_.pieces[piece], at) > size)
+      problems_.push_back({"joint " + std::to_string(joint),
+                           "'" + body.name + "' is farther from " + to_string(at) + " than it is large",
+                           "put the point on the body, or near it"});
+  }
+
+  // Of what is elastic between two pieces and of no section: that of their materials, the larger one.
+  double damping_of(int a, int b) const {
+    double most = 0;
+    for (const int piece : {a, b})
+      if (const auto& material = plan_.bodies[plan_.pieces[piece].body].material)
+        most = std::max(most, material->damping_ratio);
+    return most;
+  }
+
+  Point centre_of(const std::string& body) const {
+    const auto [first, last] = pieces_of(body);
+    double area = 0;
+    Point sum;
+    for (int i = first; i < last; ++i) {
+      const Piece& piece = plan_.pieces[i];
+      const double a =
+          piece.circle > 0 ? std::numbers::pi * piece.circle * piece.circle : moments(piece.outline).area;
+      area += a;
+      sum = sum + a * piece.center;
+    }
+    return (1 / area) * sum;
+  }
+
+  void join_by_line(const JointBetweenDef& def) {
+    const auto ends = def.line.value_or(std::array{centre_of(def.a), centre_of(def.b)});
+    const int index = static_cast<int>(&def - scene_.joints.data());
+    const int a = nearest_piece(def.a, ends[0]), b = nearest_piece(def.b, ends[1]);
+    require_near(a, ends[0], index);
+    require_near(b, ends[1], index);
+    if (ends[0] == ends[1]) {
+      problems_.push_back({"joint " + std::to_string(index), "is a line of no length",
+                           "give its ends, `at: [[x, y], [x, y]]`, two different points"});
+      return;
+    }
+    PlannedJoint joint =
+        line_between(def, plan_.pieces[a], plan_.pieces[b], ends[0], ends[1], damping_of(a, b));
+    joint.a = a;
+    joint.b = b;
+    number_repeats(joint);
+    joint.governed_by = caps_.reason("line; what its overrides do not set: unlimited, Q, M: free");
+    plan_.joints.push_back(std::move(joint));
+  }
+
+  // The joints that a definition has made, from `first` on: one, where it is to be driven.
+  void drive_from(std::size_t first, const JointBetweenDef& def) {
+    if (!def.drive || plan_.joints.size() == first) return;
+    if (plan_.joints.size() > first + 1) {
+      problems_.push_back(
+          {"joint " + std::to_string(&def - scene_.joints.data()),
+           "drives two bodies that touch in " + std::to_string(plan_.joints.size() - first) + " places",
+           "say where: `at` a point, or `across` a section"});
+      return;
+    }
+    PlannedJoint& joint = plan_.joints.back();
+    put_drive(joint, *def.drive);
+    joint.governed_by = caps_.reason(plan_.reasons[static_cast<std::size_t>(joint.governed_by)] +
+                                     (def.drive->row == axial ? "; N, Nc: drive" : "; M: drive"));
+  }
+
   // The first body's piece is the hub.
   void join_at(const JointBetweenDef& def, int node) {
     std::vector<int> pieces;
@@ -620,12 +706,7 @@ class Planner {
     names.insert(names.end(), def.others.begin(), def.others.end());
     for (const std::string& name : names) {
       const int piece = pieces.emplace_back(nearest_piece(name, *def.at));
-      const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
-      const double size = body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal();
-      if (distance(plan_.pieces[piece], *def.at) > size)
-        problems_.push_back({"joint " + std::to_string(node - 1),
-                             "'" + name + "' is farther from " + to_string(*def.at) + " than it is large",
-                             "put the node on the body, or near it"});
+      require_near(piece, *def.at, node - 1);
     }
     const JointOverrides& own = def.overrides;
     for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -633,10 +714,7 @@ class Planner {
       joint.a = pieces[0];
       joint.b = pieces[i];
       joint.name = plan_.pieces[joint.a].name + '-' + plan_.pieces[joint.b].name;
-      const auto repeat =
-          std::count_if(plan_.joints.begin(), plan_.joints.end(),
-                        [&](const PlannedJoint& other) { return other.a == joint.a && other.b == joint.b; });
-      if (repeat > 0) joint.name += '#' + std::to_string(repeat);
+      number_repeats(joint);
       joint.anchor = *def.at;
       const Point along = plan_.pieces[joint.b].center - joint.anchor;
       joint.axis = length(along) > 0 ? unit(along) : Point{1, 0};
@@ -645,8 +723,9 @@ class Planner {
       joint.Q = own.shear.value_or(unlimited);
       joint.M = own.moment.value_or(0);
       joint.M_reverse = own.moment_reverse.value_or(joint.M);
-      joint.stiffness = {unlimited, unlimited, unlimited};
-      joint.damping_ratio = own.damping_ratio.value_or(0);
+      joint.stiffness = {own.stiffness_axial.value_or(unlimited), own.stiffness_shear.value_or(unlimited),
+                         own.stiffness_moment.value_or(unlimited)};
+      joint.damping_ratio = own.damping_ratio.value_or(damping_of(joint.a, joint.b));
       joint.max_rotation = own.max_rotation.value_or(unlimited);
       joint.max_elongation = own.max_elongation.value_or(unlimited);
       joint.max_compression = own.max_compression.value_or(unlimited);
@@ -659,6 +738,13 @@ class Planner {
   }
 
   void join(const JointBetweenDef& def) {
+    const std::size_t first = plan_.joints.size();
+    join_where_it_says(def);
+    drive_from(first, def);
+  }
+
+  void join_where_it_says(const JointBetweenDef& def) {
+    if (def.is_line()) return join_by_line(def);
     if (def.at) return join_at(def, static_cast<int>(&def - scene_.joints.data()) + 1);
     const auto of_a = pieces_of(def.a), of_b = pieces_of(def.b);  // from, to
     double size = unlimited;

@@ -33,7 +33,7 @@ Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.ca
 template <class Def>
 void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {
   def.localAnchorA = vector(joint.anchor - center(plan, joint.a));
-  def.localAnchorB = vector(joint.anchor - center(plan, joint.b));
+  def.localAnchorB = vector(joint.far_anchor() - center(plan, joint.b));
 }
 
 bool axial_free(const PlannedJoint& j) { return std::max(j.N, j.Nc) == 0; }
@@ -49,6 +49,7 @@ void list_what_no_stock_joint_does(std::vector<std::string>& lost, const Planned
   if (std::min({j.max_rotation, j.max_elongation, j.max_compression, j.max_slip}) < unlimited)
     lost.push_back("it never breaks");
   if (j.displacement != std::array<double, 3>{}) lost.push_back("its ground does not move");
+  if (j.drive && (j.end || j.drive->row == axial)) lost.push_back("it is not driven");
 }
 
 // --- polygons ---
@@ -96,10 +97,35 @@ double damping(const PlannedJoint& j, double stiffness) {
   return j.damping_ratio * stiffness / (std::numbers::pi * j.damping_frequency);
 }
 
-// The speed of a support that moves in one step of any length, m/s and rad/s.
+// The speed of what moves in one step of any length, m/s and rad/s.
 constexpr double at_once = 1e30;
 
+// A rope is no longer than this, a strut no shorter.
+b2DistanceJointDef distance_def(const Plan& plan, const PlannedJoint& j) {
+  b2DistanceJointDef def;
+  place_anchors(def, plan, j);
+  def.collideConnected = true;
+  def.length = checked(j.length, "joint '" + j.name + "'", "its length");
+  def.minLength = j.carries == Carries::tension ? 0 : def.length;
+  def.maxLength = j.carries == Carries::compression ? std::numeric_limits<float>::max() : def.length;
+  return def;
+}
+
 }  // namespace
+
+Drive drive_at(const PlannedJoint& j, double time) {
+  const DriveDef& d = *j.drive;
+  const double speed = d.speed.value_or(0), since = time - d.from;
+  Drive drive{d.position.value_or(speed < 0 ? -unlimited : unlimited), 0};
+  if (since < 0) return drive;
+  if (d.speed) {
+    drive.speed = std::abs(speed) * (d.ramp > 0 ? std::min(1.0, since / d.ramp) : 1);
+  } else {
+    const double way = std::abs(*d.position - (j.end ? j.length : 0));
+    drive.speed = d.ramp > 0 ? way / d.ramp : at_once;
+  }
+  return drive;
+}
 
 // --- joints ---
 
@@ -121,6 +147,12 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   for (const Row r : {axial, shear, rotation})
     if (const double by = j.displacement[r]; by != 0)
       def.rows[r].drive = Drive{by, j.ramp > 0 ? std::abs(by) / j.ramp : at_once};
+  def.rows[axial].slackens = j.carries != Carries::both;
+  if (j.drive) def.rows[j.drive->row].drive = drive_at(j, unlimited);
+  if (j.end) {
+    def.line = def.collideConnected = true;
+    def.length = j.length;
+  }
   def.max_rotation = j.max_rotation;
   def.max_elongation = j.max_elongation;
   def.max_compression = j.max_compression;
@@ -143,6 +175,15 @@ b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& j) {
   b2RevoluteJointDef def;
   place_anchors(def, plan, j);
   def.enableMotor = true;
+  if (j.drive && j.drive->row == rotation) {
+    const Drive drive = drive_at(j, unlimited);
+    def.motorSpeed = static_cast<float>(drive.target < 0 ? -drive.speed : drive.speed);
+    if (std::isfinite(drive.target)) {
+      def.enableLimit = true;
+      def.lowerAngle = static_cast<float>(std::min(0.0, drive.target));
+      def.upperAngle = static_cast<float>(std::max(0.0, drive.target));
+    }
+  }
   const double moment = std::min(j.M, j.M_reverse);
   def.maxMotorTorque = moment == unlimited ? std::numeric_limits<float>::max()
                                            : checked(moment, "joint '" + j.name + "'", "its moment");
@@ -158,6 +199,7 @@ std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& j) 
     def.localAxisA = vector(axis);
     return anchored(def);
   };
+  if (j.end && !axial_free(j)) return distance_def(plan, j);
   if (axial_free(j) && shear_free(j)) {
     if (turns_freely(j)) return std::nullopt;
     b2MotorJointDef def;  // holds the angle only
@@ -172,12 +214,14 @@ std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& j) 
     return along(b2PrismaticJointDef{}, free_axis);
   }
   if (turns_freely(j)) return anchored(b2RevoluteJointDef{});
+  if (j.drive && j.drive->row == rotation) return hinge_def(plan, j);
   return weld_def(plan, j);
 }
 
 std::vector<std::string> lost_in_stock(const PlannedJoint& j) {
   std::vector<std::string> lost;
-  if (std::min(j.M, j.M_reverse) < unlimited && !turns_freely(j))
+  const bool driven = j.drive && j.drive->row == rotation;  // a motor, whose torque is the cap
+  if (std::min(j.M, j.M_reverse) < unlimited && !turns_freely(j) && !driven)
     lost.push_back("it carries any moment without yielding");
   if (j.stiffness.M < unlimited && !turns_freely(j) && (axial_free(j) || shear_free(j)))
     lost.push_back("it does not bend elastically");
@@ -219,6 +263,7 @@ std::vector<Interaction> cracking_curve(const Section& section, Point d) {
 
 std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j, double tolerance) {
   std::vector<AxialMoment> result;
+  if (j.drive) return result;
   for (const double cap : {j.N, j.Nc, j.M, j.M_reverse})
     if (cap == 0 || cap == unlimited) return result;
   constexpr Point d{0, -1};

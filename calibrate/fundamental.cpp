@@ -98,7 +98,8 @@ double fundamental(const Plan& plan, const Connected& structure) {
         if (body < 0) continue;
         const Piece& p = plan.pieces[z(body)];
         const double sign = side == 0 ? -1 : 1;
-        const Point arm{j.anchor.x - p.center.x, j.anchor.y - p.center.y};
+        const Point at = side == 0 ? j.anchor : j.far_anchor();
+        const Point arm{at.x - p.center.x, at.y - p.center.y};
         const double entry[3] = {row == 2 ? 0 : sign * d.x, row == 2 ? 0 : sign * d.y,
                                  row == 2 ? sign : sign * (arm.x * d.y - arm.y * d.x)};
         for (int i = 0; i < 3; ++i) {

@@ -316,4 +316,16 @@ std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Bui
   return applied;
 }
 
+void apply_drives(const Plan& plan, const Built& built, double time) {
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const std::optional<DriveDef>& def = plan.joints[i].drive;
+    if (!def || !built.joints[i]) continue;
+    ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(built.joints[i]);
+    if (!joint) continue;
+    const Drive now = drive_at(plan.joints[i], time);
+    const std::optional<Drive> before = joint->def().rows[def->row].drive;
+    if (!before || before->speed != now.speed || before->target != now.target) joint->drive(def->row, now);
+  }
+}
+
 }  // namespace ductile

@@ -45,6 +45,21 @@ void add_curved(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint
     for (const auto& [column, b] : columns) entries.emplace_back(row, column, a.dot(form * b));
 }
 
+// A line's axis turns by w/L, w what its ends part by across it: N w²/L.
+void add_line(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& joint, double N,
+              const std::vector<End>& ends) {
+  const Point across = left(joint.axis);
+  std::vector<std::pair<int, double>> w;
+  for (const End& end : ends) {
+    w.emplace_back(end.column, end.sign * across.x * end.scale[0]);
+    w.emplace_back(end.column + 1, end.sign * across.y * end.scale[1]);
+    w.emplace_back(end.column + 2, end.sign * dot(across, left(end.arm)) * end.scale[2]);
+  }
+  const double drawn = length(*joint.end - joint.anchor);
+  for (const auto& [row, a] : w)
+    for (const auto& [column, b] : w) entries.emplace_back(row, column, N / drawn * a * b);
+}
+
 // What acts at the end of a support's arm, the support and loads there, acts on the bent bar, w beside the
 // rigid piece: where the support holds its end, −w is how far the rigid piece is off it.
 void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, const Equilibrium& statics,
@@ -98,12 +113,15 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
     for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
       if (column(piece) < 0) continue;
       const double follow = j.a < 0 ? 0 : column(j.a) < 0 || column(j.b) < 0 ? 1 : 0.5;
-      ends.push_back(
-          {column(piece), sign, follow, j.anchor - plan.carrier(piece).center, statics.scale(piece)});
+      ends.push_back({column(piece), sign, follow,
+                      (sign < 0 ? j.anchor : j.far_anchor()) - plan.carrier(piece).center,
+                      statics.scale(piece)});
     }
+    if (j.end) add_line(entries, j, N, ends);
     for (const End& end : ends) {
       entries.emplace_back(end.column + 2, end.column + 2,
                            -end.sign * dot(force, end.arm) * end.scale[2] * end.scale[2]);
+      if (j.end) continue;
       for (const End& turn : ends) {  // φ across·δ
         const double phi = turn.follow * turn.scale[2] * end.sign;
         both(turn.column + 2, end.column, phi * across.x * end.scale[0]);

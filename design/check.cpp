@@ -93,12 +93,13 @@ StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::
 }  // namespace
 
 StaticCheck static_check(const Plan& plan, Order order) {
-  const Equilibrium statics(plan, order == Order::first ? Between::rigid_pieces : Between::elastic_bars);
+  Equilibrium statics(plan, order == Order::first ? Between::rigid_pieces : Between::elastic_bars);
   std::vector<Yield> yields;
   for (const PlannedJoint& joint : plan.joints) yields.emplace_back(plan, joint);
   StaticCheck worst;
   bool first = true;
   for (const LoadCase& load_case : statics.cases()) {
+    statics.let_slack(load_case);
     StaticCheck now = check_case(plan, statics, yields, load_case, order);
     if (first || now.reserve < worst.reserve) worst = std::move(now);
     first = false;

@@ -27,9 +27,10 @@ std::vector<Motion> shape_of(const Plan& plan, const Equilibrium& statics, const
 }
 
 CriticalLoad critical_load(const Plan& plan) {
-  const Equilibrium statics(plan, Between::elastic_bars);
+  Equilibrium statics(plan, Between::elastic_bars);
   CriticalLoad result;
   for (const LoadCase& load_case : statics.cases()) {
+    statics.let_slack(load_case);
     const ElasticPath path(plan, statics, load_case);
     if (path.critical() < result.factor)
       result = {path.critical(), shape_of(plan, statics, path.mode()), load_case.time};

@@ -132,7 +132,7 @@ void Equilibrium::fill() {
     if (!held[i]) continue;
     for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
       if (piece < 0 || column[static_cast<std::size_t>(piece)] < 0) continue;
-      const Point arm = j.anchor - plan_.carrier(piece).center;
+      const Point arm = (sign < 0 ? j.anchor : j.far_anchor()) - plan_.carrier(piece).center;
       const auto s = scale(piece);
       for (const Row row : {axial, shear, rotation}) {
         if (is_free(j, row)) continue;
@@ -238,6 +238,9 @@ std::vector<LoadCase> Equilibrium::cases() const {
     for (std::size_t i = 0; i < plan_.joints.size(); ++i)
       for (const Row row : {axial, shear, rotation})
         if (held[i]) now.elongation[3 * static_cast<Index>(i) + row] -= plan_.joints[i].displacement[row];
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+      if (const PlannedJoint& j = plan_.joints[i]; held[i] && j.end)  // drawn longer than without force
+        now.elongation[3 * static_cast<Index>(i)] += length(*j.end - j.anchor) - j.length;
   }
   return result;
 }
@@ -246,6 +249,43 @@ ElasticState Equilibrium::elastic(const LoadCase& load_case) const {
   const VectorXd f = balanced(load_case.gravity + load_case.loads);
   const ElasticState bent = imposed(load_case.elongation);
   return {motions(f) + bent.x, forces(f) + bent.forces};
+}
+
+// The forces' energy is convex, so the set of taut lines is one: those that pull the wrong way are let go and
+// those that parted too far taken back until nothing changes. A slack line keeps a trace of its stiffness
+// meanwhile, or what hangs on it alone would have no place.
+void Equilibrium::let_slack(const LoadCase& load_case) {
+  std::vector<std::size_t> lines;
+  for (std::size_t i = 0; i < plan_.joints.size(); ++i)
+    if (held[i] && plan_.joints[i].carries != Carries::both) lines.push_back(i);
+  if (lines.empty()) return;
+  constexpr double trace = 1e-8;
+  const std::vector<Root> whole = roots();
+  std::vector<bool> slack(plan_.joints.size(), false);
+  const auto set = [&](double of_slack) {
+    std::vector<Root> now = whole;
+    for (const std::size_t i : lines)
+      if (slack[i]) now[i] *= std::sqrt(of_slack);
+    stiffen(now);
+  };
+  for (std::size_t round = 0, changes = 1; changes > 0; ++round) {
+    if (round > 20 + 2 * lines.size())
+      throw InvalidInput({{"joints", "no set of taut ropes and struts balances the loads",
+                           "check their lengths, or what they hold"}});
+    set(trace);
+    const ElasticState state = elastic(load_case);
+    const double rounding = 1e-10 * state.forces.cwiseAbs().maxCoeff();
+    changes = 0;
+    for (const std::size_t i : lines) {
+      const double N = state.forces[3 * static_cast<Index>(i)];
+      const double against = plan_.joints[i].carries == Carries::tension ? -N : N;
+      if (slack[i] ? against < 0 : against > rounding) {
+        slack[i] = !slack[i];
+        if (++changes == 1 && round > 20) break;  // one by one, should they take turns
+      }
+    }
+  }
+  set(0);
 }
 
 Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }

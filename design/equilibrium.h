@@ -20,7 +20,8 @@ struct LoadCase {
   double time = 0;  // s, from when on
   Eigen::VectorXd gravity, loads;
   Eigen::VectorXd elongation;  // by joints' rows, beyond what the pieces' motions make of it: of bars that
-                               // loads bend between pieces (bars.h), and of supports whose ground moves
+                               // loads bend between pieces (bars.h), of supports whose ground moves, and of
+                               // lines that are not as long as they are drawn
 };
 
 /// Motions, and the joints' forces.
@@ -58,6 +59,9 @@ class Equilibrium {
   Eigen::VectorXd gravity() const;
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
+  /// Takes ropes and struts that are slack under these loads, of first order, out of the structure. Throws as
+  /// balanced() does.
+  void let_slack(const LoadCase& load_case);
   /// Of first order. Throws as balanced() does.
   ElasticState elastic(const LoadCase& load_case) const;
 

@@ -58,10 +58,11 @@ FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order) 
   std::vector<Fibres> fibres;
   for (const PlannedJoint& joint : plan.joints) fibres.emplace_back(plan, joint);
   const Between between = order == Order::first ? Between::rigid_pieces : Between::elastic_bars;
-  const Equilibrium statics(plan, between);
+  Equilibrium statics(plan, between);
   FirstFibre least{{}, std::vector(fibres.size(), unlimited)};
   for (const LoadCase& load_case : statics.cases()) {
     if (load_case.time != check.time) continue;
+    statics.let_slack(load_case);
     const auto usage = [&](std::size_t i, const Eigen::Vector3d& R) {
       return statics.held[i] ? fibres[i].usage(R[0], R[2]) : 0;
     };

@@ -343,6 +343,7 @@ double until_all_is_over(const Plan& plan) {
 }  // namespace
 
 LeanPlan leave_out(const Plan& plan, const LeaveOut& options) {
+  if (plan.has_lines_or_drives()) return {.plan = plan};
   LeaveOut complete = options;
   if (complete.seconds == 0) complete.seconds = until_all_is_over(plan);
   return Leaner(plan, complete).run();

@@ -193,6 +193,10 @@ class Pushing {
 }  // namespace
 
 Pushover second_order_limit(const Plan& plan, bool fixed_gravity) {
+  for (const PlannedJoint& joint : plan.joints)
+    if (joint.carries != Carries::both)
+      throw InvalidInput({{"joint '" + joint.name + "'", "goes slack, which --second-order does not follow",
+                           "ask for the collapse load without it, or make it carry both ways"}});
   std::vector<Yield> yields;
   for (const PlannedJoint& joint : plan.joints) yields.emplace_back(plan, joint);
   const Equilibrium statics(plan);

@@ -64,7 +64,10 @@ Json fields(const b2RevoluteJointDef& def) {
           {"referenceAngle", decimal(def.referenceAngle)},
           {"enableMotor", def.enableMotor},
           {"motorSpeed", decimal(def.motorSpeed)},
-          {"maxMotorTorque", decimal(def.maxMotorTorque)}};
+          {"maxMotorTorque", decimal(def.maxMotorTorque)},
+          {"enableLimit", def.enableLimit},
+          {"lowerAngle", decimal(def.lowerAngle)},
+          {"upperAngle", decimal(def.upperAngle)}};
 }
 Json fields(const b2PrismaticJointDef& def) {
   return {{"type", "prismatic"},
@@ -83,6 +86,15 @@ Json fields(const b2WheelJointDef& def) {
           {"enableMotor", def.enableMotor},
           {"motorSpeed", decimal(def.motorSpeed)},
           {"maxMotorTorque", decimal(def.maxMotorTorque)}};
+}
+Json fields(const b2DistanceJointDef& def) {
+  return {{"type", "distance"},
+          {"localAnchorA", json(def.localAnchorA)},
+          {"localAnchorB", json(def.localAnchorB)},
+          {"length", decimal(def.length)},
+          {"minLength", decimal(def.minLength)},
+          {"maxLength", decimal(def.maxLength)},
+          {"collideConnected", def.collideConnected}};
 }
 Json fields(const b2MotorJointDef& def) {
   return {{"type", "motor"},
@@ -120,6 +132,19 @@ Json fields_3(const b2RevoluteJointDef& def, const Plan&, const PlannedJoint&) {
   object["enableMotor"] = def.enableMotor;
   object["motorSpeed"] = decimal(def.motorSpeed);
   object["maxMotorTorque"] = decimal(def.maxMotorTorque);
+  object["enableLimit"] = def.enableLimit;
+  object["lowerAngle"] = decimal(def.lowerAngle);
+  object["upperAngle"] = decimal(def.upperAngle);
+  return object;
+}
+Json fields_3(const b2DistanceJointDef& def, const Plan&, const PlannedJoint&) {
+  Json object = frames("distance", def);
+  object["length"] = decimal(def.length);
+  object["enableSpring"] = object["enableLimit"] = def.minLength < def.maxLength;  // a spring of no stiffness
+  object["hertz"] = 0;
+  object["minLength"] = decimal(def.minLength);
+  object["maxLength"] = decimal(def.maxLength);
+  object["collideConnected"] = def.collideConnected;
   return object;
 }
 Json fields_3(const b2PrismaticJointDef& def, const Plan&, const PlannedJoint&) {

@@ -45,6 +45,10 @@ std::vector<std::string> lost_in_definitions(const Plan& plan) {
   for (const PlannedJoint& joint : plan.joints)
     if (joint.displacement != std::array<double, 3>{})
       lost.push_back("the ground of " + joint.name + " does not move: drive its rows");
+  for (const PlannedJoint& joint : plan.joints)
+    if (joint.drive && (joint.drive->from > 0 || joint.drive->ramp > 0))
+      lost.push_back("the drive of " + joint.name +
+                     " is at full speed at once: drive the joint when it is time");
   return lost;
 }
 

@@ -19,7 +19,7 @@ std::string digits(T value) {
 
 /// Always with a point, so that it is no int: a large one would not compile, and -0 lose its sign.
 std::string literal(double value) {
-  if (std::isinf(value)) return "unlimited";
+  if (std::isinf(value)) return value < 0 ? "-unlimited" : "unlimited";
   const std::string text = digits(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
@@ -64,8 +64,13 @@ std::string shape(const b2Fixture& fixture) {
 }
 
 std::string row(const RowDef& row) {
-  return "{" + literal(row.stiffness) + ", " + literal(row.damping_ratio) + ", " + literal(row.cap) + ", " +
-         literal(row.cap_reverse) + ", " + literal(row.hardening) + ", " + literal(row.damping) + "}";
+  std::string text = "{" + literal(row.stiffness) + ", " + literal(row.damping_ratio) + ", " +
+                     literal(row.cap) + ", " + literal(row.cap_reverse) + ", " + literal(row.hardening) +
+                     ", " + literal(row.damping);
+  if (row.slackens || row.drive) text += row.slackens ? ", true" : ", false";
+  if (row.drive)
+    text += ", ductile::Drive{" + literal(row.drive->target) + ", " + literal(row.drive->speed) + "}";
+  return text + "}";
 }
 
 // What every source begins with: one line per body, fixture and joint then suffices.
@@ -118,7 +123,7 @@ constexpr const char* joint_tool = R"(
   };
   [[maybe_unused]] const auto joint = [&](const char* name, int node, b2Body* a, b2Body* b, b2Vec2 anchor_a, b2Vec2 anchor_b, float axis, float follow,
                                           ductile::RowDef axial, ductile::RowDef shear, ductile::RowDef rotation, Limits limits,
-                                          std::vector<ductile::AxialMoment> interaction = {}) {
+                                          std::vector<ductile::AxialMoment> interaction = {}, double line = -1) {
     ductile::ElasticPlasticJointDef def;
     def.bodyA = a;
     def.bodyB = b;
@@ -135,6 +140,8 @@ constexpr const char* joint_tool = R"(
     def.max_slip = limits.slip;
     def.interaction = std::move(interaction);
     def.node = node;
+    def.line = def.collideConnected = line >= 0;
+    def.length = line;
     level.joints.emplace_back(name, level.structure.create_joint(def));
   };
 )";
@@ -197,7 +204,8 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
     std::string points;
     for (const AxialMoment& p : def.interaction)
       points += (points.empty() ? "{" : ", {") + literal(p.N) + ", " + literal(p.M) + "}";
-    joints += (points.empty() ? "" : ", {" + points + "}") + ");\n";
+    if (!points.empty() || def.line) joints += ", {" + points + "}";
+    joints += (def.line ? ", " + literal(def.length) : "") + ");\n";
   }
 
   std::string text =

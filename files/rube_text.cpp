@@ -164,7 +164,7 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
   item["bodyA"] = body_a;
   item["bodyB"] = body_b;
   item["anchorA"] = vector(a.local(j.anchor));
-  item["anchorB"] = vector(b.local(j.anchor));
+  item["anchorB"] = vector(b.local(j.far_anchor()));
   item["refAngle"] = b.angle - a.angle;
   const auto along = [&](const b2Vec2& axis) {
     item["localAxisA"] = vector(a.rotation.inverse({axis.x, axis.y}));
@@ -177,10 +177,12 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
     item["dampingRatio"] = soft ? j.damping_ratio : 0;
   } else if (const auto* hinge = std::get_if<b2RevoluteJointDef>(&*def)) {
     item["type"] = "revolute";
-    item["enableLimit"] = false;
-    item["lowerLimit"] = item["upperLimit"] = item["jointSpeed"] = 0;
+    item["enableLimit"] = hinge->enableLimit;
+    item["lowerLimit"] = number(hinge->lowerAngle);
+    item["upperLimit"] = number(hinge->upperAngle);
+    item["jointSpeed"] = 0;
     item["enableMotor"] = hinge->enableMotor;
-    item["motorSpeed"] = 0;
+    item["motorSpeed"] = number(hinge->motorSpeed);
     item["maxMotorTorque"] = number(hinge->maxMotorTorque);
   } else if (const auto* slide = std::get_if<b2PrismaticJointDef>(&*def)) {
     item["type"] = "prismatic";
@@ -192,6 +194,16 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
     item["springFrequency"] = 1e-3;  // nothing to speak of; with 0 planck.js 1.4 makes NaN
     item["springDampingRatio"] = 0;
     along(line->localAxisA);
+  } else if (const auto* distance = std::get_if<b2DistanceJointDef>(&*def)) {
+    item["collideConnected"] = true;
+    if (j.carries == Carries::tension) {
+      item["type"] = "rope";
+      item["maxLength"] = number(distance->maxLength);
+    } else {  // a strut pulls as well: R.U.B.E. has none
+      item["type"] = "distance";
+      item["length"] = number(distance->length);
+      item["frequency"] = item["dampingRatio"] = 0;
+    }
   } else {
     const auto& motor = std::get<b2MotorJointDef>(*def);
     item["type"] = "motor";
@@ -200,6 +212,8 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
     item["maxTorque"] = number(motor.maxTorque);
     item["correctionFactor"] = number(motor.correctionFactor);
   }
+  // Those of R.U.B.E. have no line and no drive: load() leaves a joint without values to Box2D.
+  if (j.end || j.drive) return;
 
   fields::for_each(fields::calibrated, [&](const auto& field) {
     set_custom(item, std::string("ductile.") + field.key, j.*field.member);

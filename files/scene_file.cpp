@@ -108,13 +108,33 @@ void read_split(const Value& value, BodyDef& def) {
   }
 }
 
+DriveDef read_drive(const Value& value) {
+  DriveDef def;
+  Object object(value);
+  object.require("row");
+  object.choice("row", def.row, {{"axial", axial}, {"rotation", rotation}});
+  object.read(fields::drive, def);
+  return def;
+}
+
+// A node is at a point, a line between two.
+void read_place(const Value& value, JointBetweenDef& def) {
+  const nlohmann::json& json = value.json();
+  if (json.is_array() && !json.empty() && json[0].is_array())
+    def.line = read_segment(value);
+  else
+    def.at = value.point();
+}
+
 JointBetweenDef read_joint(const Value& value) {
   JointBetweenDef def;
   Object object(value);
+  object.choice("kind", def.carries, {{"rope", Carries::tension}, {"strut", Carries::compression}});
+  if (const auto drive = object.find("drive")) def.drive = read_drive(*drive);
+  const auto at = object.find("at");
+  if (at) read_place(*at, def);
   if (const auto between = object.require("between")) {
     const auto names = between->elements();
-    const auto at = object.find("at");
-    if (at) def.at = at->point();
     if (between->json().is_array() && (names.size() < 2 || (names.size() > 2 && !at))) {
       between->wrong("names " + std::to_string(names.size()) + " bodies",
                      names.size() < 2 ? "name two" : "name two, or give the point of a node, \"at\"");

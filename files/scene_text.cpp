@@ -120,7 +120,14 @@ Json json(const JointBetweenDef& joint) {
   for (const std::string& name : joint.others) object["between"].push_back(name);
   if (joint.at) object["at"] = json(*joint.at);
   if (joint.across) object["across"] = json(*joint.across);
+  if (joint.line) object["at"] = json(*joint.line);
+  if (joint.carries == Carries::tension) object["kind"] = "rope";
+  if (joint.carries == Carries::compression) object["kind"] = "strut";
   put(object, fields::joint, joint);
+  if (joint.drive) {
+    object["drive"]["row"] = joint.drive->row == axial ? "axial" : "rotation";
+    put(object["drive"], fields::drive, *joint.drive);
+  }
   put_overrides(object, joint.overrides);
   return object;
 }

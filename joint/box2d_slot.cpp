@@ -46,6 +46,8 @@ void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   // next seen.
   Structure::Impl* structure = component_ != nullptr ? component_->structure : member_->structure;
   leads_ = data.step.velocityIterations > 0 && structure->enlist(member_, component_);
+  // Now, as in the iterations other joints may come first.
+  for (b2Body* body : {m_bodyA, m_bodyB}) structure->stop_if_not_finite(*body, data);
 }
 
 void ElasticPlasticJoint::SolveVelocityConstraints(const b2SolverData& data) {

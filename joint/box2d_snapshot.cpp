@@ -108,6 +108,7 @@ struct Snapshot::Impl {
   int32 contact_count = 0;
   // b2BlockAllocator
   Bytes chunks;
+  std::vector<const void*> places;  // of the chunks, which stay where they are as long as the world lives
   FreeLists free_lists;
   // b2BroadPhase
   int32 proxy_count = 0, root = 0, node_count = 0, free_node = 0, insertion_count = 0;
@@ -148,8 +149,10 @@ void Snapshot::Impl::save(b2World& w) {
   b2BlockAllocator& allocator = of(w, b2World_m_blockAllocator{});
   const auto* chunk = reinterpret_cast<const Chunk*>(of(allocator, b2BlockAllocator_m_chunks{}));
   chunks.clear();
+  places.clear();
   for (int32 i = 0; i < of(allocator, b2BlockAllocator_m_chunkCount{}); ++i) {
     append(chunks, chunk[i].blocks, chunk_size);
+    places.push_back(chunk[i].blocks);
   }
   std::copy_n(of(allocator, b2BlockAllocator_m_freeLists{}), b2_blockSizeCount, free_lists);
 
@@ -174,7 +177,13 @@ void Snapshot::Impl::save(b2World& w) {
 }
 
 void Snapshot::Impl::restore(b2World& w) const {
-  if (&w != world)
+  // A new world may be where the old one was, and its structure, too.
+  b2BlockAllocator& allocator = of(w, b2World_m_blockAllocator{});
+  auto* chunk = reinterpret_cast<Chunk*>(of(allocator, b2BlockAllocator_m_chunks{}));
+  const auto known = static_cast<int32>(places.size());
+  if (&w != world || of(allocator, b2BlockAllocator_m_chunkCount{}) < known ||
+      !std::equal(places.begin(), places.end(), chunk,
+                  [](const void* place, const Chunk& now) { return place == now.blocks; }))
     throw std::logic_error("snapshot: of another world; restore it into the one it was saved of");
   if (w.IsLocked()) throw std::logic_error("snapshot: the world is stepping; restore it between steps");
   if (chains_in(w) != chains) {
@@ -191,9 +200,6 @@ void Snapshot::Impl::restore(b2World& w) const {
   std::copy(lists.begin(), lists.end(), lists_of(w).first);
   std::copy(settings.begin(), settings.end(), settings_of(w).first);
 
-  b2BlockAllocator& allocator = of(w, b2World_m_blockAllocator{});
-  auto* chunk = reinterpret_cast<Chunk*>(of(allocator, b2BlockAllocator_m_chunks{}));
-  const auto known = static_cast<int32>(chunks.size() / chunk_size);
   FreeLists& free = of(allocator, b2BlockAllocator_m_freeLists{});
   std::copy_n(free_lists, b2_blockSizeCount, free);
   for (int32 i = 0; i < known; ++i) {

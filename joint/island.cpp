@@ -7,11 +7,25 @@
 #include <utility>
 #include <vector>
 
+#include "reveal.h"
 #include "structure.h"
+
+namespace ductile::dynamics {
+DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
+}  // namespace ductile::dynamics
 
 namespace ductile {
 
 using namespace dynamics;
+
+void Structure::Impl::stop_if_not_finite(b2Body& body, const b2SolverData& data) {
+  b2Velocity& velocity = data.velocities[dynamics::of(body, b2Body_m_islandIndex{})];
+  if (velocity.v.IsValid() && b2IsValid(velocity.w)) return;
+  velocity = {{0, 0}, 0};
+  body.SetLinearVelocity({0, 0});
+  body.SetAngularVelocity(0);
+  ++stopped;
+}
 
 // Joints are solved in the order in which they were initialised: the first does the work of all.
 bool Structure::Impl::enlist(Member* member, Component* component) {
@@ -75,6 +89,8 @@ void Structure::Impl::choose_contacts(const b2SolverData& data) {
   contacts_.clear();
   if (def.solver != SolverKind::direct) return;
   contacts_.read(*world, data);
+  for (const Touch& t : contacts_.touches())
+    for (b2Body* body : {t.a(), t.b()}) stop_if_not_finite(*body, data);
   const auto is_ours = [this](const b2Body* body) { return structure_of(*body) == this; };
   const auto may_take = [this](b2Body* body) {
     return body->GetType() != b2_dynamicBody || (is_free(body) && !is_of_another(*body));

@@ -187,8 +187,8 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def,    watch,    next_id, {}, {},      report,    worst,
-          batch_, stepped_, gone_,   {}, orphans, last_node, bullets_};
+  State s{def,      watch, next_id, {},      {},        report,   worst,  batch_,
+          stepped_, gone_, {},      orphans, last_node, bullets_, stopped};
   s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
@@ -213,6 +213,7 @@ void Structure::Impl::restore(const State& s) {
   told_ = 0;
   orphans = s.orphans;
   last_node = s.last_node;
+  stopped = s.stopped;
   bullets_ = s.bullets;
   broke_ = true;  // update() looks for itself
   enlisted_.clear();

@@ -74,6 +74,10 @@ struct Structure::Impl {
   StepReport report;
   /// Of what held bodies to nodes and went without breaking since the last update().
   std::vector<ElasticPlasticJointDef> orphans;
+  /// Stops a body of the island at hand whose velocity is no finite number: it would spread to all that hangs
+  /// together, for good.
+  void stop_if_not_finite(b2Body& body, const b2SolverData& data);
+  int stopped = 0;    // times since the start that it did
   int last_node = 0;  // of new_node(): negative, so that a game's own are others
   StepReport worst;   // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
@@ -134,6 +138,7 @@ struct Structure::Impl::State {
   std::vector<ElasticPlasticJointDef> orphans;
   int last_node;
   std::vector<b2Body*> bullets;
+  int stopped;
 };
 
 }  // namespace ductile

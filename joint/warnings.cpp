@@ -62,6 +62,12 @@ std::vector<std::string> Structure::warnings() const {
              "most 2 m and 90 degrees a step; use a smaller step",
              100 * worst.slowed));
   }
+  if (structure.stopped > 0) {
+    all.push_back(
+        text("%d times the velocity of a body was not a finite number, and was taken as 0; look for what the "
+             "game set or pushed it with",
+             structure.stopped));
+  }
   if (const int unsolved = worst.bounds_hit - worst.parted; unsolved > 0) {
     all.push_back(
         text("%d solves did not reach their tolerance: the structure gave way in those steps; use a smaller "

@@ -161,6 +161,10 @@ class Artist {
     hover(group, about(index));
     const std::string paint = colour(index);
     const bool broken = !panel_.joints.empty() && panel_.joints[index].broken;
+    if (joint.end) {
+      if (!broken) draw_line(group, px(a(joint.anchor)), px(b(*joint.end)), joint);
+      return;
+    }
     if (broken) {
       for (const Pose* bank : {&a, &b}) {
         const std::string d = line(px((*bank)(ends[0])), px((*bank)(ends[1])));
@@ -185,6 +189,15 @@ class Artist {
     add(group, "circle", "cx", at.x, "cy", at.y, "r",
         std::max({smallest * mark_, 20 * mark_ * hinge, hinge * joint.height * scale_}), "fill", paint,
         "stroke", ink, "stroke-width", "1");
+  }
+
+  /// A rope is thin, a strut, bar or jack thick; both have dots where they end.
+  void draw_line(Node to, Point from, Point end, const PlannedJoint& joint) const {
+    const double width = (joint.carries == Carries::tension ? 1.6 : 4) * mark_;
+    add(to, "path", "d", fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", from.x, from.y, end.x, end.y), "stroke",
+        ink, "stroke-width", width, "fill", "none");
+    for (const Point at : {from, end})
+      add(to, "circle", "cx", at.x, "cy", at.y, "r", 2.4 * mark_, "fill", ink);
   }
 
   void draw_support(Node to, Point at) const {

@@ -46,6 +46,7 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with, bool
 void Simulation::step() {
   const double dt = stepping.dt;
   const std::vector<AppliedLoad> loads = apply_loads(world_, plan_, built_, time_ + dt / 2);
+  apply_drives(plan_, built_, time_ + dt / 2);
   if (ledger_) ledger_->before_step(static_cast<float>(dt), loads);
   const auto start = std::chrono::steady_clock::now();
   world_.Step(static_cast<float>(dt), stepping.velocity_iterations, stepping.position_iterations);
@@ -89,6 +90,7 @@ JointReading Simulation::joint(std::size_t index) const {
   if (!built_.joints[index]) return {};
   if (solver_ == JointSolver::stock) return read_stock(index);
   const auto& joint = static_cast<const ElasticPlasticJoint&>(*built_.joints[index]);
+  const std::optional<DriveDef>& drive = plan_.joints[index].drive;
   return {.N = joint.force(axial),
           .Q = joint.force(shear),
           .M = joint.force(rotation),
@@ -98,7 +100,14 @@ JointReading Simulation::joint(std::size_t index) const {
           .plastic_axial = joint.plastic(axial),
           .plastic_shear = joint.plastic(shear),
           .capacity_used = joint.capacity_used(),
-          .dissipated = joint.dissipated()};
+          .dissipated = joint.dissipated(),
+          .length = length_of(index),
+          .drive = drive ? joint.neutral(drive->row) : nan};
+}
+
+double Simulation::length_of(std::size_t index) const {
+  if (!plan_.joints[index].end) return nan;
+  return (built_.joints[index]->GetAnchorB() - built_.joints[index]->GetAnchorA()).Length();
 }
 
 // Box2D tells the force and torque on the second body, in world axes; the internal force is opposite to it.
@@ -111,8 +120,11 @@ JointReading Simulation::read_stock(std::size_t index) const {
   // The axis turns with the mean of the two pieces; that of a support stays with the ground.
   const double turn = planned.a < 0 ? 0 : (turn_of(planned.a) + turn_of(planned.b)) / 2;
   const double c = std::cos(turn), s = std::sin(turn);
-  const Point axis{c * planned.axis.x - s * planned.axis.y, s * planned.axis.x + c * planned.axis.y};
+  Point axis{c * planned.axis.x - s * planned.axis.y, s * planned.axis.x + c * planned.axis.y};
+  if (b2Vec2 along = joint->GetAnchorB() - joint->GetAnchorA(); planned.end && along.Normalize() > 0)
+    axis = {along.x, along.y};
   JointReading reading;
+  reading.length = length_of(index);
   reading.N = -(force.x * axis.x + force.y * axis.y);
   reading.Q = -(-force.x * axis.y + force.y * axis.x);
   reading.M = -joint->GetReactionTorque(inv_dt);

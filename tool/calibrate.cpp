@@ -80,6 +80,23 @@ Json json(const PlannedJoint& joint, const Plan& plan) {
     object["stiffness"][field.key] = number(joint.stiffness.*field.member);
   });
   object["elastic_rotation"] = number(elastic_rotation(joint));
+  if (joint.end) {
+    object["end"] = json(*joint.end);
+    object["length"] = joint.length;
+    object["carries"] = joint.carries == Carries::tension       ? "tension"
+                        : joint.carries == Carries::compression ? "compression"
+                                                                : "both";
+  }
+  if (joint.drive) {
+    const DriveDef& d = *joint.drive;
+    const auto given = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+    object["drive"] = {{"row", d.row == axial ? "axial" : "rotation"},
+                       {"position", given(d.position)},
+                       {"speed", given(d.speed)},
+                       {"cap", number(d.cap)},
+                       {"from", d.from},
+                       {"ramp", d.ramp}};
+  }
   object["governed_by"] = plan.reasons[static_cast<std::size_t>(joint.governed_by)];
   return object;
 }
@@ -155,6 +172,15 @@ std::string definitions_of(const Plan& plan, const Options& options) {
     const std::string text = read_text(options.scene.name);
     const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;
     if (is_rube(text)) return calibrated_rube(text, options.scene, as);
+    for (const PlannedJoint& joint : plan.joints)
+      if (joint.end || joint.drive)
+        fmt::print(stderr, "warning: {}: joint '{}' is written as R.U.B.E. has it: {}\n", options.scene.name,
+                   joint.name,
+                   joint.end && joint.carries == Carries::tension
+                       ? "a rope that is not driven and never yields"
+                   : joint.end ? "a bar of that length, which pulls and pushes, and is not driven"
+                   : joint.drive->row == rotation ? "a motor that runs from the start"
+                                                  : "without its drive");
     if (!plan.loads.empty())
       fmt::print(stderr,
                  "warning: {}: loads are written as properties of bodies, which only ductile knows: a game "

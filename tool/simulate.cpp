@@ -53,6 +53,8 @@ Json joints_json(const Simulation& simulation) {
                     {"broken", j.broken},
                     {"broken_at", number(j.broken_at)},
                     {"dissipated", number(j.dissipated)}});
+    if (simulation.plan().joints[i].end) list.back()["length"] = number(j.length);
+    if (simulation.plan().joints[i].drive) list.back()["drive"] = number(j.drive);
   }
   return list;
 }

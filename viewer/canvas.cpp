@@ -154,7 +154,7 @@ void Canvas::thrown() {
   }
 }
 
-// A line across the cut in the colour of its stage, a dot that grows with its plastic rotation, or crosses
+// A rope or strut from end to end; else a line across the cut in the colour of its stage, a dot that grows with its plastic rotation, or crosses
 // where it broke.
 void Canvas::joints() {
   const Frame& frame = bench_->frame();
@@ -172,6 +172,14 @@ void Canvas::joints() {
       continue;
     }
     const ImU32 colour = rgb(stage_colour(stage(joint)));
+    if (const PlannedJoint& line = bench_->plan().joints[i]; line.end) {
+      const Point from = camera_.to_screen(carried(bench_->plan(), line.a, line.anchor, frame));
+      const Point to = camera_.to_screen(carried(bench_->plan(), line.b, *line.end, frame));
+      const double width = (line.carries == Carries::tension ? 2 : 4) * ui_;
+      to_->AddLine(px(from), px(to), ink::edge, f(width));
+      to_->AddLine(px(from), px(to), colour, f(width - ui_));
+      continue;
+    }
     const double height = bench_->plan().joints[i].height * camera_.scale;
     // A support has no height; what is small on the screen is drawn thinner.
     const double half = height > 0 ? height / 2 + ui_ : 5 * ui_;

@@ -57,7 +57,9 @@ Placed place(const Plan& plan, std::size_t joint, const Frame& frame) {
     }
   }
   const Point a = carried(plan, planned.a, planned.anchor, frame);
-  const Point b = carried(plan, planned.b, planned.anchor, frame);
+  const Point b = carried(plan, planned.b, planned.far_anchor(), frame);
+  const double apart = length(b - a);
+  if (planned.end && apart > 0) return {0.5 * (a + b), (1 / apart) * (b - a)};
   return {0.5 * (a + b), Turn(turn) * planned.axis};
 }
 

@@ -60,7 +60,8 @@ TEST_P(Pasted, SourceMakesTheSameWorld) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Pasted,
                          testing::Values(std::pair{"car", &pasted::car},
-                                         std::pair{"harbour_crane", &pasted::harbour_crane}),
+                                         std::pair{"harbour_crane", &pasted::harbour_crane},
+                                         std::pair{"crane_winch", &pasted::crane_winch}),
                          [](const auto& info) { return info.param.first; });
 
 TEST(CppText, NamesCannotLeaveTheirComments) {

@@ -88,7 +88,7 @@ void expect_everything(const SceneDef& scene) {
   ASSERT_EQ(arm.profile.size(), 1u);
   EXPECT_EQ(arm.profile[0].material, materials::S355);
 
-  ASSERT_EQ(scene.joints.size(), 4u);
+  ASSERT_EQ(scene.joints.size(), 7u);
   EXPECT_EQ(scene.joints[0].a, "wall");
   EXPECT_EQ(scene.joints[0].b, "beam");
   EXPECT_EQ(scene.joints[0].gap, 0.01);
@@ -104,6 +104,28 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(scene.joints[3].at, (Point{0, 0.5}));
   EXPECT_EQ(scene.joints[3].others, std::vector<std::string>{"arm"});
   EXPECT_EQ(scene.joints[3].overrides.axial, 1e6);
+  const JointBetweenDef &winch = scene.joints[4], &strut = scene.joints[5], &motor = scene.joints[6];
+  EXPECT_EQ(winch.line, (std::array<Point, 2>{{{-1, 2}, {20, 1}}}));
+  EXPECT_EQ(winch.at, std::nullopt);
+  EXPECT_EQ(winch.carries, Carries::tension);
+  EXPECT_EQ(winch.length, 9);
+  EXPECT_EQ(winch.overrides.stiffness_axial, 3e6);
+  ASSERT_TRUE(winch.drive);
+  EXPECT_EQ(winch.drive->row, axial);
+  EXPECT_EQ(winch.drive->position, 4);
+  EXPECT_EQ(winch.drive->speed, -0.5);
+  EXPECT_EQ(winch.drive->cap, 2e5);
+  EXPECT_EQ(winch.drive->from, 1);
+  EXPECT_EQ(winch.drive->ramp, 2);
+  EXPECT_EQ(strut.carries, Carries::compression);
+  EXPECT_TRUE(strut.is_line());
+  EXPECT_EQ(strut.line, std::nullopt);
+  EXPECT_EQ(strut.drive.has_value(), false);
+  EXPECT_FALSE(motor.is_line());
+  ASSERT_TRUE(motor.drive);
+  EXPECT_EQ(motor.drive->row, rotation);
+  EXPECT_EQ(motor.drive->position, std::nullopt);
+  EXPECT_EQ(motor.drive->cap, unlimited);
 
   ASSERT_EQ(scene.supports.size(), 2u);
   EXPECT_EQ(scene.supports[0].at, (Point{20, 0.5}));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "beam.h"
@@ -24,6 +25,67 @@ ElasticPlasticJoint* weld(Structure& structure, b2Body* a, b2Body* b, b2Vec2 at)
   ElasticPlasticJointDef def;
   def.Initialize(a, b, at, {1, 0});
   return structure.create_joint(def);
+}
+
+// ---- Velocities that are no numbers
+
+// A beam of four pieces of 1000 kg with a stone on its tip, and a box hung on it by a stock joint. What a
+// game spoils stands still for a moment; all else goes on, and the beam comes back to rest with what statics
+// say.
+TEST(NoNumber, SetAsAVelocityStopsThatBodyAlone) {
+  const float nan = std::nanf(""), inf = INFINITY;
+  const std::function<void(std::vector<b2Body*>&)> spoilers[] = {
+      [&](auto& b) {
+        b[2]->SetLinearVelocity({nan, 0});
+      },
+      [&](auto& b) {
+        b[2]->SetLinearVelocity({0, inf});
+      },
+      [&](auto& b) { b[4]->SetAngularVelocity(nan); },
+      [&](auto& b) {
+        b[5]->SetLinearVelocity({0, nan});
+      },
+      [&](auto& b) {
+        b[3]->ApplyForceToCenter({nan, nan}, true);
+      },
+      [&](auto& b) {
+        b[4]->ApplyLinearImpulseToCenter({inf, 0}, true);
+      }};
+  for (const SolverKind kind : {SolverKind::direct, SolverKind::iterative})
+    for (const auto& spoil : spoilers) {
+      b2World world({0, -10});
+      world.SetAllowSleeping(false);
+      Structure structure(world, {.solver = kind, .keep_ledger = kind == SolverKind::direct});
+      std::vector<b2Body*> bodies{add_box(world, {.type = b2_staticBody})};
+      for (int i = 1; i <= 4; ++i) {
+        bodies.push_back(add_box(world, {.x = static_cast<double>(i)}));
+        weld(structure, bodies[bodies.size() - 2], bodies.back(), {static_cast<float>(i) - 0.5f, 0});
+      }
+      bodies.push_back(add_box(world, {.x = 4, .y = 1, .mass = 500, .group = 0}));
+      bodies.push_back(add_box(world, {.x = 2, .y = -2, .mass = 300, .group = 0}));
+      b2RevoluteJointDef hung;
+      hung.Initialize(bodies[2], bodies[6], {2, -1});
+      world.CreateJoint(&hung);
+      run(world, structure, 1);
+      EXPECT_TRUE(structure.warnings().empty());
+      spoil(bodies);
+      for (int i = 0; i < 300; ++i) {
+        world.Step(dt, 8, 3);
+        for (const b2Body* body : bodies) {
+          ASSERT_TRUE(body->GetPosition().IsValid() && body->GetLinearVelocity().IsValid());
+          ASSERT_TRUE(b2IsValid(body->GetAngle()) && b2IsValid(body->GetAngularVelocity()));
+        }
+        structure.update();
+      }
+      ASSERT_EQ(structure.warnings().size(), 1u);
+      EXPECT_NE(structure.warnings()[0].find("1 times the velocity of a body was not a finite number"),
+                std::string::npos)
+          << structure.warnings()[0];
+      if (kind == SolverKind::iterative) continue;
+      const double moment = -10 * (1000 * (0.5 + 1.5 + 2.5 + 3.5) + 500 * 3.5 + 300 * 1.5);
+      EXPECT_NEAR(structure.joints()[0]->force(rotation), moment, 1e-3 * -moment);
+      EXPECT_TRUE(std::isfinite(structure.energy().elastic + structure.energy().numerical));
+    }
 }
 
 // ---- Levels

@@ -1,8 +1,10 @@
 // A world that is brought back runs on as it did: to the bit, whatever happened in between.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
+#include "bodies.h"
 #include "eventful.h"
 
 namespace ductile {
@@ -125,6 +127,31 @@ TEST(Snapshot, GoesBackOnlyWhereItCame) {
   EXPECT_EQ(scene.run(20), once);
   ground->DestroyFixture(chain);
   EXPECT_THROW(snapshot.restore(scene.world), std::logic_error);
+}
+
+// The next level's world and structure may be where the last one's were.
+TEST(Snapshot, IsOfItsOwnWorldAlone) {
+  std::optional<b2World> world;
+  std::optional<Structure> structure;
+  const auto make = [&] {
+    world.emplace(b2Vec2{0, -10});
+    structure.emplace(*world);
+    b2Body *wall = add_box(*world, {.type = b2_staticBody}), *box = add_box(*world, {.x = 1});
+    ElasticPlasticJointDef def;
+    def.Initialize(wall, box, {0.5f, 0}, {1, 0});
+    structure->create_joint(def);
+  };
+  make();
+  Snapshot snapshot;
+  snapshot.save(*world);
+  structure.reset();
+  world.reset();
+  b2World other({0, 0});  // takes the memory
+  add_box(other, {});
+  make();
+  EXPECT_THROW(snapshot.restore(*world), std::logic_error);
+  world->Step(1 / 60.0f, 8, 3);
+  structure->update();
 }
 
 }  // namespace

@@ -24,6 +24,10 @@ namespace ductile {
 /// All that the plan knows of the joint; with Plan::interaction, its N–M polygon too.
 ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint& joint);
 
+/// How fast and where to the joint's drive goes `time` seconds after the start; before its `from` it holds. A
+/// definition has it at full speed.
+Drive drive_at(const PlannedJoint& joint, double time);
+
 /// A stock weld: rigid, or with the joint's bending stiffness and damping.
 b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& joint);
 
@@ -32,12 +36,13 @@ b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& joint);
 b2RevoluteJointDef hinge_def(const Plan& plan, const PlannedJoint& joint);
 
 /// The stock joints that stand for planned ones.
-using StockJointDef =
-    std::variant<b2WeldJointDef, b2RevoluteJointDef, b2PrismaticJointDef, b2WheelJointDef, b2MotorJointDef>;
+using StockJointDef = std::variant<b2WeldJointDef, b2RevoluteJointDef, b2PrismaticJointDef, b2WheelJointDef,
+                                   b2MotorJointDef, b2DistanceJointDef>;
 
 /// The stock joint that leaves free what is free in the joint's rows: a revolute, prismatic or motor joint,
-/// or a wheel joint without a spring (a point on a line). Where no row is free, weld_def(). Nothing where all
-/// are.
+/// or a wheel joint without a spring (a point on a line). A line is a distance joint: a rope one of a
+/// greatest length, a strut of a least one. A driven pin's motor runs from the start. Where no row is free,
+/// weld_def(). Nothing where all are.
 std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& joint);
 
 /// What of the plan stock_def() or hinge_def() does not do, in plain words; empty where nothing is lost.
@@ -105,5 +110,9 @@ struct AppliedLoad {
 /// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start; returns
 /// those that are not zero. Call before each Step.
 std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time);
+
+/// Sets the plan's drives to drive_at(). Call before each Step; a joint that is gone must be null in
+/// `built.joints` by then, as a destruction listener learns.
+void apply_drives(const Plan& plan, const Built& built, double time);
 
 }  // namespace ductile

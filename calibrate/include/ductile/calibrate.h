@@ -96,8 +96,24 @@ struct BodyDef {
   bool collides = true;           ///< false: nothing touches it, and it may be thinner than Box2D collides
 };
 
-/// Two bodies joined wherever their edges overlap; across a segment; or at a point, two or more: the latter
-/// whether or not they meet there.
+/// A motor, winch or hydraulic jack: moves a row of a joint, with at most its cap. Beyond that it slips,
+/// which is no damage.
+struct DriveDef {
+  Row row = rotation;              ///< axial or rotation
+  std::optional<double> position;  ///< where it stops: length of a line, else distance (m) or turn (rad) of
+                                   ///< the second body from how it was drawn; unset: it goes on and on
+  /// m/s or rad/s: > 0 lengthens, or turns the second body counter-clockwise; with a position its sign says
+  /// nothing. 0: holds. Unset: it gets to its position evenly in `ramp`, or as fast as its cap lets it.
+  std::optional<double> speed;
+  double cap = unlimited;     ///< N or N m
+  double from = 0, ramp = 0;  ///< s: holds before `from`; its speed grows linearly over `ramp`
+};
+
+/// Which axial forces a line carries.
+enum class Carries { both, tension, compression };
+
+/// Two bodies joined wherever their edges overlap; across a segment; at a point, two or more, whether or not
+/// they meet there; or by a line from a point of one to a point of the other.
 struct JointBetweenDef {
   std::string a, b;  ///< names of bodies
   double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
@@ -109,6 +125,15 @@ struct JointBetweenDef {
   /// m, world axes at t = 0: the joint's section instead of common edges, between the pieces nearest to its
   /// middle, which is the joint's anchor. Two bodies may have several such joints.
   std::optional<std::array<Point, 2>> across;
+  /// m, world axes at t = 0: a rope, strut, winch or jack, from a point of a's nearest piece to one of b's.
+  /// Turns freely at both; rigid, and limited by its overrides alone.
+  std::optional<std::array<Point, 2>> line;
+  /// Of a line; one that is not `both` and has no `line` is between the bodies' centres of mass.
+  Carries carries = Carries::both;
+  std::optional<double> length;   ///< m: of a line without force; unset: as drawn
+  std::optional<DriveDef> drive;  ///< the row's cap is then that of the drive
+
+  bool is_line() const { return line || carries != Carries::both; }
 };
 
 /// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free. Fixed and sprung
@@ -205,6 +230,14 @@ struct PlannedJoint {
   std::array<double, 3> displacement{};  ///< SupportDef::displacement, by rows
   double ramp = 0;                       ///< s, SupportDef::ramp
   int node = 0;                          ///< ≠ 0: of one node, whose bodies hold together where body a goes
+  std::optional<Point>
+      end;            ///< m, world axes at t = 0: of a line, which goes from `anchor` on a to here on b
+  double length = 0;  ///< m: of a line without force
+  Carries carries = Carries::both;
+  std::optional<DriveDef> drive;
+
+  /// Where the joint is fixed to b.
+  Point far_anchor() const { return end.value_or(anchor); }
 };
 
 /// What an automatic split came to.
@@ -250,6 +283,12 @@ struct Plan {
   bool settles() const {
     for (const PlannedJoint& j : joints)
       if (j.displacement != std::array<double, 3>{}) return true;
+    return false;
+  }
+  /// Whether forces may depend on which lines are slack, or on how far drives have got.
+  bool has_lines_or_drives() const {
+    for (const PlannedJoint& j : joints)
+      if (j.carries != Carries::both || j.drive) return true;
     return false;
   }
   /// Makes the plan in a world, where a level says more of its bodies than pieces do and has more than a plan

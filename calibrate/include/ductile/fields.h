@@ -29,7 +29,7 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{0, true, {}, "a number > 0"};
 inline constexpr Range not_negative{0, false, {}, "a number >= 0"};
 inline constexpr Range limit{0, false, unlimited, "a number >= 0"};
-inline constexpr Range spring{0, true, unlimited, "a number > 0"};  ///< null: rigid
+inline constexpr Range spring{0, true, unlimited, "a number > 0"};  ///< null: rigid, or unlimited
 
 /// One field of an `Owner`, whose default is that of Owner{}.
 template <class Owner, class T>
@@ -99,8 +99,16 @@ inline constexpr std::tuple body{Field{"name", &BodyDef::name, any_number, "", t
                                  Field{"group", &BodyDef::group},
                                  Field{"collides", &BodyDef::collides}};
 
-/// A joint between bodies; `between` and overrides besides.
-inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"}};
+/// A joint between bodies; `between`, its place, `kind`, `drive` and overrides besides.
+inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"},
+                                  Field{"length", &JointBetweenDef::length, positive, "m"}};
+
+/// A drive; `row` besides.
+inline constexpr std::tuple drive{Field{"position", &DriveDef::position, any_number, "m or rad"},
+                                  Field{"speed", &DriveDef::speed, any_number, "m/s or rad/s"},
+                                  Field{"cap", &DriveDef::cap, spring, "N or N m"},
+                                  Field{"from", &DriveDef::from, not_negative, "s"},
+                                  Field{"ramp", &DriveDef::ramp, not_negative, "s"}};
 
 /// The springs of a support.
 inline constexpr std::tuple springs{Field{"x", &SupportDef::stiffness_x, positive, "N/m"},

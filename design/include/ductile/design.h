@@ -146,6 +146,7 @@ struct LeanPlan {
 /// they come and go, and the energy of what is loose around. Where a structure as a whole stays below yield,
 /// so is the error that is promised; elsewhere it is an estimate. Every item is run with and without, and
 /// kept only where the run shows no more than was promised. Joints with PlannedJoint::hold stay as they are.
+/// Nothing is left out beside ropes, struts and drives: no bound knows what they do.
 /// Throws InvalidInput as static_check() does.
 LeanPlan leave_out(const Plan& plan, const LeaveOut& options = {});
 

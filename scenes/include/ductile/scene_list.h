@@ -41,6 +41,8 @@ inline constexpr SceneEntry scene_list[] = {
      Outcome::stands},
     {"car", "A car jumps onto the drawbridge, bends its hinge and drives across.", 13, Outcome::bends},
     {"car_heavy", "A car three times as heavy tears the drawbridge off.", 10, Outcome::breaks},
+    {"crane_winch", "A crane winds in its rope and lifts a load of 6 t.", 12, Outcome::stands},
+    {"jack", "A hydraulic jack lifts a beam against a stop and bends it.", 10, Outcome::bends},
     {"B1-1", "A block of 10 000 t comes down on a beam of 20 m beside its root.", 5, Outcome::stands},
     {"B1-2", "The same on a beam of 6 m.", 5, Outcome::stands},
     {"B2-1", "Two pieces as long as they are high.", 5, Outcome::stands},

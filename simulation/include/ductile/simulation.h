@@ -45,6 +45,8 @@ struct JointReading {
   bool broken = false;
   double broken_at = std::numeric_limits<double>::quiet_NaN();  ///< s
   double dissipated = 0;                                        ///< J: its plastic work
+  double length = std::numeric_limits<double>::quiet_NaN();     ///< m: of a line now; else NaN
+  double drive = std::numeric_limits<double>::quiet_NaN();  ///< m or rad: how far a drive has got; else NaN
 };
 
 struct PieceReading {
@@ -116,6 +118,7 @@ class Simulation {
   void record(const JointEvent& event);
   JointReading read_stock(std::size_t index) const;
   double turn_of(int piece) const;  // rad, since the start
+  double length_of(std::size_t index) const;
 
   Plan plan_;
   JointSolver solver_;

@@ -2,6 +2,7 @@
 #include "worlds.h"
 
 #include "pasted/car.h"
+#include "pasted/crane_winch.h"
 #include "pasted/harbour_crane.h"
 
 namespace pasted {
@@ -14,4 +15,5 @@ Level level(Made made) {
 
 Level car(b2World& world) { return level(build_car(world)); }
 Level harbour_crane(b2World& world) { return level(build_harbour_crane(world)); }
+Level crane_winch(b2World& world) { return level(build_crane_winch(world)); }
 }  // namespace pasted

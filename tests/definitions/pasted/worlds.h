@@ -17,5 +17,6 @@ struct Level {
 
 Level car(b2World& world);
 Level harbour_crane(b2World& world);
+Level crane_winch(b2World& world);
 
 }  // namespace pasted

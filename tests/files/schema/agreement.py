@@ -111,7 +111,7 @@ material = definitions["material"]["oneOf"][1]
 elastic = next(way for way in definitions["elastic"]["oneOf"] if way.get("type") == "object")
 objects = {"strength": material, "substance": material, "elastic": elastic, "scene": scene,
            "overrides": definitions["override_keys"],
-           **{name: definitions[name] for name in ("body", "joint", "support", "load", "wheel")},
+           **{name: definitions[name] for name in ("body", "joint", "drive", "support", "load", "wheel")},
            "springs": definitions["support"]["properties"]["stiffness"]}
 tables = json.loads(subprocess.run([verdicts, "fields"], capture_output=True, text=True, check=True).stdout)
 assert tables.keys() == objects.keys(), tables.keys()

@@ -44,6 +44,7 @@ Json tables() {
           {"elastic", table<JointOverrides>(fields::elastic)},
           {"body", table<BodyDef>(fields::body)},
           {"joint", table<JointBetweenDef>(fields::joint)},
+          {"drive", table<DriveDef>(fields::drive)},
           {"support", table<SupportDef>(fields::support)},
           {"springs", table<SupportDef>(fields::springs)},
           {"load", table<LoadDef>(fields::load)},
