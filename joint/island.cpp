@@ -87,10 +87,13 @@ void Structure::Impl::velocity(const b2SolverData& data) {
 // Those that are rows of this step's problem. A body that a structure has joints on is a piece.
 void Structure::Impl::choose_contacts(const b2SolverData& data) {
   contacts_.clear();
-  if (def.solver != SolverKind::direct) return;
   contacts_.read(*world, data);
-  for (const Touch& t : contacts_.touches())
+  for (const Touch& t : contacts_.touches()) {
     for (b2Body* body : {t.a(), t.b()}) stop_if_not_finite(*body, data);
+    for (int32 k = 0; k < t.velocity->count; ++k)  // Box2D made it of the velocities: 0 · ∞ is no number
+      if (float& bounce = t.velocity->points[k].bounce; !b2IsValid(bounce)) bounce = 0;
+  }
+  if (def.solver != SolverKind::direct) return contacts_.clear();
   const auto is_ours = [this](const b2Body* body) { return structure_of(*body) == this; };
   const auto may_take = [this](b2Body* body) {
     return body->GetType() != b2_dynamicBody || (is_free(body) && !is_of_another(*body));

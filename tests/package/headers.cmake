@@ -1,6 +1,8 @@
 # The public headers, as users compile them who ask for many warnings, with each compiler that is here.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
-file(GLOB headers ${SOURCE}/joint/include/ductile/*.h ${SOURCE}/section/include/ductile/*.h ${SOURCE}/calibrate/include/ductile/*.h)
+file(GLOB headers ${SOURCE}/*/include/ductile/*.h)
+file(GLOB rooms ${SOURCE}/*/include)
+list(TRANSFORM rooms PREPEND -I)
 set(text "")
 foreach(header IN LISTS headers)
   get_filename_component(name ${header} NAME)
@@ -17,6 +19,6 @@ foreach(compiler g++ clang++)
   endif()
   foreach(standard c++20 gnu++20)
     run(${found_${compiler}} -std=${standard} -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -pedantic-errors
-      -I${SOURCE}/joint/include -I${SOURCE}/section/include -I${SOURCE}/calibrate/include ${SCRATCH}/user.cpp)
+      ${rooms} ${SCRATCH}/user.cpp)
   endforeach()
 endforeach()
