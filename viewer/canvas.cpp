@@ -154,8 +154,8 @@ void Canvas::thrown() {
   }
 }
 
-// A rope or strut from end to end; else a line across the cut in the colour of its stage, a dot that grows with its plastic rotation, or crosses
-// where it broke.
+// A rope or strut from end to end; else a line across the cut in the colour of its stage, a dot that grows
+// with its plastic rotation, or crosses where it broke.
 void Canvas::joints() {
   const Frame& frame = bench_->frame();
   for (std::size_t i = 0; i < placed_.size(); ++i) {
