@@ -2,6 +2,7 @@
 // rest.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -78,14 +79,27 @@ void add_elastica(std::vector<Benchmark>& rows, int pieces) {
     const Elastica exact = loaded_tip(load);
     const Point tip =
         tip_at_rest({.body = "bar", .at = {length, 0}, .force = {0, -load * EI / (length * length)}}, pieces);
-    const std::string source = "Bisshopp and Drucker, 1945; Mattiasson, 1981, table of elliptic integrals",
-                      read = "integrated here; all digits of Mattiasson's as quoted by others",
-                      input = fmt::format("{}; dead load, PL²/EI = {:g}", cut, load);
+    const std::string
+        source = "Bisshopp and Drucker, 1945; Mattiasson, 1981, table of elliptic integrals",
+        read = "integrated here; Mattiasson's 0.81061 and 0.55500 at PL²/EI = 10 as quoted by others",
+        input = fmt::format("{}; dead load, PL²/EI = {:g}", cut, load);
     rows.push_back({"Elastica, dead load at its tip", source, read, input,
                     fmt::format("sag over L, PL²/EI = {:g}", load), -exact.y, -tip.y, 0.01});
     rows.push_back({"Elastica, dead load at its tip", source, read, input,
                     fmt::format("shortening over L, PL²/EI = {:g}", load), 1 - exact.x, 1 - tip.x, 0.01});
   }
+}
+
+/// The most that a support that moves resists with, up to a time.
+double largest_push(const SceneDef& scene, const char* support, double until) {
+  Simulation simulation(calibrate(scene));
+  const std::size_t pusher = joint_named(simulation.plan(), support);
+  double most = 0;
+  while (simulation.time() < until) {
+    simulation.step();
+    most = std::max(most, std::abs(simulation.joint(pusher).Q));
+  }
+  return most;
 }
 
 /// The load that Lee's frame takes before it snaps, times L²/EI: its point under load is pushed down slowly.
@@ -103,16 +117,56 @@ double lees_limit(int pieces) {
   scene.supports = {
       {.body = "column", .at = {0, 0}, .fix_x = true, .fix_y = true},
       {.body = "beam", .at = {L, L}, .fix_x = true, .fix_y = true},
-      {.body = "beam", .at = {0.2 * L, L}, .fix_y = true, .displacement = {0, -0.6 * L, 0}, .ramp = 240}};
-  Simulation simulation(calibrate(scene));
-  const std::size_t pusher = joint_named(simulation.plan(), "support/2");
-  double most = 0;
-  while (simulation.time() < 240) {
-    simulation.step();
-    most = std::max(most, std::abs(simulation.joint(pusher).Q));
-  }
-  return most * L * L / EI;
+      {.body = "beam", .at = {0.2 * L, L}, .fix_y = true, .displacement = {0, -0.48 * L, 0}, .ramp = 240}};
+  return largest_push(scene, "support/2", 240) * L * L / EI;
 }
+
+// Williams' toggle, an inch being a metre and 1 psi 1 kPa, so that loads are those of aluminium in lb times
+// 1000.
+struct Toggle {
+  static constexpr double span = 12.943, rise = 0.386, b = 0.753, h = 0.243, E = 10.3e9;
+  static constexpr double bending = E * b * h * h * h / 12, stretching = E * b * h;
+
+  static double exact() {
+    return williams_limit_load(rise / span, stretching * span * span / bending) * bending / (span * span);
+  }
+  /// The largest force on the crown as it is pushed down slowly.
+  static double limit(int pieces) {
+    SceneDef scene = elastic_scene();
+    scene.joint.stiffness_axial.reset();
+    const double slope = std::atan(rise / span), along = std::hypot(span, rise), l = along / pieces;
+    const auto half = [&](const char* name, Point at, double angle) {
+      BodyDef body = bending_bar(name, along, pieces);
+      body.outline = {rectangle(0, -h / 2, along, h / 2), {}};
+      body.depth = b;
+      body.material->youngs_modulus = E;
+      body.at = at;
+      body.angle = angle;
+      return body;
+    };
+    const auto wall = [](const char* name, double from) {
+      return BodyDef{
+          .name = name, .type = BodyType::static_body, .outline = {rectangle(from, -1, from + 1, 1), {}}};
+    };
+    scene.bodies = {wall("foot", -1), half("left", {0, 0}, slope), half("right", {span, rise}, -slope),
+                    wall("other foot", 2 * span)};
+    const auto join = [&](const char* a, const char* b, double x, double y, double over) {
+      JointBetweenDef joint{.a = a, .b = b};
+      joint.across = {Point{x, y - h / 2}, Point{x, y + h / 2}};
+      joint.overrides.stiffness_moment = bending / over;
+      joint.overrides.stiffness_axial = stretching / over;
+      return joint;
+    };
+    scene.joints = {join("foot", "left", 0, 0, l / 2), join("left", "right", span, rise, l),
+                    join("right", "other foot", 2 * span, 0, l / 2)};
+    scene.supports = {{.body = "left",
+                       .at = {span, rise},
+                       .fix_y = true,
+                       .displacement = {0, -0.8 * rise, 0},
+                       .ramp = 120}};
+    return largest_push(scene, "support/0", 120);
+  }
+};
 
 /// Haythornthwaite's beam: rigid-plastic, built in at both ends, pushed down in its middle by w times its
 /// height; the force over the collapse load of bending, 8 M_p/L.
@@ -214,6 +268,52 @@ void add_beam_columns(std::vector<Benchmark>& rows) {
   }
 }
 
+/// A bar of 20 m held at x = 0, and at its far end where it is propped, under one load at its tip or spread
+/// evenly.
+SceneDef column(bool clamped, bool propped, int pieces, Point at_tip, double spread) {
+  SceneDef scene = elastic_scene();
+  scene.joint.moment.reset();
+  scene.bodies = {bending_bar("bar", length, pieces)};
+  scene.supports = {{.body = "bar", .at = {0, 0}, .fix_x = true, .fix_y = true, .fix_angle = clamped}};
+  if (propped) scene.supports.push_back({.body = "bar", .at = {length, 0}, .fix_y = true});
+  if (at_tip.x != 0) scene.loads.push_back({.body = "bar", .at = {length, 0}, .force = at_tip});
+  for (int i = 0; i < pieces && spread > 0; ++i)
+    scene.loads.push_back(
+        {.body = "bar", .at = {(i + 0.5) * length / pieces, 0}, .force = {0, -spread * length / pieces}});
+  return scene;
+}
+
+void add_columns(std::vector<Benchmark>& rows) {
+  struct End {
+    const char* name;
+    bool clamped, propped;
+    double exact;  // P L²/EI
+  };
+  const double tangent = 4.493409457909064;  // tan x = x
+  for (const End& end :
+       {End{"free", true, false, pi * pi / 4}, End{"pinned at both ends", false, true, pi * pi},
+        End{"clamped and propped", true, true, tangent * tangent}})
+    rows.push_back({"Column that buckles", "Euler, 1744", "closed form",
+                    fmt::format("{}, 20 m, 20 pieces", bar), fmt::format("critical PL²/EI, {}", end.name),
+                    end.exact,
+                    critical_load(calibrate(column(end.clamped, end.propped, 20, {-1, 0}, 0))).factor *
+                        length * length / EI,
+                    0.001});
+  // The hinge in the span is where the shear vanishes, (√2 − 1) L from the prop.
+  SceneDef propped = column(true, true, 40, {}, 1);
+  propped.supports[0].fix_angle = false;
+  propped.supports.erase(propped.supports.begin());
+  propped.bodies.push_back(
+      {.name = "wall", .type = BodyType::static_body, .outline = {rectangle(-1, -1, 0, 1), {}}});
+  propped.joints = {{.a = "wall", .b = "bar"}};
+  const double M = steel.yield_stress * thick * thick / 4;
+  rows.push_back({"Propped cantilever, load spread evenly",
+                  "Neal, The Plastic Methods of Structural Analysis: 6 + 4 √2", "closed form; not read",
+                  "rigid-plastic, 20 m × 0.1 m × 1 m, f_y = 350 MPa, 40 pieces", "collapse load qL²/M_p",
+                  6 + 4 * std::numbers::sqrt2,
+                  limit_analysis(calibrate(propped)).load_factor * length * length / M, 0.005});
+}
+
 }  // namespace
 
 std::vector<Benchmark> static_benchmarks(const Context& context) {
@@ -221,11 +321,17 @@ std::vector<Benchmark> static_benchmarks(const Context& context) {
   const int pieces = context.quick ? 20 : 40;
   add_elastica(rows, pieces);
   context.progress(0.2);
-  rows.push_back({"Lee's frame", "Lee, Manuel and Rossow, 1968 (18.55)", "integrated here; not read",
+  rows.push_back({"Lee's frame", "Lee, Manuel and Rossow, 1968", "integrated here; not read",
                   fmt::format("two bars of L = 12 m, {}, pins at their far ends, pushed down at 0.2 L from "
                               "the corner; {} pieces each",
                               bar, pieces),
                   "limit load, PL²/EI", lees_limit_load(), lees_limit(pieces), 0.01});
+  rows.push_back(
+      {"Williams' toggle", "Williams, 1964", "integrated here; not read",
+       fmt::format(
+           "aluminium, 2 × 12.943 in, rise 0.386 in, 0.753 in × 0.243 in, E = 10.3e6 psi; {} pieces each",
+           pieces),
+       "limit load [lb]", Toggle::exact() / 1000, Toggle::limit(pieces) / 1000, 0.01});
   context.progress(0.4);
   const std::vector<double> pushed{0.5, 1, 1.5};
   const std::vector<double> forces = membrane_action(pushed);
@@ -237,6 +343,7 @@ std::vector<Benchmark> static_benchmarks(const Context& context) {
          "rigid-plastic, 40 m × 1 m, f_y = 350 MPa, N and M on the surface; 2 pieces",
          fmt::format("P over 8 M_p/L at w = {:g} h", w), w <= 1 ? 1 + w * w : 2 * w, forces[i], 0.01});
   }
+  add_columns(rows);
   add_beam_columns(rows);
   return rows;
 }
