@@ -133,17 +133,19 @@ class Check {
   void add(const std::string& place, std::string what, std::string remedy) {
     problems.push_back({place, std::move(what), std::move(remedy)});
   }
-  // Nothing that is multiplied later may overflow; no number of a scene comes near this.
-  static constexpr double most = 1e30;
+  // Nothing that is multiplied later may overflow or vanish; no number of a scene comes near these.
+  static constexpr double most = 1e30, least = 1e-30;
 
   void finite(Point p, const std::string& place, const char* name) {
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most))
       add(place, std::string(name) + " is not finite", "give a finite number");
   }
   void number(double value, const fields::Range& range, const std::string& place, const char* name) {
-    if (value != range.null && !(range.contains(value) && std::abs(value) <= most))
+    const bool vanishes = range.low == 0 && value > 0 && value < least;
+    if (value != range.null && !(range.contains(value) && std::abs(value) <= most && !vanishes))
       add(place, std::string(name) + " is " + to_string(value),
-          std::string("give ") + range.words + (range.null == unlimited ? ", or unlimited" : ""));
+          vanishes ? "give at least 1e-30"
+                   : std::string("give ") + range.words + (range.null == unlimited ? ", or unlimited" : ""));
   }
 
   // The fields of a table. A default is right where files may leave the field out: 0 for what is derived

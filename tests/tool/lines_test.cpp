@@ -289,6 +289,7 @@ TEST(SceneLines, SayWhatIsWrong) {
   refused({{"kind", "rope"}, {"at", {{30, 1}, {1, 1}}}}, "joint 0", "farther");
   refused({{"kind", "rope"}, {"length", 0}}, "joints[0].length", "a number > 0");
   refused({{"kind", "rope"}, {"axial_compression", 5}}, "joint 0", "goes slack");
+  refused({{"kind", "rope"}, {"stiffness_axial", 1e-300}}, "joint 0", "at least 1e-30");
   refused({{"moment", 5}}, "joint 0", "bends or shears");
   refused({{"kind", "rope"}, {"drive", 1}}, "joints[0].drive", "");
   refused({{"kind", "rope"}, {"drive", {{"speed", 1}}}}, "joints[0].drive", "row");
