@@ -57,17 +57,24 @@ Json fields(const b2WeldJointDef& def) {
           {"stiffness", decimal(def.stiffness)},
           {"damping", decimal(def.damping)}};
 }
+/// Of a motor that stops at a position; the same in both versions.
+void put_limits(Json& object, const b2RevoluteJointDef& def) {
+  if (!def.enableLimit) return;
+  object["enableLimit"] = true;
+  object["lowerAngle"] = decimal(def.lowerAngle);
+  object["upperAngle"] = decimal(def.upperAngle);
+}
+
 Json fields(const b2RevoluteJointDef& def) {
-  return {{"type", "revolute"},
-          {"localAnchorA", json(def.localAnchorA)},
-          {"localAnchorB", json(def.localAnchorB)},
-          {"referenceAngle", decimal(def.referenceAngle)},
-          {"enableMotor", def.enableMotor},
-          {"motorSpeed", decimal(def.motorSpeed)},
-          {"maxMotorTorque", decimal(def.maxMotorTorque)},
-          {"enableLimit", def.enableLimit},
-          {"lowerAngle", decimal(def.lowerAngle)},
-          {"upperAngle", decimal(def.upperAngle)}};
+  Json object{{"type", "revolute"},
+              {"localAnchorA", json(def.localAnchorA)},
+              {"localAnchorB", json(def.localAnchorB)},
+              {"referenceAngle", decimal(def.referenceAngle)},
+              {"enableMotor", def.enableMotor},
+              {"motorSpeed", decimal(def.motorSpeed)},
+              {"maxMotorTorque", decimal(def.maxMotorTorque)}};
+  put_limits(object, def);
+  return object;
 }
 Json fields(const b2PrismaticJointDef& def) {
   return {{"type", "prismatic"},
@@ -132,9 +139,7 @@ Json fields_3(const b2RevoluteJointDef& def, const Plan&, const PlannedJoint&) {
   object["enableMotor"] = def.enableMotor;
   object["motorSpeed"] = decimal(def.motorSpeed);
   object["maxMotorTorque"] = decimal(def.maxMotorTorque);
-  object["enableLimit"] = def.enableLimit;
-  object["lowerAngle"] = decimal(def.lowerAngle);
-  object["upperAngle"] = decimal(def.upperAngle);
+  put_limits(object, def);
   return object;
 }
 Json fields_3(const b2DistanceJointDef& def, const Plan&, const PlannedJoint&) {
