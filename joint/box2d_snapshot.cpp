@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocks.h"
+#include "box2d_private.h"
 #include "reveal.h"
 #include "structure.h"
 
@@ -20,23 +21,11 @@ namespace ductile::dynamics {
 using FreeLists = b2Block* [b2_blockSizeCount];
 DUCTILE_REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
 DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
-DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
-DUCTILE_REVEAL(b2World, m_inv_dt0, float);
 DUCTILE_REVEAL(b2World, m_profile, b2Profile);
 DUCTILE_REVEAL(b2BlockAllocator, m_chunks, b2Chunk*);
 DUCTILE_REVEAL(b2BlockAllocator, m_chunkCount, int32);
 DUCTILE_REVEAL(b2BlockAllocator, m_freeLists, FreeLists);
-DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
 DUCTILE_REVEAL(b2BroadPhase, m_proxyCount, int32);
-DUCTILE_REVEAL(b2BroadPhase, m_moveBuffer, int32*);
-DUCTILE_REVEAL(b2BroadPhase, m_moveCount, int32);
-DUCTILE_REVEAL(b2DynamicTree, m_root, int32);
-DUCTILE_REVEAL(b2DynamicTree, m_nodes, b2TreeNode*);
-DUCTILE_REVEAL(b2DynamicTree, m_nodeCount, int32);
-DUCTILE_REVEAL(b2DynamicTree, m_nodeCapacity, int32);
-DUCTILE_REVEAL(b2DynamicTree, m_freeList, int32);
-DUCTILE_REVEAL(b2DynamicTree, m_insertionCount, int32);
-DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 
 }  // namespace ductile::dynamics
 

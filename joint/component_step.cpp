@@ -38,84 +38,6 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts) {
   return masses;
 }
 
-bool Component::touch(Touch t) {
-  t.in_a = index_of(t.a());
-  t.in_b = index_of(t.b());
-  if (t.in_a < 0 || t.in_b < 0) return false;
-  if (solver.is_free(t.in_a) && solver.is_free(t.in_b)) {
-    const std::pair pair = std::minmax(t.in_a, t.in_b);
-    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair)))
-      return false;
-  }
-  touches.push_back(t);
-  return true;
-}
-
-int Component::index_of(const b2Body* body) const {
-  const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
-  return at != by_address_.end() && at->first == body ? at->second : -1;
-}
-
-// Velocities as they were before the contacts' stored impulses went into them.
-void Component::set_warm_starts_aside() {
-  for (const Touch& t : touches) {
-    const VelocityConstraint& v = *t.velocity;
-    const b2Vec2 n = v.normal, l{n.y, -n.x};
-    Vec3 &a = mirrors[z(t.in_a)].exact, &b = mirrors[z(t.in_b)].exact;
-    for (int32 k = 0; k < v.count; ++k) {
-      const PointConstraint& p = v.points[k];
-      const double s = p.normal_impulse, t_ = p.tangent_impulse;
-      const double x = s * n.x + t_ * l.x, y = s * n.y + t_ * l.y;
-      a += {v.inverse_mass_a * x, v.inverse_mass_a * y, v.inverse_inertia_a * (p.ra.x * y - p.ra.y * x)};
-      b -= {v.inverse_mass_b * x, v.inverse_mass_b * y, v.inverse_inertia_b * (p.rb.x * y - p.rb.y * x)};
-    }
-  }
-}
-
-void Component::enter_contacts() {
-  rows_.clear();
-  for (const Touch& t : touches) {
-    const VelocityConstraint& v = *t.velocity;
-    Contact c;
-    c.a = t.in_a;
-    c.b = t.in_b;
-    const Turn to_a = inverse(solver.places[z(c.a)].turn), to_b = inverse(solver.places[z(c.b)].turn);
-    const Turn normal{v.normal.x, v.normal.y};
-    c.normal_a = to_a * normal;
-    c.normal_b = to_b * normal;
-    c.friction = v.friction;
-    c.conveyor = v.conveyor;
-    for (int32 k = 0; k < v.count; ++k) {
-      const PointConstraint& p = v.points[k];
-      const Turn ra = to_a * Turn{p.ra.x, p.ra.y}, rb = to_b * Turn{p.rb.x, p.rb.y};
-      c.ax = ra.c, c.ay = ra.s, c.bx = rb.c, c.by = rb.s;
-      c.bounce = p.bounce;
-      c.normal = p.normal_impulse;
-      c.tangent = p.tangent_impulse;
-      c.id = t.contact->GetManifold()->points[k].id.key;
-      rows_.push_back(c);
-    }
-  }
-  solver.touch(rows_);
-}
-
-// Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
-// be brought back.
-void Component::return_contacts() {
-  auto row = solver.contacts.begin();
-  for (const Touch& t : touches) {
-    for (int32 k = 0; k < t.velocity->count; ++k, ++row) {
-      t.velocity->points[k].normal_impulse = static_cast<float>(row->normal);
-      t.velocity->points[k].tangent_impulse = static_cast<float>(row->tangent);
-    }
-    settle(*t.velocity);
-    const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
-    const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
-    if (anchored_ && !a.guest && yields(b)) hold_a(*t.position);
-    if (anchored_ && !b.guest && yields(a)) hold_b(*t.position);
-  }
-}
-
 // Box2D prepends new joints to a body's list, and one of ours that goes dissolves the component.
 bool Component::only_ours(const Mirror& m) {
   return m.body->GetContactList() == nullptr && m.body->GetJointList() == m.joints;
@@ -176,21 +98,6 @@ void Component::take(Mirror& m, const b2SolverData& data) {
     struck_ |= !m.guest && std::max(jump.Length(), turn) > blow_speed;
   }
   m.given = m.taken;
-}
-
-// Whether velocities jump at the start of this step: of pieces, or as something closes with them.
-bool Component::is_blow() const {
-  if (struck_) return true;
-  for (const Touch& t : touches) {
-    const VelocityConstraint& v = *t.velocity;
-    for (int32 k = 0; k < v.count; ++k) {
-      const auto at = [](const b2Body* body, const b2Vec2& arm) {
-        return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
-      };
-      if (b2Dot(at(t.b(), v.points[k].rb) - at(t.a(), v.points[k].ra), v.normal) < -blow_speed) return true;
-    }
-  }
-  return false;
 }
 
 void Component::first_velocity(const b2SolverData& data) {
@@ -397,55 +304,6 @@ void Component::write_poses(const b2SolverData& data) {
   }
 }
 
-// Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
-// what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
-// together.
-void Component::limit_speed(const b2SolverData& data) {
-  if (kind != SolverKind::direct) return;
-  constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
-  const auto share = [&](double limit, double speed) {
-    return std::min(1.0, rounding * limit / (solver.step() * speed));
-  };
-  const auto kinetic = [&] {
-    double sum = 0;
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-      const Body& b = solver.bodies[i];
-      sum += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
-    }
-    return sum;
-  };
-  double before = 0;
-  for (int pass = 0;; ++pass) {
-    const double least =
-        std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
-    if (least == 1) {
-      if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
-      return;
-    }
-    if (pass == 0) before = kinetic();
-    const bool together = pass == 4;
-    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-      Body& b = solver.bodies[i];
-      const double linear =
-          together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
-      const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
-      const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
-      const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
-      accounts[i].lost.v += lost.v;
-      accounts[i].lost.w += lost.w;
-      if (together) continue;
-      b.v_free -= less;
-      b.v -= less;
-    }
-    if (together) {
-      solver.scale(least);
-      report->slowed = std::max(report->slowed, 1 - kinetic() / before);
-      return give(data);
-    }
-    solve(data);
-  }
-}
-
 // After the last velocity iteration: poses move, what has flowed is booked. Kinematic bodies are moved by
 // Box2D.
 void Component::advance(const b2SolverData& data) {
@@ -473,28 +331,6 @@ void Component::advance(const b2SolverData& data) {
     kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
   at_rest_ = kind == SolverKind::direct && touches.empty() && alone && !kinematic && solver.at_rest();
-}
-
-double Component::close_ledger() {
-  if (!std::exchange(open, false)) return 0;
-  const float h = static_cast<float>(solver.step());
-  double clamped = 0;
-  for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    const Mirror& m = mirrors[i];
-    solver.before[i] = {};
-    if (i >= solver.free_bodies() || m.guest) continue;
-    const b2Vec2 v = m.body->GetLinearVelocity();
-    const float w = m.body->GetAngularVelocity();
-    solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
-    // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
-    b2Velocity lost = accounts[i].lost;
-    if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
-    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
-    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (accounts[i].began.v + v)) +
-               solver.bodies[i].inertia * lost.w * (accounts[i].began.w + w) / 2;
-  }
-  solver.close_ledger(solver.before);
-  return clamped;
 }
 
 }  // namespace ductile::dynamics

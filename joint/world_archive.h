@@ -13,6 +13,12 @@
 
 namespace ductile {
 
+/// A number of a game's; its own user data (B2_USER_SETTINGS) may have none.
+template <class UserData>
+void user_data(Archive& archive, UserData& data) {
+  if constexpr (requires { data.pointer; }) archive("user", data.pointer);
+}
+
 class WorldArchive {
  public:
   /// Writes the world, or reads into it: then it has nothing but watches.

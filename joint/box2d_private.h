@@ -1,0 +1,23 @@
+// Private members of Box2D that snapshots and saves both read. Written against Box2D 2.4.1.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include "reveal.h"
+
+namespace ductile::dynamics {
+
+DUCTILE_REVEAL(b2World, m_inv_dt0, float);
+DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
+DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
+DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
+DUCTILE_REVEAL(b2BroadPhase, m_moveBuffer, int32*);
+DUCTILE_REVEAL(b2BroadPhase, m_moveCount, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_root, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_nodes, b2TreeNode*);
+DUCTILE_REVEAL(b2DynamicTree, m_nodeCount, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_nodeCapacity, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_freeList, int32);
+DUCTILE_REVEAL(b2DynamicTree, m_insertionCount, int32);
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,104 @@
+// Contacts of a step as rows of a component: read from the island's contact solver, and given back to it.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "component.h"
+#include "frames.h"
+
+namespace ductile::dynamics {
+
+bool Component::touch(Touch t) {
+  t.in_a = index_of(t.a());
+  t.in_b = index_of(t.b());
+  if (t.in_a < 0 || t.in_b < 0) return false;
+  if (solver.is_free(t.in_a) && solver.is_free(t.in_b)) {
+    const std::pair pair = std::minmax(t.in_a, t.in_b);
+    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair)))
+      return false;
+  }
+  touches.push_back(t);
+  return true;
+}
+
+int Component::index_of(const b2Body* body) const {
+  const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
+  return at != by_address_.end() && at->first == body ? at->second : -1;
+}
+
+// Velocities as they were before the contacts' stored impulses went into them.
+void Component::set_warm_starts_aside() {
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    const b2Vec2 n = v.normal, l{n.y, -n.x};
+    Vec3 &a = mirrors[z(t.in_a)].exact, &b = mirrors[z(t.in_b)].exact;
+    for (int32 k = 0; k < v.count; ++k) {
+      const PointConstraint& p = v.points[k];
+      const double s = p.normal_impulse, t_ = p.tangent_impulse;
+      const double x = s * n.x + t_ * l.x, y = s * n.y + t_ * l.y;
+      a += {v.inverse_mass_a * x, v.inverse_mass_a * y, v.inverse_inertia_a * (p.ra.x * y - p.ra.y * x)};
+      b -= {v.inverse_mass_b * x, v.inverse_mass_b * y, v.inverse_inertia_b * (p.rb.x * y - p.rb.y * x)};
+    }
+  }
+}
+
+void Component::enter_contacts() {
+  rows_.clear();
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    Contact c;
+    c.a = t.in_a;
+    c.b = t.in_b;
+    const Turn to_a = inverse(solver.places[z(c.a)].turn), to_b = inverse(solver.places[z(c.b)].turn);
+    const Turn normal{v.normal.x, v.normal.y};
+    c.normal_a = to_a * normal;
+    c.normal_b = to_b * normal;
+    c.friction = v.friction;
+    c.conveyor = v.conveyor;
+    for (int32 k = 0; k < v.count; ++k) {
+      const PointConstraint& p = v.points[k];
+      const Turn ra = to_a * Turn{p.ra.x, p.ra.y}, rb = to_b * Turn{p.rb.x, p.rb.y};
+      c.ax = ra.c, c.ay = ra.s, c.bx = rb.c, c.by = rb.s;
+      c.bounce = p.bounce;
+      c.normal = p.normal_impulse;
+      c.tangent = p.tangent_impulse;
+      c.id = t.contact->GetManifold()->points[k].id.key;
+      rows_.push_back(c);
+    }
+  }
+  solver.touch(rows_);
+}
+
+// Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
+// be brought back.
+void Component::return_contacts() {
+  auto row = solver.contacts.begin();
+  for (const Touch& t : touches) {
+    for (int32 k = 0; k < t.velocity->count; ++k, ++row) {
+      t.velocity->points[k].normal_impulse = static_cast<float>(row->normal);
+      t.velocity->points[k].tangent_impulse = static_cast<float>(row->tangent);
+    }
+    settle(*t.velocity);
+    const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
+    const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
+    if (anchored_ && !a.guest && yields(b)) hold_a(*t.position);
+    if (anchored_ && !b.guest && yields(a)) hold_b(*t.position);
+  }
+}
+
+// Whether velocities jump at the start of this step: of pieces, or as something closes with them.
+bool Component::is_blow() const {
+  if (struck_) return true;
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    for (int32 k = 0; k < v.count; ++k) {
+      const auto at = [](const b2Body* body, const b2Vec2& arm) {
+        return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
+      };
+      if (b2Dot(at(t.b(), v.points[k].rb) - at(t.a(), v.points[k].ra), v.normal) < -blow_speed) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace ductile::dynamics

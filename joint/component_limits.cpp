@@ -1,0 +1,83 @@
+// Box2D's limits of speed: where a structure is too fast for them, it is slowed as a whole, and what they
+// took all the same is told to the ledger.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "component.h"
+#include "frames.h"
+
+namespace ductile::dynamics {
+
+// Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
+// what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
+// together.
+void Component::limit_speed(const b2SolverData& data) {
+  if (kind != SolverKind::direct) return;
+  constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
+  const auto share = [&](double limit, double speed) {
+    return std::min(1.0, rounding * limit / (solver.step() * speed));
+  };
+  const auto kinetic = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const Body& b = solver.bodies[i];
+      sum += b.mass * (b.v.x * b.v.x + b.v.y * b.v.y) + b.inertia * b.v.w * b.v.w;
+    }
+    return sum;
+  };
+  double before = 0;
+  for (int pass = 0;; ++pass) {
+    const double least =
+        std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
+    if (least == 1) {
+      if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return;
+    }
+    if (pass == 0) before = kinetic();
+    const bool together = pass == 4;
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      Body& b = solver.bodies[i];
+      const double linear =
+          together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
+      const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
+      const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
+      const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
+      accounts[i].lost.v += lost.v;
+      accounts[i].lost.w += lost.w;
+      if (together) continue;
+      b.v_free -= less;
+      b.v -= less;
+    }
+    if (together) {
+      solver.scale(least);
+      report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      return give(data);
+    }
+    solve(data);
+  }
+}
+
+double Component::close_ledger() {
+  if (!std::exchange(open, false)) return 0;
+  const float h = static_cast<float>(solver.step());
+  double clamped = 0;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& m = mirrors[i];
+    solver.before[i] = {};
+    if (i >= solver.free_bodies() || m.guest) continue;
+    const b2Vec2 v = m.body->GetLinearVelocity();
+    const float w = m.body->GetAngularVelocity();
+    solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
+    // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
+    b2Velocity lost = accounts[i].lost;
+    if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
+    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
+    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (accounts[i].began.v + v)) +
+               solver.bodies[i].inertia * lost.w * (accounts[i].began.w + w) / 2;
+  }
+  solver.close_ledger(solver.before);
+  return clamped;
+}
+
+}  // namespace ductile::dynamics
