@@ -208,7 +208,9 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
          round.number < tunables.round_bound;
        ++round.number) {
-    if (round.number >= tunables.flow_rounds && (at.flows || round.crossed)) break;
+    if (round.number >= (system.contacts.empty() ? tunables.flow_rounds : tunables.contact_rounds) &&
+        (at.flows || round.crossed))
+      break;
     bool refactor = worth_refactoring(system, hessian, at, round);
     refactor |= hessian.factored() == Factored::nothing || hessian.factored() == Factored::holding ||
                 round.crossed || at.curved;

@@ -129,7 +129,7 @@ TEST(Solver, FrictionIsFoundWithWhatPresses) {
   put(line.solver.places.emplace_back(), {0, 0, 0});
   line.solver.form(blocks);
   line.solver.locate();
-  line.solver.tunables().flow_rounds = line.solver.tunables().round_bound = 0;
+  line.solver.tunables().contact_rounds = line.solver.tunables().round_bound = 0;
   std::vector<Contact> contacts(blocks);
   for (int i = 0; i < blocks; ++i) {
     contacts[z(i)].a = blocks;
