@@ -91,7 +91,7 @@ struct ProfileClass {
 std::vector<ProfileClass> profile_classes(const Plan& plan) {
   std::vector<ProfileClass> all;
   for (const BodyDef& body : plan.bodies) {
-    if (body.profile_name.empty()) continue;
+    if (body.profile_name.empty() || !is_steel(body.profile.front().material)) continue;
     const Rolled profile = rolled(body.profile_name);
     const Material& material = body.profile.front().material;
     const double A_eff = effective_area(profile, material.yield_stress);
@@ -102,6 +102,8 @@ std::vector<ProfileClass> profile_classes(const Plan& plan) {
 }
 
 }  // namespace
+
+bool is_steel(const Material& material) { return std::abs(material.youngs_modulus / 210e9 - 1) < 0.1; }
 
 std::string profile_lines(const Plan& plan) {
   std::string text;

@@ -65,7 +65,11 @@ std::string joint_name(const Plan& plan, int joint);
 /// "first order; buckles at 1.2 times the loads": what check and limit say of stability.
 std::string buckling_line(bool second_order, double critical_load_factor);
 
-/// Of each body with a profile of rolled.h: its classes by EN 1993-1-1 Table 5.2, as lines of a table and for
+/// Whether EN 1993 speaks of it: E within a tenth of 210 GPa.
+bool is_steel(const Material& material);
+
+/// Of each body with a profile of rolled.h, in steel: its classes by EN 1993-1-1 Table 5.2, as lines of a
+/// table and for
 /// --json.
 std::string profile_lines(const Plan& plan);
 Json profiles_json(const Plan& plan);

@@ -182,14 +182,14 @@ std::string run(const Options& options) {
   const std::array radii{std::sqrt(axes.I_max / section.area()), std::sqrt(axes.I_min / section.area())};
   std::optional<Classes> classes;
   std::optional<int> bending_class;
-  if (subject.profile) {
+  if (subject.profile && is_steel(subject.regions[0].material)) {
     classes = section_class(*subject.profile, subject.regions[0].material.yield_stress);
     if (d.x == 0) bending_class = classes->bending_y;
     if (d.y == 0) bending_class = classes->bending_z;
   }
   std::optional<Utilisation> used;
   const double A_eff =
-      subject.profile ? effective_area(*subject.profile, subject.regions[0].material.yield_stress) : unknown;
+      classes ? effective_area(*subject.profile, subject.regions[0].material.yield_stress) : unknown;
   if (options.N || options.Q || options.M) used = utilisation(options, section, d, c, e, shear.Q);
   const auto notes = remarks(subject, section, d, axes, bending_class, A_eff, options.N.value_or(0));
 
@@ -227,7 +227,7 @@ std::string run(const Options& options) {
     if (classes)
       result["class"] = {{"compression", classes->compression},
                          {"bending", bending_class ? Json(*bending_class) : Json(nullptr)}};
-    if (subject.profile) result["A_eff"] = number(A_eff);
+    if (classes) result["A_eff"] = number(A_eff);
     if (used)
       result["utilisation"] = {{"N", number(used->N)},
                                {"Q", number(used->Q)},

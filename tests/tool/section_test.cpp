@@ -90,6 +90,7 @@ TEST(SectionCommand, KnowsProfilesByName) {  // IPE 300 of S355: ArcelorMittal's
   EXPECT_EQ(result["class"]["compression"], 4);
   EXPECT_EQ(result["class"]["bending"], 1);
   EXPECT_TRUE(result["remarks"].empty()) << result["remarks"];
+  EXPECT_FALSE(run("section IPE300 --material pine --json").json().contains("class"));  // a rule for steel
   // About its weak axis the flanges carry the shear: 2 b t_f.
   const json weak = run("section IPE300 --angle 0 --json").json();
   expect_near(weak["A_v"], 2 * 0.15 * 0.0107, 1e-9);
