@@ -61,6 +61,7 @@ void Desk::adopt() {
   scene_ = save_as_ = bench_.file().string();
   camera_.show(extent(bench_.plan()));
   hand_.suit(bench_.plan());
+  if (maker_.tool() != Maker::Tool::none) take(maker_.tool());
 }
 
 void Desk::tip(const char* name, const char* text) {
@@ -121,8 +122,11 @@ void Desk::keys() {
     if (key(GLFW_KEY_Z)) bench_.undo();
     if (key(GLFW_KEY_Y)) bench_.redo();
     if (key(GLFW_KEY_A)) bench_.select(joints_from(bench_.frame(), 0), false);
+    if (key(GLFW_KEY_N)) start_new();
+    if (key(GLFW_KEY_O)) open_named();
     return;
   }
+  const bool made = make_keys();
   if (key(GLFW_KEY_R)) bench_.restart();
   if (key(GLFW_KEY_P)) bench_.playing = !bench_.playing;
   if (key(GLFW_KEY_O, true) || key(GLFW_KEY_PERIOD, true)) bench_.step_by(1);
@@ -138,17 +142,18 @@ void Desk::keys() {
   if (key(GLFW_KEY_RIGHT_BRACKET)) bench_.open_neighbour(1);
   if (key(GLFW_KEY_Z, true)) camera_.zoom(1 / 1.1, camera_.screen.middle());
   if (key(GLFW_KEY_X, true)) camera_.zoom(1.1, camera_.screen.middle());
-  const double pan = 40 * ui_;
-  if (key(GLFW_KEY_LEFT, true)) camera_.pan({pan, 0});
-  if (key(GLFW_KEY_RIGHT, true)) camera_.pan({-pan, 0});
-  if (key(GLFW_KEY_UP, true)) camera_.pan({0, pan});
-  if (key(GLFW_KEY_DOWN, true)) camera_.pan({0, -pan});
+  if (const double pan = 40 * ui_; !made) {
+    if (key(GLFW_KEY_LEFT, true)) camera_.pan({pan, 0});
+    if (key(GLFW_KEY_RIGHT, true)) camera_.pan({-pan, 0});
+    if (key(GLFW_KEY_UP, true)) camera_.pan({0, pan});
+    if (key(GLFW_KEY_DOWN, true)) camera_.pan({0, -pan});
+  }
   if (key(GLFW_KEY_HOME)) camera_.show(extent(bench_.plan()));
   if (key(GLFW_KEY_F)) look_.forces = !look_.forces;
   if (key(GLFW_KEY_T)) look_.moments = !look_.moments;
   if (key(GLFW_KEY_N)) look_.numbers = static_cast<Look::Numbers>((static_cast<int>(look_.numbers) + 1) % 3);
   if (key(GLFW_KEY_H) || key(GLFW_KEY_F1)) helping_ = !helping_;
-  if (key(GLFW_KEY_ESCAPE)) {
+  if (key(GLFW_KEY_ESCAPE) && !made) {
     if (helping_) {
       helping_ = false;
     } else {
@@ -180,14 +185,19 @@ void Desk::help() {
       Row{"M", "put a mass at the pointer"},
       Row{"A  S  D", "drive on, brake, drive back"},
       Row{"F  T  N", "forces, moments, numbers"},
+      Row{"1 … 6", "look; make a beam, support, load; move; delete"},
+      Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
+      Row{"Enter", "with a tool: what a press and a release do"},
+      Row{"Delete", "delete what is at the cursor, or the body"},
       Row{"click", "select a joint (shift: one more), or a body"},
       Row{"drag", "drag a body; from empty ground: select in a box"},
       Row{"ctrl+drag", "select in a box anywhere"},
       Row{"shift+drag", "pull a bomb back and let it go"},
       Row{"ctrl+A", "select all joints"},
       Row{"ctrl+click", "type a slider's value"},
-      Row{"ctrl+Z  Y  S", "undo, redo, save"},
-      Row{"Escape", "select nothing"},
+      Row{"ctrl+Z  Y", "undo, redo"},
+      Row{"ctrl+N  O  S", "new scene, open, save"},
+      Row{"Escape", "give up what is drawn, lay the tool down, select nothing"},
       Row{"H", "this list"},
   };
   const Point middle = camera_.screen.middle();
@@ -230,7 +240,7 @@ void Desk::centre(const Box& box) {
     if (io.MouseWheel != 0) camera_.zoom(std::pow(1.15, io.MouseWheel), mouse);
     pointed =
         joint_at(bench_.plan(), bench_.frame(), camera_.to_world(mouse), Hand::reach * ui_ / camera_.scale);
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && maker_.tool() == Maker::Tool::none) {
       if (placing_) {
         hand_.put(bench_, camera_.to_world(mouse));
         placing_ = false;
@@ -246,7 +256,10 @@ void Desk::centre(const Box& box) {
       hand_.release(bench_, camera_, mouse);
     }
   }
+  if (maker_.tool() != Maker::Tool::none) make_with(mouse, over);
   ImDrawList& to = *ImGui::GetWindowDrawList();
+  const bool making = maker_.tool() != Maker::Tool::none && bench_.run().cursor() == 0;
+  if (making) draw_grid(to);
   canvas_.draw(to, bench_, camera_, look_, hand_, ui_, pointed);
   constexpr std::array solvers{"direct", "iterative", "stock"};
   const std::string title =
@@ -254,6 +267,7 @@ void Desk::centre(const Box& box) {
                   bench_.changed() ? " (changed)" : "", bench_.frame().time,
                   solvers[static_cast<std::size_t>(bench_.solver())], placing_ ? "   click: a mass" : "");
   to.AddText(px(box.low + ui_ * Point{12, 10}), ink::edge, title.c_str());
+  if (making) draw_making(to);
   if (pointed && hand_.doing() == Hand::Doing::nothing) {
     const JointReading& joint = bench_.frame().joints[*pointed];
     ImGui::BeginTooltip();

@@ -12,13 +12,14 @@
 
 #include "canvas.h"
 #include "diagram.h"
+#include "maker.h"
 #include "workbench.h"
 
 namespace ductile::viewer {
 
 class Desk {
  public:
-  /// `tab`: "joint", "joints", "edit", "events" or "ledger" is open at first.
+  /// `tab`: "joint", "joints", "edit", "events", "ledger" or "make" is open at first.
   explicit Desk(Workbench& bench, bool forces = false, std::string tab = "")
       : bench_(bench), first_tab_(std::move(tab)) {
     look_.forces = look_.moments = forces;
@@ -31,6 +32,7 @@ class Desk {
   void when_saved(std::function<void(const std::filesystem::path&)> what) { when_saved_ = std::move(what); }
 
   const Camera& camera() const { return camera_; }
+  const Maker& maker() const { return maker_; }
   /// The box of every control of the last frame, px, by name.
   const std::map<std::string, Box>& controls() const { return controls_; }
 
@@ -55,6 +57,14 @@ class Desk {
   void ledger();
   void message();
   void help();
+  void make();
+  bool make_keys();
+  void make_with(Point mouse, bool over);
+  void draw_grid(ImDrawList& to) const;
+  void draw_making(ImDrawList& to) const;
+  void take(Maker::Tool tool);
+  void start_new();
+  void open_named();
 
   void save();
   /// Puts a changed scene on the bench where a control `changed` it; wrong values become the message.
@@ -73,6 +83,7 @@ class Desk {
   Canvas canvas_;
   Look look_;
   Hand hand_;
+  Maker maker_;
   double ui_ = 1;
   int edition_ = -1;
   std::filesystem::path file_;   // of the scene that is shown

@@ -74,7 +74,8 @@ void Desk::details(const Box& box) {
       Tab{"Joints", "tab joints", "All joints as a list; selection by usage.", &Desk::joints},
       Tab{"Edit", "tab edit", "Material, depth, pieces and limits of what is selected.", &Desk::edit},
       Tab{"Events", "tab events", "What yielded and broke; a click goes there.", &Desk::events},
-      Tab{"Ledger", "tab ledger", "Where the energy goes, and what a step costs.", &Desk::ledger}};
+      Tab{"Ledger", "tab ledger", "Where the energy goes, and what a step costs.", &Desk::ledger},
+      Tab{"Make", "tab make", "Beams, supports and loads; what the static check says of them.", &Desk::make}};
   if (ImGui::BeginTabBar("tabs")) {
     for (const Tab& tab : tabs) {
       const bool wanted = !first_tab_.empty() && tab.control == "tab " + first_tab_;

@@ -1,6 +1,9 @@
 #include "trace.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "ductile/colours.h"
 
 namespace ductile::viewer {
 
@@ -20,6 +23,8 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
   for (std::size_t i = 0; i < bench.plan().pieces.size(); ++i) {
     pieces[bench.plan().pieces[i].name] = pixels(bench.frame().pieces[i].position);
   }
+  double usage = 0;  // the largest of all joints' rows
+  for (const JointReading& joint : bench.frame().joints) usage = std::max(usage, stage(joint));
   for (const std::size_t i : bench.selected) selected.push_back(bench.plan().joints[i].name);
   const Box& view = desk.camera().screen;
   const Json state{{"file", bench.file().string()},
@@ -36,6 +41,11 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
                    {"selected", selected},
                    {"changed", bench.changed()},
                    {"message", bench.message},
+                   {"tool", static_cast<int>(desk.maker().tool())},
+                   {"cursor", {desk.maker().cursor().x, desk.maker().cursor().y}},
+                   {"verdict", bench.verdict()},
+                   {"usage", usage},
+                   {"centre", {desk.camera().centre.x, desk.camera().centre.y}},
                    {"scale", desk.camera().scale},
                    {"view", {view.low.x, view.low.y, view.high.x, view.high.y}},
                    {"joints", joints},

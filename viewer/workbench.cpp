@@ -1,5 +1,7 @@
 #include "workbench.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -7,8 +9,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/scene_list.h"
+#include "making.h"
 #include "open.h"
 
 namespace ductile::viewer {
@@ -16,16 +20,6 @@ namespace {
 
 constexpr std::size_t gone = std::numeric_limits<std::size_t>::max();  // the saved version was edited away
 constexpr double most_owed = 0.1;  // s: what a slow machine does not show in time is shown later, not lost
-
-SceneDef floor_alone() {
-  SceneDef scene;
-  BodyDef floor;
-  floor.name = "floor";
-  floor.type = BodyType::static_body;
-  floor.outline.outer = {{-10, -1}, {10, -1}, {10, 0}, {-10, 0}};
-  scene.bodies = {floor};
-  return scene;
-}
 
 /// Steps per second that one of this repository's scenes asks for; 0: those of every other scene.
 double usual_hz(const std::filesystem::path& file) {
@@ -38,15 +32,18 @@ double usual_hz(const std::filesystem::path& file) {
 }  // namespace
 
 Workbench::Workbench(std::vector<std::filesystem::path> scenes)
-    : scenes_(std::move(scenes)), versions_{floor_alone()}, before_(calibrate(versions_[0])) {
+    : scenes_(std::move(scenes)), versions_{empty_scene()}, before_(calibrate(versions_[0])) {
   run_ = std::make_unique<Timeline>(before_);
 }
 
 void Workbench::open(const std::filesystem::path& file, double metres_per_unit) {
-  Opened opened = open_file(file, metres_per_unit);
+  put(open_file(file, metres_per_unit), file);
+}
+
+void Workbench::put(Opened opened, const std::filesystem::path& source) {
   Plan plan;
   std::unique_ptr<Timeline> run;
-  in_file(file.string(), [&] {
+  in_file(source.string(), [&] {
     plan = opened.level ? *opened.level : calibrate(opened.scene);
     run = std::make_unique<Timeline>(plan, solver());
     if (const double hz = usual_hz(opened.file); hz > 0) run->act(act::Set{{.dt = 1 / hz}});
@@ -67,6 +64,7 @@ void Workbench::open(const std::filesystem::path& file, double metres_per_unit) 
   body.reset();
   owed_ = 0;
   if (stock_) start_stock();
+  check();
 }
 
 bool Workbench::may_discard(const std::string& what) {
@@ -86,6 +84,17 @@ bool Workbench::try_open(const std::filesystem::path& file) {
     message = file.filename().string() + " cannot be opened.\n" + error.what();
     return false;
   }
+}
+
+bool Workbench::try_new() {
+  if (!may_discard("start a new scene")) return false;
+  const std::filesystem::path folder = file_.parent_path();
+  std::filesystem::path file = folder / "new.scene.json";
+  for (int number = 2; std::filesystem::exists(file); ++number) {
+    file = folder / ("new" + std::to_string(number) + ".scene.json");
+  }
+  put({.scene = empty_scene(), .file = file}, file);
+  return true;
 }
 
 void Workbench::open_neighbour(int by) {
@@ -162,6 +171,34 @@ void Workbench::show(Plan plan, JointSolver solver, std::vector<Timeline::Entry>
   run_ = std::move(run);
   owed_ = 0;
   if (stock_) start_stock();
+  check();
+}
+
+void Workbench::check_at_rest(bool on) {
+  checks_ = on;
+  check();
+}
+
+void Workbench::check() {
+  at_rest_.reset();
+  verdict_.clear();
+  const Frame* start = run_->kept(0);
+  if (!checks_ || !start) return;
+  try {
+    const StaticCheck found = static_check(plan());
+    Frame frame = *start;
+    for (std::size_t i = 0; i < found.joints.size(); ++i) {
+      const StaticJoint& joint = found.joints[i];
+      frame.joints[i] = {.N = joint.N, .Q = joint.Q, .M = joint.M, .usage = joint.usage};
+    }
+    at_rest_ = std::move(frame);
+    verdict_ = found.first_to_yield.empty()
+                   ? "no factor on its loads makes it yield"
+                   : fmt::format("yields at {:.3g} times its loads, first in {}", found.reserve,
+                                 plan().joints[static_cast<std::size_t>(found.first_to_yield.front())].name);
+  } catch (const InvalidInput& error) {
+    verdict_ = error.problems().front().what;
+  }
 }
 
 void Workbench::set_solver(JointSolver solver) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "open.h"
 #include "timeline.h"
 
 namespace ductile::viewer {
@@ -29,6 +30,9 @@ class Workbench {
   bool may_discard(const std::string& what);
   /// The next or the previous of the list, around its ends.
   void open_neighbour(int by);
+  /// A scene with nothing but a floor, in the place of this one, to be saved beside it under a name that no
+  /// file has yet. As try_open() it does not lose edits unless asked again.
+  bool try_new();
   /// Whether there is a scene to edit and save; a R.U.B.E. level has none.
   bool editable() const { return editable_; }
   /// What was not edited stays in the file as it stood. Throws std::system_error; InvalidInput where it is
@@ -57,7 +61,8 @@ class Workbench {
   // --- the run ---
   Timeline& run() { return *run_; }
   const Timeline& run() const { return *run_; }
-  const Frame& frame() const { return run_->frame(); }
+  /// What is seen: of the run, or at its start of the static check where that is shown.
+  const Frame& frame() const { return at_rest_ && run_->cursor() == 0 ? *at_rest_ : run_->frame(); }
   JointSolver solver() const { return run_->solver(); }
   /// The same scene and acts with another solver, up to the step that is looked at.
   void set_solver(JointSolver solver);
@@ -80,6 +85,12 @@ class Workbench {
   const Timeline* stock() const { return stock_.get(); }
   void compare_with_stock(bool on);
 
+  /// Whether the forces of the static check are shown before the first step.
+  void check_at_rest(bool on);
+  /// What the check says, in a line: the factor on all loads until the first yield, or why there is none.
+  /// Empty: not shown.
+  const std::string& verdict() const { return verdict_; }
+
   // --- what the user looks at ---
   std::set<std::size_t> selected;    ///< joints
   std::optional<std::size_t> focus;  ///< the joint whose details show
@@ -88,8 +99,11 @@ class Workbench {
   std::string message;  ///< for the user; empty: none
 
  private:
+  /// On the bench, from `source`.
+  void put(Opened opened, const std::filesystem::path& source);
   void show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts);
   void start_stock();
+  void check();
   void require_editable() const;
 
   std::vector<std::filesystem::path> scenes_;
@@ -102,6 +116,9 @@ class Workbench {
   Plan before_;
   int edition_ = 0;
   std::unique_ptr<Timeline> run_, stock_;
+  bool checks_ = false;
+  std::optional<Frame> at_rest_;  // with the forces of the static check; none where nothing decides them
+  std::string verdict_;
   double owed_ = 0;  // s of the scene that are to be shown
 };
 

@@ -7,12 +7,11 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import driven  # noqa: E402
 import xwindow  # noqa: E402
 from breaking_bar import breaking_bar  # noqa: E402
 
@@ -85,92 +84,17 @@ class Batch(unittest.TestCase):
         self.assertIn("display", run.stderr)
 
 
-class Window(unittest.TestCase):
-    """One window per test, small so that software draws it fast; self.state is what the last frame showed."""
-
+class Window(driven.Window):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.path = Path(self.folder.name)
         for name in "a", "b":
             (self.path / f"{name}.scene.json").write_text(json.dumps(SCENE))
-        self.process = subprocess.Popen([COMMAND, "view", self.path / "a.scene.json", "--zoom", "0.5", "--trace"], env=screen.env,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.frames, self.line = 0, ""
-        self.reader = threading.Thread(target=self.read)
-        self.reader.start()
-        self.window = screen.window()
-        screen.move(2500, 1400)  # off the window
-        self.settle()
-
-    def read(self):
-        for line in self.process.stdout:
-            self.line = line
-            self.frames += 1
+        self.open(COMMAND, screen, self.path / "a.scene.json")
 
     def tearDown(self):
-        screen.quit(self.window)
-        _, errors = self.process.stderr.read(), self.process.wait(timeout=20)
-        self.reader.join()
-        self.process.stdout.close()
-        self.process.stderr.close()
+        self.close()
         self.folder.cleanup()
-        self.assertEqual(errors, 0)
-
-    @property
-    def state(self):
-        return json.loads(self.line)
-
-    def settle(self, frames=2):
-        """So many frames go by: the one that is being made, and at least one that has seen all input."""
-        until = self.frames + frames
-        self.wait(lambda: self.frames >= until)
-
-    def wait(self, done, seconds=20):
-        end = time.monotonic() + seconds
-        while not done():
-            self.assertIsNone(self.process.poll(), "the window has gone")
-            self.assertLess(time.monotonic(), end, "it does not come; last: " + self.line[:2000])
-            time.sleep(0.005)
-
-    def key(self, name, *modifiers):
-        for modifier in modifiers:
-            screen.key(modifier)
-        screen.key(name)
-        self.settle()
-        for key in (name, *modifiers):
-            screen.key(key, down=False)
-        self.settle()
-
-    def drag(self, start, end, *modifiers):
-        screen.move(*start)
-        for modifier in modifiers:
-            screen.key(modifier)
-        self.settle()
-        screen.press()
-        self.settle()
-        if end != start:
-            for k in range(1, 4):
-                screen.move(*(a + (b - a) * k / 3 for a, b in zip(start, end)))
-                self.settle()
-        screen.press(down=False)
-        for modifier in modifiers:
-            screen.key(modifier, down=False)
-        self.settle(3)
-
-    def click(self, at, *modifiers):
-        self.drag(at, at, *modifiers)
-
-    def control(self, name, across=0.5):
-        """A click on a control, at a share of its width with its label."""
-        self.wait(lambda: name in self.state["controls"])
-        self.settle()  # what has just opened may still move
-        x0, y0, x1, y1 = self.state["controls"][name]
-        self.click((x0 + across * (x1 - x0), (y0 + y1) / 2))
-
-    def pause_at(self, step):
-        self.wait(lambda: self.state["step"] >= step)
-        self.key("p")
-        self.assertFalse(self.state["playing"])
 
     def test_plays_pauses_steps_restarts(self):
         self.pause_at(10)
@@ -330,12 +254,7 @@ class Window(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    lacking = xwindow.missing()
-    if not lacking:
-        probe = subprocess.run([COMMAND, "view", SCENES / "cantilever.scene.json", "--frames", "0"],
-                               capture_output=True, text=True, env={"DISPLAY": ":no"})
-        if "without its window" in probe.stderr:
-            lacking = probe.stderr.strip()
+    lacking = driven.missing(COMMAND, SCENES)
     if lacking:
         print("skipped:", lacking)
         sys.exit(77)

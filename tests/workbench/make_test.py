@@ -1,0 +1,187 @@
+"""A bridge from nothing in the window of `ductile view`, by pointer alone and by keys alone.
+
+    make_test.py COMMAND SCENES      exit 77: no window can be opened here
+"""
+import json
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import driven  # noqa: E402
+import xwindow  # noqa: E402
+
+COMMAND, SCENES = sys.argv[1], Path(sys.argv[2])
+
+# A Warren girder of 8 m in two fields: its nodes, and the beams between them.
+NODES = {"a": (-4, 2), "b": (0, 2), "c": (4, 2), "d": (-2, 4), "e": (2, 4)}
+BEAMS = ["ab", "bc", "ad", "db", "be", "ec", "de"]
+
+
+def setUpModule():
+    global screen
+    screen = xwindow.Screen(2560, 1440)
+
+
+def tearDownModule():
+    screen.close()
+
+
+class Bridge(driven.Window):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name)
+        shutil.copy(SCENES / "cantilever.scene.json", self.path)
+        self.open(COMMAND, screen, self.path / "cantilever.scene.json")
+
+    def tearDown(self):
+        self.close()
+        self.folder.cleanup()
+
+    def bodies(self):
+        return {name.split("/")[0] for name in self.state["pieces"]} - {"floor"}
+
+    def at(self, x, y):
+        """A point of the world, px."""
+        state = self.state
+        x0, y0, x1, y1 = state["view"]
+        return ((x0 + x1) / 2 + (x - state["centre"][0]) * state["scale"],
+                (y0 + y1) / 2 - (y - state["centre"][1]) * state["scale"])
+
+    def is_the_bridge(self, load):
+        """The file says so, to the command as well."""
+        self.assertFalse(self.state["changed"])
+        self.assertIn("Saved", self.state["message"])
+        file = self.path / "new.scene.json"
+        scene = json.loads(file.read_text())
+        ends = []
+        for body in scene["bodies"][1:]:
+            (x, y), angle = body["at"], body.get("angle", 0)
+            span = body["outline"][1][0] - body["outline"][0][0]
+            ends.append(sorted([(round(x, 6), round(y, 6)),
+                                (round(x + span * math.cos(angle), 6), round(y + span * math.sin(angle), 6))]))
+        self.assertCountEqual(ends, [sorted(tuple(map(float, NODES[end])) for end in beam) for beam in BEAMS])
+        checked = subprocess.run([COMMAND, "check", file, "--json"], capture_output=True, text=True)
+        self.assertEqual((checked.returncode, checked.stderr), (0, ""))
+        answer = json.loads(checked.stdout)
+        self.assertEqual(answer["loose"], [])
+        self.assertIn(f"{answer['reserve']:.3g}", self.state["verdict"])
+        # Statics: half of all weight and load in each support.
+        weight = 9.81 * 7850 * 0.2 * 0.1 * sum(math.dist(*beam) for beam in ends)  # steel of 0.2 m by 0.1 m
+        support = [joint for joint in answer["joints"] if joint["name"].startswith("support/")]
+        self.assertEqual(len(support), 2)
+        for joint in support:
+            self.assertAlmostEqual(math.hypot(joint["N"], joint["Q"]) / ((weight + load) / 2), 1, delta=1e-6)
+
+    def test_by_pointer_alone(self):
+        self.control("tab make")
+        self.control("new")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.assertEqual((self.state["tool"], self.bodies()), (1, set()))
+        for beam in BEAMS:
+            start, end = (self.at(*NODES[node]) for node in beam)
+            self.drag(start, (end[0] + 2, end[1] - 1))  # it snaps
+        self.assertEqual(len(self.bodies()), 7)
+        self.assertIn("no joint holds", self.state["verdict"])
+        self.control("tool support")
+        self.click(self.at(*NODES["a"]))
+        self.click(self.at(*NODES["c"]))
+        self.click(self.at(*NODES["c"]))  # a roller
+        self.assertTrue(self.state["verdict"].startswith("yields at"), self.state["verdict"])
+        before = self.state["usage"]
+        self.assertGreater(before, 0)
+        self.control("tool load")
+        self.click(self.at(*NODES["b"]))
+        self.assertGreater(self.state["usage"], before)
+        # Moved and back, deleted and back.
+        self.control("tool move")
+        loaded = self.state["usage"]
+        self.drag(self.at(*NODES["d"]), self.at(-2, 6))
+        self.assertNotEqual(self.state["usage"], loaded)
+        self.control("undo")
+        self.assertEqual(self.state["usage"], loaded)
+        self.control("tool delete")
+        self.click(self.at(0, 4))
+        self.assertEqual(len(self.bodies()), 6)
+        self.control("undo")
+        self.control("redo")
+        self.control("undo")
+        self.assertEqual(len(self.bodies()), 7)
+        # Run, and once more under what breaks it.
+        self.control("play")
+        self.wait(lambda: self.state["step"] > 20)
+        self.assertEqual(self.state["events"], 0)
+        self.control("play")
+        self.control("restart")
+        self.control("tool load")
+        self.control("load force", 0.75)
+        self.click(self.at(*NODES["b"]))
+        self.assertEqual(self.state["usage"], 1)  # it yields
+        self.control("play")
+        self.wait(lambda: self.state["events"] > 0)
+        self.control("play")
+        self.control("undo")
+        self.control("save")
+        self.is_the_bridge(load=100e3)
+
+    def test_by_keys_alone(self):
+        def go(node):
+            for axis, back, on in ((0, "Left", "Right"), (1, "Down", "Up")):
+                steps = round((NODES[node][axis] - self.state["cursor"][axis]) / 0.5)
+                for _ in range(abs(steps)):
+                    self.key(on if steps > 0 else back)
+
+        self.key("n", "Control_L")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        for beam in BEAMS:
+            go(beam[0])
+            self.key("Return")
+            go(beam[1])
+            self.key("Return")
+        self.assertEqual(len(self.bodies()), 7)
+        self.key("Return")  # begun, and given up
+        self.key("Up")
+        self.key("Escape")
+        self.assertEqual((self.state["tool"], len(self.bodies())), (1, 7))
+        self.key("3")
+        while self.state["cursor"] != [-4, 2]:
+            self.key("q")
+        self.key("Return")
+        self.key("q")  # around to the last
+        self.assertEqual(self.state["cursor"], [4, 2])
+        self.key("Return")
+        self.key("Return")
+        self.assertTrue(self.state["verdict"].startswith("yields at"), self.state["verdict"])
+        self.key("4")
+        go("b")
+        self.key("Return")
+        self.key("5")
+        go("e")
+        self.key("Return")
+        self.key("Right")
+        self.key("Return")
+        self.key("z", "Control_L")
+        self.key("6")
+        go("e")
+        self.key("Return")
+        self.assertEqual(len(self.bodies()), 6)
+        self.key("z", "Control_L")
+        self.assertEqual(len(self.bodies()), 7)
+        self.key("p")
+        self.pause_at(20)
+        self.assertEqual(self.state["events"], 0)
+        self.key("r")
+        self.key("s", "Control_L")
+        self.is_the_bridge(load=100e3)
+
+
+if __name__ == "__main__":
+    lacking = driven.missing(COMMAND, SCENES)
+    if lacking:
+        print("skipped:", lacking)
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
