@@ -179,6 +179,47 @@ def saves_by_download(address):
         assert '"bodies"' in tab.evaluate("fetch(saved[1]).then((answer) => answer.text())")
 
 
+def makes_a_beam(address):
+    with chromium.Page(f"{address}/index.html", gl=True) as tab:
+        tab.wait_for("window.firstFrame")
+
+        def press(control):
+            wait_until(tab, lambda s: control in s["controls"])
+            tab.frame()
+            click(tab, control)
+            tab.frame()
+
+        def place(x, y):
+            now = state(tab)
+            x0, y0, x1, y1 = now["view"]
+            return ((x0 + x1) / 2 + (x - now["centre"][0]) * now["scale"],
+                    (y0 + y1) / 2 - (y - now["centre"][1]) * now["scale"])
+
+        press("tab make")
+        press("new")
+        wait_until(tab, lambda s: s["file"].endswith("new.scene.json"))
+        tab.frame()
+        start, end = place(-2, 3), place(2, 3)
+        tab.mouse("mouseMoved", *start)
+        tab.mouse("mousePressed", *start, "left", 1)
+        tab.frame()
+        tab.mouse("mouseMoved", *end, "left", 1)
+        wait_until(tab, lambda s: "beam1/0" in s["pieces"])  # while it is drawn
+        tab.mouse("mouseReleased", *end, "left")
+        tab.frame()
+        press("tool support")
+        for point in start, end:
+            tab.click(*point)
+            tab.frame()
+        wait_until(tab, lambda s: s["verdict"].startswith("yields at"))
+        tab.evaluate("HTMLAnchorElement.prototype.click = function () { window.saved = [this.download, this.href]; }")
+        press("save")
+        tab.wait_for("window.saved")
+        scene = json.loads(tab.evaluate("fetch(saved[1]).then((answer) => answer.text())"))
+        assert [support["at"] for support in scene["supports"]] == [[-2, 3], [2, 3]], scene["supports"]
+        assert not tab.errors, tab.errors
+
+
 def runs_600_steps_to_the_bit(address):
     """Every scene, beside the command on this machine."""
     names = [file.name for file in scenes.glob("*.scene.json")]
@@ -213,7 +254,7 @@ def main():
         (Path(name) / "index.html").symlink_to(page)
         (Path(name) / "scenes").symlink_to(scenes)
         address = served(name)
-        for test in (fits_what_it_may, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files, saves_by_download, is_touched, zooms_by_the_wheel,
+        for test in (fits_what_it_may, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files, saves_by_download, makes_a_beam, is_touched, zooms_by_the_wheel,
                      runs_600_steps_to_the_bit, runs_from_a_file):
             try:
                 test(address)

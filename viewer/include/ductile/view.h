@@ -10,7 +10,8 @@ namespace ductile {
 struct ViewDef {
   std::filesystem::path scene;       ///< a scene file or a drawing
   std::vector<std::string> select;   ///< names of joints that are selected at first
-  std::string tab = "joint";         ///< which is open at first: joint, joints, edit, events, ledger
+  std::string tab = "joint";         ///< which is open at first: joint, joints, edit, events, ledger,
+                                     ///< make
   bool forces = false;               ///< forces and moments are drawn at first
   long frames = -1;                  ///< so many steps, then the end; negative: until it is closed
   double metres_per_unit = 0;        ///< of a drawing; 0: as it says itself, else it is 10 m large
