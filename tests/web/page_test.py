@@ -47,12 +47,20 @@ def wait_until(tab, holds):
         time.sleep(0.05)
 
 
+def is_seen_soon(address):
+    """The first frame, within 2 s of processor time: what else the machine does adds to the clock. The least of three."""
+    least = 1e9
+    for _ in range(3):
+        with chromium.Page(f"{address}/index.html", gl=True) as tab:
+            tab.wait_for("window.firstFrame")
+            least = min(least, tab.cpu_seconds())
+            print(f"  first frame after {tab.evaluate('firstFrame'):.0f} ms, {1e3 * least:.0f} ms of the processor")
+    assert least <= 2, least
+
+
 def opens_on_the_crane(address):
     with chromium.Page(f"{address}/index.html", gl=True) as tab:
         tab.wait_for("window.firstFrame")
-        used = tab.cpu_seconds()  # whatever else this machine does meanwhile
-        print(f"  first frame after {tab.evaluate('firstFrame'):.0f} ms, {1e3 * used:.0f} ms of them of the processor")
-        assert used <= 2, used
         now = state(tab)
         assert now["file"].endswith("harbour_crane.scene.json") and not now["message"], now
         wait_until(tab, lambda s: s["step"] > 60)
@@ -254,8 +262,8 @@ def main():
         (Path(name) / "index.html").symlink_to(page)
         (Path(name) / "scenes").symlink_to(scenes)
         address = served(name)
-        for test in (fits_what_it_may, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files, saves_by_download, makes_a_beam, is_touched, zooms_by_the_wheel,
-                     runs_600_steps_to_the_bit, runs_from_a_file):
+        for test in (fits_what_it_may, is_seen_soon, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files,
+                     saves_by_download, makes_a_beam, is_touched, zooms_by_the_wheel, runs_600_steps_to_the_bit, runs_from_a_file):
             try:
                 test(address)
                 print("ok     ", test.__name__)
