@@ -19,13 +19,13 @@ namespace ductile::dynamics {
 struct SolveReport {
   int rounds = 0;  // directions computed
   int factorisations = 0;
-  double residual = 0;    // |∇f| in the norm of M⁻¹ as a share of its target, times `tolerance`
+  double residual = 0;  // |∇f| against the impulses' norm, both of M⁻¹: `tolerance` is where a solve ends
   bool unsolved = false;  // the tolerance was not reached
 };
 
 /// What is chosen, with its reason.
 struct NewtonTunables {
-  /// Relative residual at which a solve ends: root moments good to 1e-8.
+  /// |∇f| as a share of the impulses' norm at which a solve ends: root moments good to 1e-8.
   double tolerance = 1e-8;
   /// Rounds after which a solve in which rows flow is handed to the interior point method: many rows change
   /// their regime against each other, and each round finds out about few of them.

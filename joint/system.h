@@ -39,7 +39,7 @@ inline constexpr bool all_doubles<Jacobian> = true;
 struct Frame {
   double ax = 0, ay = 0, bx = 0, by = 0;  // anchors from the centres of mass, own frames, m
   Turn axis;                              // in A's frame at rest
-  double follow = 0.5;   // share of B's rotation against A that the frame follows: ½, or 0: fixed to A
+  double follow = 0.5;   // share of B's rotation against A that the frame follows; 0: it is fixed to A
   double reference = 0;  // angle of B against A at rest, rad
   bool line = false;     // the axis runs from anchor to anchor
 };

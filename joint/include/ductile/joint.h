@@ -2,7 +2,7 @@
 // together.
 //
 // Three rows act in the joint's own frame, whose axis runs from body A to body B and which turns with the
-// mean of the two bodies (with the other one where one is static):
+// mean of the two bodies (other shares by def: axisFollow):
 //   axial     u along the axis           N > 0 in tension
 //   shear     v to the left of the axis  Q > 0 pushes B to the right
 //   rotation  θ of B against A           M > 0 when B is bent counter-clockwise against A: the right is in
@@ -122,8 +122,8 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double dissipated() const;      ///< J: plastic work so far
   double elastic_energy() const;  ///< J: ½ k e² of its rows now
 
-  /// The row's cap was lowered because the stiffness asked for is more than the step can integrate
-  /// (mechanics: κ).
+  /// Whether the stiffness asked for is more than the step can integrate, so that the row is softer than that
+  /// (docs/theory/rows.md: κ).
   bool stiffness_limited(Row row) const;
 
   /// Changes a row while the world is not stepping; wakes the bodies. Throws std::invalid_argument where a

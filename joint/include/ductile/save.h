@@ -17,7 +17,7 @@
 
 namespace ductile {
 
-/// The structure's world as CBOR (RFC 8949): the document that save_json() writes, at a third of its size.
+/// The structure's world as CBOR (RFC 8949): the document that save_json() writes, in fewer bytes.
 /// Changes nothing in the world. Throws std::logic_error while the world is stepping, where the last step was
 /// not followed by Structure::update(), and where the world has a second structure or is gone.
 std::vector<std::uint8_t> save_bytes(const Structure& structure);
