@@ -281,7 +281,11 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     for (const Bound& b : bounds_) left += (b.z + affine * b.dz) * (b.p + affine * b.dp) / now.products;
     const double remains = std::max(std::min(left, 1.0), 1 - affine);
     const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
-    find_direction(system, hessian, centring * now.products / count, stalls ? 0 : affine * affine);
+    // Not below what the goal allows: Σ z p may vanish before the rest has settled, and no round could mend
+    // that.
+    const double least = 0.1 * goal * scale;
+    find_direction(system, hessian, std::max(centring * now.products, least) / count,
+                   stalls ? 0 : affine * affine);
     move(step_within(reach));
     // A gap is of the caps that it was measured with.
     if (round < tunables.friction_rounds && follow_friction(system, scale, now.products / count))
