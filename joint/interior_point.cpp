@@ -240,15 +240,15 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     for (unsigned i = 0; i < 3; ++i) work += std::abs(locals_[k].x[i] * x[i]);
   }
   for (std::size_t i = 0; i < system.free; ++i) moving += energy_of(system.bodies[i], system.bodies[i].v);
+  const bool alone = system.contacts.empty();
   const double count = std::max(1.0, static_cast<double>(bounds_.size()));
   for (Bound& b : bounds_) {
     // z p = μ with p = p₀ + ηz
-    const double mu = tunables.start * std::max(work, moving) / count;
+    const double mu = (alone ? tunables.start : tunables.contact_start) * std::max(work, moving) / count;
     b.z = 2 * mu / (b.p + std::sqrt(b.p * b.p + 4 * b.hardening * mu));
     b.p += b.hardening * b.z;
   }
 
-  const bool alone = system.contacts.empty();
   const double goal = alone ? tunables.goal : tunables.contact_goal;
   const double tolerance = alone ? tunables.tolerance : tunables.contact_tolerance;
   outcome.gap = infinity;
@@ -281,9 +281,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     for (const Bound& b : bounds_) left += (b.z + affine * b.dz) * (b.p + affine * b.dp) / now.products;
     const double remains = std::max(std::min(left, 1.0), 1 - affine);
     const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
-    // Not below what the goal allows: Σ z p may vanish before the rest has settled, and no round could mend
-    // that.
-    const double least = 0.1 * goal * scale;
+    // With contacts not below what the goal allows: as they open, Σ z p may vanish before the rest settles.
+    const double least = alone ? 0 : 0.1 * goal * scale;
     find_direction(system, hessian, std::max(centring * now.products, least) / count,
                    stalls ? 0 : affine * affine);
     move(step_within(reach));
