@@ -35,11 +35,11 @@ struct InteriorPointTunables {
   /// go but small steps.
   double inside = 0.9;
   /// Mean of z p at the start as a share of the work that is asked for.
-  double start = 0.5;
+  double start = 1;
   /// Likewise with contacts: with less, those that open let the first rounds go but small steps, one after
   /// the other.
   double contact_start = 5;
-  /// A solve takes 9 to 25 rounds; 4 of 1e5 random structures do not end within so many.
+  /// A solve takes 9 to 25 rounds; 3 of 1e5 random structures do not end within so many.
   int round_bound = 100;
 };
 
