@@ -1,4 +1,4 @@
-// Private members of Box2D that snapshots and saves both read. Written against Box2D 2.4.1.
+// Private members of Box2D that more than one file reads. Written against Box2D 2.4.1.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -7,8 +7,14 @@
 
 namespace ductile::dynamics {
 
+DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
 DUCTILE_REVEAL(b2World, m_inv_dt0, float);
 DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
+DUCTILE_REVEAL(b2Body, m_flags, uint16);
+DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
+// The index in the island at hand. b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine,
+// a cosine and a matrix inverse per joint; so it is a load per body.
+DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
 DUCTILE_REVEAL(b2BroadPhase, m_moveBuffer, int32*);

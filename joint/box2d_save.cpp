@@ -16,9 +16,7 @@ namespace ductile::dynamics {
 
 DUCTILE_REVEAL(b2World, m_newContacts, bool);
 DUCTILE_REVEAL(b2World, m_stepComplete, bool);
-DUCTILE_REVEAL(b2Body, m_flags, uint16);
 DUCTILE_REVEAL(b2Body, m_xf, b2Transform);
-DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
 DUCTILE_REVEAL(b2Body, m_linearVelocity, b2Vec2);
 DUCTILE_REVEAL(b2Body, m_angularVelocity, float);
 DUCTILE_REVEAL(b2Body, m_force, b2Vec2);

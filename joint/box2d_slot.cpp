@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "blocks.h"
+#include "box2d_private.h"
 #include "reveal.h"
 #include "structure.h"
 
 namespace ductile::dynamics {
-DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
 DUCTILE_REVEAL(b2Body, m_prev, b2Body*);
 DUCTILE_REVEAL(b2Body, m_next, b2Body*);
 }  // namespace ductile::dynamics

@@ -20,7 +20,6 @@ namespace ductile::dynamics {
 
 using FreeLists = b2Block* [b2_blockSizeCount];
 DUCTILE_REVEAL(b2World, m_blockAllocator, b2BlockAllocator);
-DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
 DUCTILE_REVEAL(b2World, m_profile, b2Profile);
 DUCTILE_REVEAL(b2BlockAllocator, m_chunks, b2Chunk*);
 DUCTILE_REVEAL(b2BlockAllocator, m_chunkCount, int32);

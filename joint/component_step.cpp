@@ -5,15 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "box2d_private.h"
 #include "frames.h"
-#include "reveal.h"
 #include "structure.h"
 
 namespace ductile::dynamics {
-
-// The index in the island at hand. b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine,
-// a cosine and a matrix inverse per joint; so it is a load per body.
-DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 
 bool Component::look(const b2SolverData& data, const IslandContacts& contacts) {
   touches.clear();

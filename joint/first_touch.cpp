@@ -11,12 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reveal.h"
+#include "box2d_private.h"
 #include "structure.h"
-
-namespace ductile::dynamics {
-DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
-}  // namespace ductile::dynamics
 
 namespace ductile {
 

@@ -7,12 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "reveal.h"
+#include "box2d_private.h"
 #include "structure.h"
-
-namespace ductile::dynamics {
-DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
-}  // namespace ductile::dynamics
 
 namespace ductile {
 

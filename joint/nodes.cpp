@@ -8,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "reveal.h"
+#include "box2d_private.h"
 #include "structure.h"
 
 namespace ductile::dynamics {
-DUCTILE_REVEAL(b2Body, m_flags, uint16);
 
 namespace {
 
