@@ -86,8 +86,13 @@ double shear_area(const Rolled& p) {
   switch (p.shape) {
     case Shape::i_section:  // 6.2.6 (3) a; never below h_w t_w
       return A - 2 * p.b * p.tf + (p.tw + 2 * p.r) * p.tf;
-    case Shape::channel:  // b
-      return A - 2 * p.b * p.tf + (p.tw + p.r) * p.tf;
+    case Shape::channel: {
+      // b, whose last t_f is the flange's at the web. Of a tapered flange, catalogues take it at the web's
+      // face, of those higher than 300 mm at the web's centre line.
+      const double from_back = p.h > 0.3 ? p.tw / 2 : p.tw;
+      const double at_web = p.tf + p.slope * (p.b - p.u - from_back);
+      return A - 2 * p.b * p.tf + (p.tw + p.r) * at_web;
+    }
     case Shape::angle:
       return 0;
     case Shape::round_tube:  // g

@@ -64,12 +64,15 @@ TEST(Rolled, ParallelChannelsHaveTheirPublishedProperties) {
   for (const auto& row : steel_tables::upe) expect_row(row, 3);
 }
 
+// A_v is A less the flanges plus what lies beside the web: where the catalogue's A is rounded, so is its A_v.
 TEST(Rolled, TaperedChannelsHaveTheirPublishedProperties) {
   for (steel_tables::Row row : steel_tables::upn) {
-    const double catalogued = std::atof(std::exchange(row.Av, nullptr)) / 1e4,
-                 A_v = shear_area(rolled(row.name));
-    EXPECT_GT(A_v / catalogued, 0.955) << row.name;
-    EXPECT_LT(A_v / catalogued, 1.01) << row.name;
+    const char* A_v = std::exchange(row.Av, nullptr);
+    if (*A_v) {
+      EXPECT_NEAR(shear_area(rolled(row.name)) * 1e4, std::atof(A_v),
+                  rounding(row.A, 3) + 0.0008 * std::atof(A_v))
+          << row.name;
+    }
     expect_row(row, 3, 0.005);  // but A, which is as printed
   }
 }
@@ -119,7 +122,11 @@ TEST(Rolled, AreaOfTheRulesIsThatOfTheOutline) {  // A_v is exact where A is
     const double A = section(draw(p, 1e-7)).area();
     double A_v = 0;
     if (p.shape == Shape::i_section) A_v = A - 2 * p.b * p.tf + (p.tw + 2 * p.r) * p.tf;
-    if (p.shape == Shape::channel) A_v = A - 2 * p.b * p.tf + (p.tw + p.r) * p.tf;
+    if (p.shape == Shape::channel && p.slope == 0) A_v = A - 2 * p.b * p.tf + (p.tw + p.r) * p.tf;
+    // 11.5 mm thick 37.5 mm from the tip, 8 % on to the web's face; 18 mm 48 mm from it, 5 % on to its
+    // middle.
+    if (p.name == "UPN 200") A_v = A - 2 * 0.075 * 0.0115 + (0.0085 + 0.0115) * (0.0115 + 0.08 * 0.029);
+    if (p.name == "UPN 400") A_v = A - 2 * 0.11 * 0.018 + (0.014 + 0.018) * (0.018 + 0.05 * 0.055);
     if (p.shape == Shape::round_tube) A_v = 2 * A / std::acos(-1.0);
     if (p.shape == Shape::rectangular_tube) A_v = A * p.h / (p.b + p.h);
     EXPECT_NEAR(shear_area(p) / A_v, 1, 1e-12) << name;
