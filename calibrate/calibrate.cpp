@@ -815,9 +815,32 @@ class Planner {
     joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
     joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
                        stiff(def.fix_angle, def.stiffness_angle)};
+    if (def.fix_angle) clamp(joint);
     joint.displacement = def.displacement;
     joint.ramp = def.ramp;
     joint.governed_by = caps_.reason("support");
+  }
+
+  // A bar bends between the middle of its piece and what clamps it, be that a wall or a support. It does not
+  // where its joints are made rigid or soft by overrides, nor where no joint tells its section.
+  void clamp(PlannedJoint& support) const {
+    const Piece& piece = plan_.pieces[support.b];
+    const BodyDef& body = plan_.bodies[piece.body];
+    for (const JointOverrides* own : {&scene_.joint, &body.joint})
+      if (own->stiffness_moment ||
+          own->elastic.value_or(Elasticity::true_stiffness) != Elasticity::true_stiffness)
+        return;
+    const Strip& strip = strips_[piece.body];
+    const double arm = length(support.anchor - piece.center);
+    if (!strip.has_material() || arm <= 1e-6 * std::sqrt(piece.inertia / piece.mass)) return;
+    double EI = 0;
+    for (const PlannedJoint& joint : plan_.joints)
+      if ((joint.a == support.b || joint.b == support.b) && joint.height > 0)
+        EI = std::max(EI, strip.at(joint).EI);
+    if (EI > 0) {
+      support.stiffness.M = EI / arm;
+      support.damping_ratio = strip.damping_ratio();
+    }
   }
 
   void load(int index) {

@@ -18,6 +18,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double same = 1e-6;  // a joint's bending stiffness is that of its bars, but for rounding
+
 // A displacement across an arm, to its left, in the joint's (u, v).
 Vector3d across(const PlannedJoint& joint, const Arm& arm) {
   return {dot(left(arm.along), joint.axis), dot(left(arm.along), left(joint.axis)), 0};
@@ -67,7 +69,7 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
     double gives = 0;
     for (const Arm& each : own)
       if (each.length > 0) gives += each.length / each.EI;
-    if (!(std::abs(gives * joint.stiffness.M - 1) < 1e-6)) continue;
+    if (!(std::abs(gives * joint.stiffness.M - 1) < same)) continue;
     arms[i] = own;
     for (const bool b : {false, true})
       if (own[b].length > 0) {
@@ -97,12 +99,14 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
 Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
   const Root rigid = k.cwiseSqrt().asDiagonal();
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
-  if (joint.a >= 0 && arms[0].length + arms[1].length > 0)
+  double turns = 0;
+  for (const Arm& arm : arms)
+    if (arm.length > 0) turns += arm.length / arm.EI;
+  const bool bends = turns > 0;
+  if (bends && (joint.a >= 0 || std::abs(turns * joint.stiffness.M - 1) < same))
     flexibility(rotation, rotation) = 0;  // is the arms'
-  bool bends = false;
   for (const Arm& arm : arms) {
     if (arm.length == 0) continue;
-    bends = true;
     const Vector3d n = across(joint, arm), turn = Vector3d::UnitZ();
     const double l = arm.length;
     flexibility += l * l * l / (3 * arm.EI) * n * n.transpose();

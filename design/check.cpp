@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ductile/design.h"
+#include "ductile/plane.h"
 #include "elastic_path.h"
 #include "yield.h"
 
@@ -17,14 +18,28 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// What is below rounding of the largest force of its kind is 0, so that nothing yields of it.
-void drop_rounding(Eigen::VectorXd& forces) {
-  for (int row = 0; row < 3; ++row) {
-    double largest = 0;
-    for (Eigen::Index i = row; i < forces.size(); i += 3) largest = std::max(largest, std::abs(forces[i]));
-    for (Eigen::Index i = row; i < forces.size(); i += 3)
-      if (std::abs(forces[i]) < 1e-11 * largest) forces[i] = 0;
-  }
+// m: as far apart as joints and middles of pieces are.
+double extent(const Plan& plan) {
+  Point low{unlimited, unlimited}, high{-unlimited, -unlimited};
+  const auto reach = [&](Point p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  };
+  for (const PlannedJoint& joint : plan.joints) reach(joint.anchor);
+  for (const Piece& piece : plan.pieces)
+    if (plan.is_dynamic(static_cast<int>(&piece - plan.pieces.data()))) reach(piece.center);
+  return length(high - low);
+}
+
+// What is below rounding of the largest force, or of its moment across the structure, is 0: so that nothing
+// yields of it, and no column in plain compression is told to carry a shear force.
+void drop_rounding(Eigen::VectorXd& forces, double extent) {
+  const auto all = forces.reshaped(3, forces.size() / 3);
+  const double force = all.topRows(2).cwiseAbs().maxCoeff(), moment = all.row(2).cwiseAbs().maxCoeff();
+  const double least_force = 1e-11 * std::max(force, extent > 0 ? moment / extent : 0);
+  const double least_moment = 1e-11 * std::max(moment, force * extent);
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (std::abs(forces[i]) < (i % 3 == rotation ? least_moment : least_force)) forces[i] = 0;
 }
 
 StaticJoint loose_joint() { return {nan, nan, nan, {nan, nan, nan}, unlimited}; }
@@ -42,7 +57,7 @@ StaticJoint joint_under(const Yield& yield, const std::array<double, 3>& force) 
 // What the joints carry in a state; yields_at for forces that grow with the loads.
 StaticCheck check_state(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
                         double time, Eigen::VectorXd forces, const Eigen::VectorXd& x) {
-  drop_rounding(forces);
+  if (forces.size() > 0) drop_rounding(forces, extent(plan));
   StaticCheck result{.time = time, .loose = statics.loose};
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const Eigen::Index r = 3 * static_cast<Eigen::Index>(i);

@@ -6,6 +6,7 @@
 #include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/plane.h"
+#include "ductile/simulation.h"
 #include "structures.h"
 
 namespace {
@@ -220,6 +221,48 @@ TEST(StaticCheck, AMechanismIsRefused) {
   SceneDef standing = cantilever(4, P);
   standing.bodies[1].type = BodyType::static_body;
   EXPECT_NE(refusal(standing).find("no joint holds"), std::string::npos);
+}
+
+// The tip turns by Σ M/k: every joint stands for half of each neighbour, the root for half of the first
+// piece.
+TEST(StaticCheck, ASupportClampsAsAWallDoes) {
+  const int n = 4;
+  SceneDef walled = cantilever(n, P);
+  walled.joint.stiffness_axial = walled.joint.stiffness_shear = unlimited;
+  walled.bodies[1].material->damping_ratio = 1;
+  SceneDef supported = walled;
+  supported.bodies.erase(supported.bodies.begin());
+  supported.joints.clear();
+  supported.supports = {{.body = "beam", .at = {0, 0}, .fix_x = true, .fix_y = true, .fix_angle = true}};
+  const double EI = 210e9 / 12, l = L / n;
+  double turn = P * L * (l / 2) / EI;
+  for (int i = 1; i < n; ++i) turn += P * (L - i * l) * l / EI;
+  for (const SceneDef& scene : {walled, supported}) {
+    const Plan plan = calibrate(scene);
+    EXPECT_NEAR(static_check(plan).turn.back() / -turn, 1, 1e-6);
+    Simulation simulation(plan);
+    while (simulation.time() < 20) simulation.step();
+    EXPECT_NEAR(simulation.piece(plan.pieces.size() - 1).angle / -turn, 1, 1e-3);
+  }
+  supported.joint.elastic = Elasticity::rigid;
+  EXPECT_EQ(calibrate(supported).joints.back().stiffness.M, unlimited);
+}
+
+TEST(StaticCheck, RoundingIsNoForce) {
+  SceneDef scene = bending_only();
+  scene.bodies = {beam(8)};
+  scene.bodies[0].at = {3, 4};
+  scene.bodies[0].angle = 1.1;
+  const Point along{std::cos(1.1), std::sin(1.1)}, foot{3, 4}, top = foot + L * along;
+  scene.supports = {{.body = "beam", .at = foot, .fix_x = true, .fix_y = true, .fix_angle = true}};
+  scene.loads = {{.body = "beam", .at = top, .force = (-P) * along}};
+  const Plan plan = calibrate(scene);
+  const StaticCheck check = static_check(plan);
+  for (std::size_t i = 0; i + 1 < plan.joints.size(); ++i) {
+    EXPECT_EQ(check.joints[i].Q, 0) << plan.joints[i].name;
+    EXPECT_EQ(check.joints[i].M, 0) << plan.joints[i].name;
+    EXPECT_NEAR(check.joints[i].N / -P, 1, 1e-12);
+  }
 }
 
 }  // namespace
