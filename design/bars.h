@@ -1,12 +1,11 @@
 // Bars that bend between the middles of pieces, as beam theory has them.
 //
 // A joint lumps the bending of a bar, from the middle of one piece to the middle of the other, where the
-// pieces touch (EI/ℓ), a support that clamps that between itself and the middle of its piece; between one that
-// does not and the middle nothing bends at all. With n
-// pieces sags and buckling loads are wrong by some 1/n² and 1/n. What lacks is known in closed form: a moment
-// that grows with the distance from the joint, so that shear bends the bar, too, and an axial force on a
-// curved line. With it, nodes in the middles of pieces carry beam elements, which are exact without axial
-// force and within n⁻⁴ of the buckling load.
+// pieces touch (EI/ℓ), a support that clamps that between itself and the middle of its piece; between one
+// that does not and the middle nothing bends at all. With n pieces sags and buckling loads are wrong by some
+// 1/n² and 1/n. What lacks is known in closed form: a moment that grows with the distance from the joint, so
+// that shear bends the bar, too, and an axial force on a curved line. With it, nodes in the middles of pieces
+// carry beam elements, which are exact without axial force and within n⁻⁴ of the buckling load.
 #pragma once
 
 #include <array>
