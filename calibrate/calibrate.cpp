@@ -285,6 +285,7 @@ class Planner {
              "give one per piece, in their order"});
     }
     refuse_problems();  // what follows needs all pieces
+    first_inside_.push_back(plan_.joints.size());
     for (const JointBetweenDef& joint : scene_.joints) join(joint);
     for (std::size_t i = 0; i < scene_.supports.size(); ++i) support(static_cast<int>(i));
     for (std::size_t i = 0; i < scene_.loads.size(); ++i) load(static_cast<int>(i));
@@ -307,6 +308,7 @@ class Planner {
     strips_.emplace_back(body);
     const int first = static_cast<int>(plan_.pieces.size());
     first_piece_.push_back(first);
+    first_inside_.push_back(plan_.joints.size());
     if (body.circle > 0) {
       add_disc(index);
       return;
@@ -711,6 +713,16 @@ class Planner {
       require_near(piece, *def.at, node - 1);
     }
     const JointOverrides& own = def.overrides;
+    const bool bends = own.moment.value_or(0) > 0 && !own.stiffness_moment && !own.elastic;
+    std::vector<double> gives;
+    for (const int piece : pieces) gives.push_back(bends ? end_gives(piece, *def.at) : 0);
+    if (pieces.size() > 2 && gives[0] > 0) {
+      // What the hub's end bends all others turn by. No joint of theirs can stand for it, but the hub's next
+      // can.
+      double& next = next_to_end(pieces[0], *def.at)->stiffness.M;
+      next = 1 / (1 / next + gives[0]);
+      gives[0] = 0;
+    }
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       PlannedJoint joint;
       joint.a = pieces[0];
@@ -725,8 +737,9 @@ class Planner {
       joint.Q = own.shear.value_or(unlimited);
       joint.M = own.moment.value_or(0);
       joint.M_reverse = own.moment_reverse.value_or(joint.M);
+      const double both = gives[0] + gives[i];
       joint.stiffness = {own.stiffness_axial.value_or(unlimited), own.stiffness_shear.value_or(unlimited),
-                         own.stiffness_moment.value_or(unlimited)};
+                         own.stiffness_moment.value_or(both > 0 ? 1 / both : unlimited)};
       joint.damping_ratio = own.damping_ratio.value_or(damping_of(joint.a, joint.b));
       joint.max_rotation = own.max_rotation.value_or(unlimited);
       joint.max_elongation = own.max_elongation.value_or(unlimited);
@@ -815,32 +828,45 @@ class Planner {
     joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
     joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
                        stiff(def.fix_angle, def.stiffness_angle)};
-    if (def.fix_angle) clamp(joint);
+    if (const double gives = end_gives(piece, def.at); def.fix_angle && gives > 0) {
+      joint.stiffness.M = 1 / gives;
+      joint.damping_ratio = strips_[plan_.pieces[piece].body].damping_ratio();
+    }
     joint.displacement = def.displacement;
     joint.ramp = def.ramp;
     joint.governed_by = caps_.reason("support");
   }
 
-  // A bar bends between the middle of its piece and what clamps it, be that a wall or a support. It does not
-  // where its joints are made rigid or soft by overrides, nor where no joint tells its section.
-  void clamp(PlannedJoint& support) const {
-    const Piece& piece = plan_.pieces[support.b];
-    const BodyDef& body = plan_.bodies[piece.body];
-    for (const JointOverrides* own : {&scene_.joint, &body.joint})
-      if (own->stiffness_moment ||
-          own->elastic.value_or(Elasticity::true_stiffness) != Elasticity::true_stiffness)
-        return;
-    const Strip& strip = strips_[piece.body];
-    const double arm = length(support.anchor - piece.center);
-    if (!strip.has_material() || arm <= 1e-6 * std::sqrt(piece.inertia / piece.mass)) return;
-    double EI = 0;
-    for (const PlannedJoint& joint : plan_.joints)
-      if ((joint.a == support.b || joint.b == support.b) && joint.height > 0)
-        EI = std::max(EI, strip.at(joint).EI);
-    if (EI > 0) {
-      support.stiffness.M = EI / arm;
-      support.damping_ratio = strip.damping_ratio();
+  // The joint inside a body that ends with this piece at a point: none where it goes on beyond, or is one
+  // piece.
+  PlannedJoint* next_to_end(int piece, Point at) {
+    PlannedJoint* only = nullptr;
+    const auto body = static_cast<std::size_t>(plan_.pieces[piece].body);
+    for (std::size_t i = first_inside_[body]; i < first_inside_[body + 1]; ++i) {
+      PlannedJoint& joint = plan_.joints[i];
+      if (joint.a != piece && joint.b != piece) continue;
+      if (only != nullptr) return nullptr;
+      only = &joint;
     }
+    const Point middle = plan_.pieces[piece].center;
+    return only != nullptr && dot(only->anchor - middle, at - middle) < 0 ? only : nullptr;
+  }
+
+  // rad per N m: a bar bends between the middle of its last piece and what clamps its end, be that a wall, a
+  // support or a node. It does not where its joints are made rigid, or as soft as somebody likes; what bends
+  // less than a thousandth of its next joint, as where a cut marks the place of a hinge, is rigid.
+  double end_gives(int piece, Point at) {
+    const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+    const Elasticity way =
+        body.joint.elastic.value_or(scene_.joint.elastic.value_or(Elasticity::true_stiffness));
+    if (way != Elasticity::true_stiffness || body.joint.stiffness_moment || scene_.joint.stiffness_moment)
+      return 0;
+    const Strip& strip = strips_[plan_.pieces[piece].body];
+    const PlannedJoint* next = next_to_end(piece, at);
+    if (next == nullptr || !strip.has_material()) return 0;
+    const double EI = strip.at(*next).EI;
+    const double gives = EI > 0 ? length(at - plan_.pieces[piece].center) / EI : 0;
+    return gives * next->stiffness.M > 1e-3 ? gives : 0;
   }
 
   void load(int index) {
@@ -895,6 +921,7 @@ class Planner {
   Plan plan_;
   std::vector<Strip> strips_;                                       // of plan_.bodies
   std::vector<int> first_piece_;                                    // of plan_.bodies
+  std::vector<std::size_t> first_inside_;                           // joint of each body, and beyond the last
   std::unordered_map<int, std::vector<AutomaticSplit::End>> ends_;  // of bodies split automatically
   Splitter splitter_;
   std::vector<Problem> problems_;

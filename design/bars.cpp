@@ -39,9 +39,21 @@ Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
   return EI > 0 ? Arm{reach, EI, -outward} : Arm{};
 }
 
+// rad per N m.
+double compliance(const std::array<Arm, 2>& arms) {
+  double sum = 0;
+  for (const Arm& arm : arms)
+    if (arm.length > 0) sum += arm.length / arm.EI;
+  return sum;
+}
+
 bool is_inside(const Plan& plan, const PlannedJoint& joint) {
   return joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
                              plan.pieces[static_cast<std::size_t>(joint.b)].body;
+}
+
+bool stands_for(const PlannedJoint& joint, const std::array<Arm, 2>& arms) {
+  return std::abs(compliance(arms) * joint.stiffness.M - 1) < same;
 }
 
 // EI of the cuts across a joint's piece, along the joint's axis; 0 where there are none.
@@ -66,10 +78,7 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const PlannedJoint& joint = plan.joints[i];
     std::array<Arm, 2> own{arm(plan, joint, false), arm(plan, joint, true)};
-    double gives = 0;
-    for (const Arm& each : own)
-      if (each.length > 0) gives += each.length / each.EI;
-    if (!(std::abs(gives * joint.stiffness.M - 1) < same)) continue;
+    if (!stands_for(joint, own)) continue;
     arms[i] = own;
     for (const bool b : {false, true})
       if (own[b].length > 0) {
@@ -82,14 +91,27 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
     for (const bool b : {false, true})
       if (arms[i][b].length > 0 && !is_inside(plan, plan.joints[i]))
         arms[i][b].EI = std::max(arms[i][b].EI, next_cut(plan, arms, i, b));
+  // From the middle of a piece to a point where no section is cut.
+  const auto arm_to = [&](int index, Point at) {
+    if (index < 0 || stiffest[static_cast<std::size_t>(index)] == 0) return Arm{};
+    const Piece& piece = plan.carrier(index);
+    const Point from_middle = at - piece.center;
+    if (length(from_middle) <= 1e-6 * std::sqrt(piece.inertia / piece.mass))
+      return Arm{};  // in the middle, but for rounding
+    return Arm{length(from_middle), stiffest[static_cast<std::size_t>(index)], unit(from_middle)};
+  };
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const PlannedJoint& joint = plan.joints[i];
-    if (joint.a >= 0 || stiffest[static_cast<std::size_t>(joint.b)] == 0) continue;
-    const Piece& piece = plan.carrier(joint.b);
-    const Point from_middle = joint.anchor - piece.center;
-    if (length(from_middle) >
-        1e-6 * std::sqrt(piece.inertia / piece.mass))  // else in the middle, but for rounding
-      arms[i][1] = {length(from_middle), stiffest[static_cast<std::size_t>(joint.b)], unit(from_middle)};
+    if (joint.a < 0) {
+      arms[i][1] = arm_to(joint.b, joint.anchor);
+    } else if (joint.node != 0) {  // stands for both bars, for that of b, or for none
+      for (const Arm& of_a : {arm_to(joint.a, joint.anchor), Arm{}}) {
+        const std::array both{of_a, arm_to(joint.b, joint.anchor)};
+        if (!stands_for(joint, both)) continue;
+        arms[i] = both;
+        break;
+      }
+    }
   }
   return arms;
 }
@@ -99,11 +121,8 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
 Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
   const Root rigid = k.cwiseSqrt().asDiagonal();
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
-  double turns = 0;
-  for (const Arm& arm : arms)
-    if (arm.length > 0) turns += arm.length / arm.EI;
-  const bool bends = turns > 0;
-  if (bends && (joint.a >= 0 || std::abs(turns * joint.stiffness.M - 1) < same))
+  const bool bends = compliance(arms) > 0;
+  if (bends && (joint.a >= 0 || stands_for(joint, arms)))
     flexibility(rotation, rotation) = 0;  // is the arms'
   for (const Arm& arm : arms) {
     if (arm.length == 0) continue;
@@ -129,7 +148,7 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
 // less that of two straight halves with the joint's slip between them, ℓ_a θ_a² + ℓ_b θ_b² + 2 φ v.
 Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::array<double, 2> follow) {
   const double a = arms[0].length, b = arms[1].length, length = a + b;
-  if (length == 0 || joint.a < 0 || is_free(joint, axial) || is_free(joint, shear) ||
+  if (length == 0 || joint.a < 0 || joint.node != 0 || is_free(joint, axial) || is_free(joint, shear) ||
       is_free(joint, rotation))
     return Matrix3d::Zero();
   const Vector3d slip = Vector3d::UnitZ(), turn(follow[0], follow[1], 0), chord = Vector3d(a, b, 1) / length;

@@ -16,8 +16,8 @@
 namespace ductile {
 
 /// Bars of a plan: by joints, on the side of a and of b, as cantilevers from the middle of the piece. A joint
-/// stands for bars where its bending stiffness is that of its sections over half of each piece; a support's
-/// is as stiff as the piece's other bars. Length 0: none.
+/// stands for bars where its bending stiffness is that of its sections over half of each piece; the bar to a
+/// support or a node is as stiff as the piece's other bars. Length 0: none.
 std::vector<std::array<Arm, 2>> arms_of(const Plan& plan);
 
 /// Of a joint of stiffness k = (k_N, k_Q, k_M; 0 in free rows), with the arms of both sides.

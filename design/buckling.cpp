@@ -86,6 +86,40 @@ void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan,
     for (int j = 0; j < 3; ++j) entries.emplace_back(c + i, c + j, columns[i].dot(form * columns[j]));
 }
 
+// Two bars that meet in a node, each from the middle of its piece (θ) to the node (θ_n = θ + δ), bent evenly
+// by the moment between them: ∫ w'² ds is ℓ (θ² + θ δ + δ²/3), its end w = ℓ δ/2 beside that of the rigid
+// piece. The rigid pieces' own form has ℓ θ² of the axial force and of loads at the end, and φ ℓ δ of the
+// joint's force.
+void add_node(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, const PlannedJoint& joint,
+              const std::array<Arm, 2>& arms, Point force, const std::vector<End>& ends,
+              const std::function<double(const Plan::Load&)>& dead) {
+  double compliance = 0;
+  Eigen::Vector2d phi = Eigen::Vector2d::Zero(), part = Eigen::Vector2d(-1, 1);  // of (θ_a, θ_b)
+  for (const Arm& arm : arms)
+    if (arm.length > 0) compliance += arm.length / arm.EI;
+  if (compliance == 0) return;
+  for (const End& end : ends) phi[end.sign > 0] = end.follow;
+  Eigen::Matrix2d form = Eigen::Matrix2d::Zero();
+  for (const bool b : {false, true}) {
+    const Arm& arm = arms[b];
+    if (arm.length == 0) continue;
+    const double from_joint = (b ? -1 : 1) * dot(force, arm.along);
+    double N = from_joint;
+    for (const Plan::Load& load : plan.loads)
+      if (load.piece == (b ? joint.b : joint.a) && length(load.at - joint.anchor) < 1e-6 * arm.length)
+        N += dead(load) * dot(load.def.force, arm.along);
+    const Eigen::Vector2d theta = b ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX();
+    const Eigen::Vector2d delta = (b ? -1 : 1) * arm.length / arm.EI / compliance * part;
+    const Eigen::Vector2d turn = N * theta - from_joint * phi;
+    form += arm.length / 2 * (turn * delta.transpose() + delta * turn.transpose());
+    form += N * arm.length / 3 * delta * delta.transpose();
+  }
+  for (const End& row : ends)
+    for (const End& column : ends)
+      entries.emplace_back(row.column + 2, column.column + 2,
+                           form(row.sign > 0, column.sign > 0) * row.scale[2] * column.scale[2]);
+}
+
 }  // namespace
 
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
@@ -129,7 +163,11 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
         both(turn.column + 2, end.column + 2, phi * dot(across, left(end.arm)) * end.scale[2]);
       }
     }
-    if (!statics.arms().empty()) add_curved(entries, j, statics.arms()[i], N, ends);
+    if (statics.arms().empty()) continue;
+    if (j.node != 0)
+      add_node(entries, plan, j, statics.arms()[i], force, ends, dead);
+    else
+      add_curved(entries, j, statics.arms()[i], N, ends);
   }
   for (const Plan::Load& load : plan.loads) {
     const int c = column(load.piece);

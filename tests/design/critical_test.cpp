@@ -1,9 +1,11 @@
 // Critical loads and beam-columns of 20 pieces a member against closed forms, to 1e-3.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "ductile/design.h"
 #include "frames.h"
@@ -104,6 +106,64 @@ TEST(CriticalLoad, SwayAndBracedPortals) {
     return x * (std::sin(x) - x * std::cos(x)) / (2 - 2 * std::cos(x) - x * std::sin(x)) + 2 * r;
   });
   EXPECT_NEAR(critical(f.braced(f.scene(true, 1))) / (phi * phi * unit), 1, within);
+}
+
+// The same on centre lines that meet in nodes, of members that are split evenly.
+TEST(CriticalLoad, PortalsOnNodes) {
+  const Frame f;
+  const double r = f.h / f.l, unit = f.stiffness() / (f.h * f.h), t = f.t / 2;
+  const auto portal = [&](bool fixed_feet, bool braced) {
+    SceneDef s = bending_only();
+    s.bodies = {f.member("left", rectangle(-t, 0, t, f.h), {0, 0}, {0, f.h}),
+                f.member("right", rectangle(f.l - t, 0, f.l + t, f.h), {f.l, 0}, {f.l, f.h}),
+                f.member("girder", rectangle(0, f.h - t, f.l, f.h + t), {0, f.h}, {f.l, f.h})};
+    for (const double x : {0., f.l}) {
+      const std::string column = x == 0 ? "left" : "right";
+      JointBetweenDef corner{.a = column, .b = "girder", .at = Point{x, f.h}};
+      corner.overrides.moment = unlimited;
+      s.joints.push_back(corner);
+      s.supports.push_back(
+          {.body = column, .at = {x, 0}, .fix_x = true, .fix_y = true, .fix_angle = fixed_feet});
+      s.loads.push_back({.body = column, .at = {x, f.h}, .force = {0, -1}});
+    }
+    if (braced) s.supports.push_back({.body = "girder", .at = {f.l, f.h}, .fix_x = true});
+    return s;
+  };
+  double phi = root(0.1, pi / 2 - 1e-9, [&](double x) { return x * std::tan(x) - 6 * r; });
+  EXPECT_NEAR(critical(portal(false, false)) / (phi * phi * unit), 1, within);
+  phi = root(pi / 2 + 1e-9, pi - 1e-9, [&](double x) { return x / std::tan(x) + 6 * r; });
+  EXPECT_NEAR(critical(portal(true, false)) / (phi * phi * unit), 1, within);
+  phi = root(pi + 1e-9, 4.4934 - 1e-9,
+             [&](double x) { return x * x * std::tan(x) / (std::tan(x) - x) + 2 * r; });
+  EXPECT_NEAR(critical(portal(false, true)) / (phi * phi * unit), 1, within);
+}
+
+// A column on a pin, held across at its head by two clamped beams of its section, each of which resists its
+// turn by 4 EI/l: φ² = (φ cot φ − 1) 8 h/l. Whichever body is the node's first.
+TEST(CriticalLoad, ThreeBarsInANode) {
+  const double h = 8, l = 6, t = 0.4;
+  const Frame f;
+  SceneDef s = bending_only();
+  s.bodies = {f.member("column", rectangle(-t / 2, 0, t / 2, h), {0, 0}, {0, h}),
+              f.member("left", rectangle(-l, h - t / 2, 0, h + t / 2), {-l, h}, {0, h}),
+              f.member("right", rectangle(0, h - t / 2, l, h + t / 2), {0, h}, {l, h})};
+  s.supports = {{.body = "column", .at = {0, 0}, .fix_x = true, .fix_y = true},
+                {.body = "left", .at = {-l, h}, .fix_x = true, .fix_y = true, .fix_angle = true},
+                {.body = "right", .at = {l, h}, .fix_y = true, .fix_angle = true}};
+  s.loads = {{.body = "column", .at = {0, h}, .force = {0, -1}}};
+  const double phi =
+      root(pi + 1e-9, 4.4934, [&](double x) { return x * x - (x / std::tan(x) - 1) * 8 * h / l; });
+  struct Order {
+    std::array<const char*, 3> bodies;
+    double within;
+  };
+  for (const auto& [bodies, off] :
+       {Order{{"left", "right", "column"}, within}, Order{{"column", "left", "right"}, 3. / (n * n)}}) {
+    JointBetweenDef node{.a = bodies[0], .b = bodies[1], .at = Point{0, h}, .others = {bodies[2]}};
+    node.overrides.moment = unlimited;
+    s.joints = {node};
+    EXPECT_NEAR(critical(s) / (phi * phi * f.stiffness() / (h * h)), 1, off) << bodies[0];
+  }
 }
 
 // A column on pins that carries a P leans on a mast that carries P: with k² = P/EI and φ = k h,
