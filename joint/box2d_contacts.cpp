@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reveal.h"
+#include "box2d_private.h"
 
 namespace ductile::dynamics {
 
@@ -41,7 +41,6 @@ bool is_as_assumed(const Touch& t, int32 index, b2Body* const* island, int32 bod
 
 void IslandContacts::read(b2World& world, const b2SolverData& data) {
   touches_.clear();
-  body_count_ = 0;
   b2StackAllocator& stack = of(world, b2World_m_stackAllocator{});
   if (of(stack, b2StackAllocator_m_entryCount{}) != entries) return;
   const StackEntries& entry = of(stack, b2StackAllocator_m_entries{});
@@ -56,7 +55,6 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
       size(at_positions) != count * sizeof(PositionConstraint) || size(contacts) < count * pointer)
     return;
   auto** island = reinterpret_cast<b2Body**>(entry[bodies].data);
-  body_count_ = capacity;
   auto** contact = reinterpret_cast<b2Contact**>(entry[contacts].data);
   auto* velocity = reinterpret_cast<VelocityConstraint*>(entry[at_velocities].data);
   auto* position = reinterpret_cast<PositionConstraint*>(entry[at_positions].data);
@@ -67,6 +65,25 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
       return touches_.clear();
     touches_.push_back(touch);
   }
+}
+
+void IslandContacts::begin(const b2World& world) {
+  marks_.assign(static_cast<std::size_t>(world.GetBodyCount()), unknown);
+  front_.clear();
+}
+
+IslandContacts::Mark& IslandContacts::mark(const b2Body& body) {
+  return marks_[static_cast<std::size_t>(of(body, b2Body_m_islandIndex{}))];
+}
+
+void IslandContacts::reach(b2Body& body) {
+  if (body.GetType() != b2_dynamicBody || mark(body) != unknown) return;
+  mark(body) = reached;
+  front_.push_back(&body);
+}
+
+bool IslandContacts::is_followed(const b2Body& body) const {
+  return body.GetType() == b2_dynamicBody && const_cast<IslandContacts*>(this)->mark(body) == followed;
 }
 
 bool share_a_neighbour(const b2Body& a, const b2Body& b) {

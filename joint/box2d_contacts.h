@@ -61,19 +61,32 @@ struct Touch {
 class IslandContacts {
  public:
   void read(b2World& world, const b2SolverData& data);
-  /// Leaves those that touch a body for which is_piece is true, of bodies that may_take; and where all that
-  /// can be reached of these by contacts are few points, these too.
-  template <class IsPiece, class MayTake>
-  void choose(const IsPiece& is_piece, const MayTake& may_take);
+  /// Forgets what is reached.
+  void begin(const b2World& world);
+  /// Leaves those that touch a reached body or one for which is_piece is true, of bodies that may_take; and
+  /// where all that can be reached of these by contacts are few points, these too. `follow(body)` is called
+  /// for each body that is reached, and may reach() more.
+  template <class IsPiece, class MayTake, class Follow>
+  void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
+  /// A body that something which is solved with the structure holds.
+  void reach(b2Body& body);
+  /// Whether what holds the body was looked for: `follow` was called.
+  bool is_followed(const b2Body& body) const;
   std::span<const Touch> touches() const { return touches_; }
   void clear() { touches_.clear(); }
 
  private:
   static constexpr std::size_t few = 40;  // points
 
+  enum Mark : char { unknown, reached, followed };
+  Mark& mark(const b2Body& body);
+  template <class Follow>
+  void follow_front(const Follow& follow);
+
   std::vector<Touch> touches_, chosen_;
-  std::vector<char> reached_, taken_;
-  std::size_t body_count_ = 0;  // that the island has room for
+  std::vector<char> taken_;
+  std::vector<Mark> marks_;     // of the island's bodies
+  std::vector<b2Body*> front_;  // reached, but not followed
 };
 
 /// Whether two bodies are joined to the same third, which moves: at a corner pieces on both sides of a hinge
@@ -87,24 +100,33 @@ void settle(VelocityConstraint& constraint);
 inline void hold_a(PositionConstraint& p) { p.inverse_mass_a = p.inverse_inertia_a = 0; }
 inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia_b = 0; }
 
-template <class IsPiece, class MayTake>
-void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take) {
+template <class Follow>
+void IslandContacts::follow_front(const Follow& follow) {
+  for (std::size_t k = 0; k < front_.size(); ++k) {
+    b2Body& body = *front_[k];
+    mark(body) = followed;
+    follow(body);
+  }
+  front_.clear();
+}
+
+template <class IsPiece, class MayTake, class Follow>
+void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow) {
   chosen_.clear();
   taken_.assign(touches_.size(), 0);
-  reached_.assign(body_count_, 0);
-  const auto reached = [&](int32 body) -> char& { return reached_[static_cast<std::size_t>(body)]; };
+  follow_front(follow);
   const auto moves = [](const b2Body* body) { return body->GetType() == b2_dynamicBody; };
   std::size_t points = 0;
-  // Hop by hop: contacts of pieces, then of what these touch.
+  // Hop by hop: contacts of pieces, and of what is tied to them, then of what these touch.
   for (bool first = true;; first = false) {
     const std::size_t before = chosen_.size(), points_before = points;
     for (std::size_t k = 0; k < touches_.size(); ++k) {
       const Touch& t = touches_[k];
       b2Body *a = t.a(), *b = t.b();
-      const auto from = [&](b2Body* body, int32 index) {
-        return moves(body) && (first ? is_piece(body) : reached(index) == 1);
+      const auto from = [&](b2Body* body) {
+        return moves(body) && (mark(*body) != unknown || (first && is_piece(body)));
       };
-      if (taken_[k] != 0 || !(from(a, t.velocity->a) || from(b, t.velocity->b))) continue;
+      if (taken_[k] != 0 || !(from(a) || from(b))) continue;
       taken_[k] = 1;
       if (!may_take(a) || !may_take(b) || share_a_neighbour(*a, *b)) continue;
       chosen_.push_back(t);
@@ -117,9 +139,10 @@ void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take) {
     }
     if (chosen_.size() == before) break;
     for (std::size_t k = before; k < chosen_.size(); ++k) {
-      if (moves(chosen_[k].a())) reached(chosen_[k].velocity->a) = 1;
-      if (moves(chosen_[k].b())) reached(chosen_[k].velocity->b) = 1;
+      for (b2Body* body : {chosen_[k].a(), chosen_[k].b()})
+        if (moves(body) && !is_piece(body)) reach(*body);
     }
+    follow_front(follow);
   }
   touches_.swap(chosen_);
 }

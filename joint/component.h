@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "box2d_contacts.h"
+#include "box2d_joints.h"
 #include "ductile/joint.h"
 #include "solver.h"
 
@@ -75,7 +76,7 @@ struct Member {
 /// without mass among them.
 inline bool is_free(const b2Body* body) { return body->GetType() == b2_dynamicBody && body->GetMass() > 0; }
 
-/// Two bodies that touch.
+/// Two bodies that touch, or that a stock joint holds.
 struct BodyPair {
   b2Body *a, *b;
 };
@@ -93,7 +94,7 @@ struct Component {
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
-    bool guest = false;   // touches the structure, but no joint of it
+    bool guest = false;   // touches the structure or is tied to it, but no joint of it
     bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
 
     bool has_its_mass() const {
@@ -114,9 +115,11 @@ struct Component {
 
   /// Before a step: where the island has the bodies, and whether they are still what the component was formed
   /// for. Takes their velocities, but where the step may be the last one again.
-  bool look(const b2SolverData& data, const IslandContacts& contacts);
+  bool look(const b2SolverData& data, const IslandContacts& contacts, std::span<const StockJoint> stock);
   /// The contact is a row of this step; false where the component was not formed for its bodies.
   bool touch(Touch touch);
+  /// Likewise, of a stock joint.
+  bool tie(StockJoint stock);
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
@@ -147,6 +150,7 @@ struct Component {
   std::vector<Mirror> mirrors;        // as solver.bodies
   std::vector<Account> accounts;      // likewise
   std::vector<Touch> touches;         // contacts that are rows of this step
+  std::vector<StockJoint> ties;       // likewise
   double origin_x = 0, origin_y = 0;  // m: poses are kept relative to it
   SolverKind kind;
   Structure::Impl* structure = nullptr;
@@ -163,14 +167,19 @@ struct Component {
   void read_mass(std::size_t body);
   int freedom(std::size_t body, std::size_t free_bodies) const;
   int index_of(const b2Body* body) const;
+  bool knows(int a, int b) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
   bool parts(const Joint& joint) const;
   /// By what velocities must change at once for a blow, m/s.
   static constexpr float blow_speed = 0.1f;
   void set_warm_starts_aside();
+  void set_ties_aside(const b2SolverData& data);
   void enter_contacts();
+  void enter_ties();
   void return_contacts();
+  void return_ties();
+  bool is_anchored() const;
   void solve(const b2SolverData& data);
   bool weaken_what_breaks();
   void project(bool try_goal);
@@ -179,6 +188,7 @@ struct Component {
 
   std::vector<Pose> goal;
   std::vector<Contact> rows_;  // of the touches' points
+  std::vector<Link> links_;    // of the ties
   std::vector<std::pair<const b2Body*, int>> by_address_;
   bool anchored_ = false;  // some joint holds to what does not give
   bool parted_ = false;    // bodies were moved apart while their joint was in no island

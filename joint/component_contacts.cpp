@@ -11,14 +11,16 @@ namespace ductile::dynamics {
 bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
-  if (t.in_a < 0 || t.in_b < 0) return false;
-  if (solver.is_free(t.in_a) && solver.is_free(t.in_b)) {
-    const std::pair pair = std::minmax(t.in_a, t.in_b);
-    if (!std::binary_search(solver.pairs.begin(), solver.pairs.end(), std::pair<int, int>(pair)))
-      return false;
-  }
+  if (!knows(t.in_a, t.in_b)) return false;
   touches.push_back(t);
   return true;
+}
+
+// Whether the component was formed for something between these bodies of it.
+bool Component::knows(int a, int b) const {
+  if (a < 0 || b < 0) return false;
+  const std::pair<int, int> pair = std::minmax(a, b);
+  return !solver.is_free(pair.second) || std::binary_search(solver.pairs.begin(), solver.pairs.end(), pair);
 }
 
 int Component::index_of(const b2Body* body) const {
@@ -66,12 +68,13 @@ void Component::enter_contacts() {
       rows_.push_back(c);
     }
   }
-  solver.touch(rows_);
+  solver.touch(links_, rows_);
 }
 
 // Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
 // be brought back.
 void Component::return_contacts() {
+  const bool anchored = is_anchored();
   auto row = solver.contacts.begin();
   for (const Touch& t : touches) {
     for (int32 k = 0; k < t.velocity->count; ++k, ++row) {
@@ -81,8 +84,8 @@ void Component::return_contacts() {
     settle(*t.velocity);
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
-    if (anchored_ && !a.guest && yields(b)) hold_a(*t.position);
-    if (anchored_ && !b.guest && yields(a)) hold_b(*t.position);
+    if (anchored && !a.guest && yields(b)) hold_a(*t.position);
+    if (anchored && !b.guest && yields(a)) hold_b(*t.position);
   }
 }
 

@@ -11,14 +11,20 @@
 
 namespace ductile::dynamics {
 
-bool Component::look(const b2SolverData& data, const IslandContacts& contacts) {
+bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
+                     std::span<const StockJoint> stock) {
   touches.clear();
+  ties.clear();
   for (Mirror& m : mirrors) m.present = !m.guest;
-  for (const Touch& t : contacts.touches()) {
-    for (const b2Body* body : {t.a(), t.b()}) {
-      if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = true;
+  const auto see = [this](const auto& all) {
+    for (const auto& t : all) {
+      for (const b2Body* body : {t.a(), t.b()}) {
+        if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = true;
+      }
     }
-  }
+  };
+  see(contacts.touches());
+  see(stock);
   bool masses = true;
   alone_ = kind == SolverKind::direct;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -97,7 +103,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 }
 
 void Component::first_velocity(const b2SolverData& data) {
-  resting = touches.empty() && as_before(data);
+  resting = touches.empty() && ties.empty() && as_before(data);
   if (resting) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;
@@ -112,6 +118,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
   }
   set_warm_starts_aside();
+  set_ties_aside(data);
   bool moved = std::exchange(parted_, false);
   const auto start_from = [this](std::size_t i) {
     Body& b = solver.bodies[i];
@@ -171,6 +178,7 @@ void Component::first_velocity(const b2SolverData& data) {
     open = true;
   }
   if (kind == SolverKind::iterative) solver.warm_start();
+  enter_ties();
   enter_contacts();
   if (kind == SolverKind::direct && is_blow()) solver.strike();
   struck_ = false;
@@ -238,6 +246,7 @@ void Component::solve(const b2SolverData& data) {
   }
   give(data);
   return_contacts();
+  return_ties();
   ++report->solves;
   report->rounds += solved.rounds;
   report->factorisations += solved.factorisations;
@@ -269,6 +278,7 @@ void Component::position(const b2SolverData& data) {
     }
     return;
   }
+  for (const StockJoint& t : ties) let_positions(t);
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     goal[i] = solver.places[i].pose;
@@ -326,7 +336,8 @@ void Component::advance(const b2SolverData& data) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
     kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
-  at_rest_ = kind == SolverKind::direct && touches.empty() && alone && !kinematic && solver.at_rest();
+  at_rest_ = kind == SolverKind::direct && touches.empty() && ties.empty() && alone && !kinematic &&
+             solver.at_rest();
 }
 
 }  // namespace ductile::dynamics

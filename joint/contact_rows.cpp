@@ -8,9 +8,6 @@ namespace ductile::dynamics {
 
 namespace {
 
-/// G of contacts as a multiple of the effective mass: what they sink by is g h²/contact_ratio a step.
-constexpr double contact_ratio = 1e8;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double effective_mass(const System& system, const Joint& j, double arm_a, double arm_b) {
@@ -36,14 +33,14 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
     const Contact &now = contacts[k], &before = system.contacts[k];
     same = now.id == before.id && now.a == before.a && now.b == before.b;
   }
-  const std::size_t own = system.own();
+  const std::size_t first = system.first_contact();
   system.contacts.assign(contacts.begin(), contacts.end());
-  system.joints.resize(own + contacts.size());
-  system.records.resize(own + contacts.size());
+  system.joints.resize(first + contacts.size());
+  system.records.resize(first + contacts.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    Joint& j = system.joints[own + k];
-    JointRecord& r = system.records[own + k];
+    Joint& j = system.joints[first + k];
+    JointRecord& r = system.records[first + k];
     if (!same) j = {}, r = {};
     j.a = c.a;
     j.b = c.b;
@@ -70,7 +67,7 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
 
 void read_contacts(System& system) {
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
-    const Rows& s = system.joints[system.own() + k].impulse;
+    const Rows& s = system.joints[system.first_contact() + k].impulse;
     system.contacts[k].normal = std::max(0.0, -s[0]);
     system.contacts[k].tangent = s[1];
   }
@@ -82,8 +79,8 @@ Lag lag_friction(System& system, int round) {
   for (const Contact& c : system.contacts) largest = std::max(largest, c.friction * c.normal);
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
     const Contact& c = system.contacts[k];
-    Joint& j = system.joints[system.own() + k];
-    JointRecord& r = system.records[system.own() + k];
+    Joint& j = system.joints[system.first_contact() + k];
+    JointRecord& r = system.records[system.first_contact() + k];
     const double cap = r.law.cap[1], wanted = c.friction * c.normal;
     if (std::abs(wanted - cap) <= 1e-3 * std::max(wanted, cap) + 1e-5 * largest) continue;
     // What sticks within both caps is not changed by them.

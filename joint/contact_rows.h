@@ -8,7 +8,7 @@
 // F. Permenter, X. Han, IEEE Trans. Robotics 39 (2023), and of M. Jean, Comput. Methods Appl. Mech. Engrg.
 // 177 (1999).
 //
-// Contact rows follow the structure's joints in System::joints. They have no gap, no law in time and no
+// Contact rows are the last in System::joints. They have no gap, no law in time and no
 // material: what integrates, books or projects joints leaves them out (System::own).
 #pragma once
 
@@ -17,6 +17,9 @@
 #include "system.h"
 
 namespace ductile::dynamics {
+
+/// G of contacts as a multiple of the effective mass: what they sink by is g h²/contact_ratio a step.
+inline constexpr double contact_ratio = 1e8;
 
 /// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H
 /// is not theirs. Their blocks of H are the caller's to set.

@@ -144,8 +144,8 @@ void InteriorPoint::start(const System& system) {
 
 // Within the rounds a contact that may press has friction, too: its normal impulse is never 0.
 void InteriorPoint::open_friction(System& system) {
-  for (std::size_t k = system.own(); k < system.joints.size(); ++k) {
-    const Contact& c = system.contacts[k - system.own()];
+  for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k) {
+    const Contact& c = system.contacts[k - system.first_contact()];
     Joint& j = system.joints[k];
     if (c.friction > 0 && !(j.G[1] > 0))
       set_friction(j, system.record(j), c.friction * std::max(c.normal, 1.0));
@@ -157,12 +157,12 @@ void InteriorPoint::open_friction(System& system) {
 // below the mean μ, or the next step would be as short as p has become. Whether any cap moved.
 bool InteriorPoint::follow_friction(System& system, double energy, double mu) {
   bool moved = false;
-  for (std::size_t k = system.own(); k < system.joints.size(); ++k) {
+  for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k) {
     Joint& j = system.joints[k];
     if (!(j.G[1] > 0)) continue;
     JointRecord& r = system.record(j);
     Local& l = locals_[k];
-    const double cap = system.contacts[k - system.own()].friction * bounds_[l.first].p,
+    const double cap = system.contacts[k - system.first_contact()].friction * bounds_[l.first].p,
                  share = cap / r.law.cap[1];
     if (std::abs(cap - r.law.cap[1]) <= 1e-4 * cap + 1e-7 * std::sqrt(r.m_eff[1] * energy)) continue;
     moved = true;

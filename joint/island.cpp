@@ -56,11 +56,12 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   if (velocity_calls_++ == 0) {
     choose_contacts(data);
     bool fits = !incomplete_;
-    for (Component* c : active_) fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_);
-    if (!fits || !distribute_contacts()) {
+    for (Component* c : active_)
+      fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_, stock_);
+    if (!fits || !distribute()) {
       form();
-      for (Component* c : active_) c->look(data, contacts_);
-      distribute_contacts();
+      for (Component* c : active_) c->look(data, contacts_, stock_);
+      distribute();
     }
     hold_bullets();
     for (Component* c : active_) c->first_velocity(data);
@@ -78,31 +79,6 @@ void Structure::Impl::velocity(const b2SolverData& data) {
     c->advance(data);
     look_for_breaks(*c);
   }
-}
-
-// Those that are rows of this step's problem. A body that a structure has joints on is a piece.
-void Structure::Impl::choose_contacts(const b2SolverData& data) {
-  contacts_.clear();
-  contacts_.read(*world, data);
-  for (const Touch& t : contacts_.touches()) {
-    for (b2Body* body : {t.a(), t.b()}) stop_if_not_finite(*body, data);
-    for (int32 k = 0; k < t.velocity->count; ++k)  // Box2D made it of the velocities: 0 · ∞ is no number
-      if (float& bounce = t.velocity->points[k].bounce; !b2IsValid(bounce)) bounce = 0;
-  }
-  if (def.solver != SolverKind::direct) return contacts_.clear();
-  const auto is_ours = [this](const b2Body* body) { return structure_of(*body) == this; };
-  const auto may_take = [this](b2Body* body) {
-    return body->GetType() != b2_dynamicBody || (is_free(body) && !is_of_another(*body));
-  };
-  contacts_.choose(is_ours, may_take);
-}
-
-bool Structure::Impl::distribute_contacts() {
-  for (const Touch& t : contacts_.touches()) {
-    const auto takes = [&t](Component* c) { return c->touch(t); };
-    if (std::none_of(active_.begin(), active_.end(), takes)) return false;
-  }
-  return true;
 }
 
 void Structure::Impl::position(const b2SolverData& data) {
@@ -134,27 +110,33 @@ void Structure::Impl::form() {
       root[std::max(other, mine)] = std::min(other, mine);
     }
   }
-  // What touches hangs together, too. Of bodies without joints, by way of those that they touch.
-  const std::span<const Touch> touches = contacts_.touches();
-  for (const Touch& t : touches) {
-    if (!is_free(t.a()) || !is_free(t.b())) continue;
-    const auto a = first_joint.find(t.a()), b = first_joint.find(t.b());
-    if (a == first_joint.end() && b == first_joint.end()) continue;
-    if (a == first_joint.end()) {
-      first_joint.emplace(t.a(), b->second);
-    } else if (b == first_joint.end()) {
-      first_joint.emplace(t.b(), a->second);
-    } else {
-      const std::size_t one = find(a->second), other = find(b->second);
-      root[std::max(one, other)] = std::min(one, other);
+  // What touches or is tied hangs together, too. Of bodies without joints, by way of those that they touch.
+  std::vector<BodyPair> pairs;
+  for (const StockJoint& t : stock_) pairs.push_back({t.a(), t.b()});
+  for (const Touch& t : contacts_.touches()) pairs.push_back({t.a(), t.b()});
+  for (bool again = true; std::exchange(again, false);) {
+    for (const BodyPair& pair : pairs) {
+      if (!is_free(pair.a) || !is_free(pair.b)) continue;
+      const auto a = first_joint.find(pair.a), b = first_joint.find(pair.b);
+      if (a == first_joint.end() && b == first_joint.end()) continue;
+      if (a == first_joint.end()) {
+        first_joint.emplace(pair.a, b->second);
+        again = true;
+      } else if (b == first_joint.end()) {
+        first_joint.emplace(pair.b, a->second);
+        again = true;
+      } else {
+        const std::size_t one = find(a->second), other = find(b->second);
+        root[std::max(one, other)] = std::min(one, other);
+      }
     }
   }
   std::vector<std::vector<Member*>> groups(all.size());
   std::vector<std::vector<BodyPair>> touched(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
-  for (const Touch& t : touches) {
-    const auto joint = first_joint.find(is_free(t.a()) ? t.a() : t.b());
-    if (joint != first_joint.end()) touched[find(joint->second)].push_back({t.a(), t.b()});
+  for (const BodyPair& pair : pairs) {
+    const auto joint = first_joint.find(is_free(pair.a) ? pair.a : pair.b);
+    if (joint != first_joint.end()) touched[find(joint->second)].push_back(pair);
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
     auto& group = groups[k];

@@ -50,17 +50,18 @@ void Solver::weaken(std::size_t joint, double share) {
   newton_.forget();
 }
 
-void Solver::touch(std::span<const Contact> now) {
-  if (now.empty() && contacts.empty()) return;
-  if (!enter_contacts(*this, now, step())) {
+void Solver::touch(std::span<const Link> links_now, std::span<const Contact> contacts_now) {
+  if (links_now.empty() && links.empty() && contacts_now.empty() && contacts.empty()) return;
+  const bool same_links = enter_links(*this, links_now, step());
+  if (!enter_contacts(*this, contacts_now, step()) || !same_links) {
     hessian_.forget();
     newton_.forget();
   }
-  place_contacts();
+  place_others();
 }
 
-// Each contact's block of H.
-void Solver::place_contacts() {
+// The block of H of each link and contact.
+void Solver::place_others() {
   for (std::size_t k = own(); k < joints.size(); ++k) {
     Joint& j = joints[k];
     j.block = is_free(j.a) && is_free(j.b) ? hessian_.block(j.a, j.b) : -1;
@@ -87,6 +88,7 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
+  read_links(*this);
   last_ = solution.at;
   return solution.moved;
 }

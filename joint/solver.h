@@ -6,7 +6,8 @@
 //                    records; changed masses            allocates, nothing after it does
 //   locate()         put() of any body                  gaps and J anew
 //   begin(h)         form, locate, advance              laws and biases of a step of h seconds
-//   touch(contacts)  begin                          their rows
+//   touch(links,     begin                          their rows
+//     contacts)
 //   push(i, Δv*)     solve, in the same step            another velocity changed
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
 //                    or push
@@ -27,6 +28,7 @@
 #include "contact_rows.h"
 #include "drive.h"
 #include "ledger.h"
+#include "link_rows.h"
 #include "newton.h"
 #include "projection.h"
 #include "sweep.h"
@@ -56,8 +58,9 @@ class Solver : public System {
   /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
   /// again.
   void weaken(std::size_t joint, double share);
-  /// Contacts of this step, after begin() and before its first solve. `pairs` has them.
-  void touch(std::span<const Contact> contacts);
+  /// What else holds or touches bodies in this step, after begin() and before its first solve. `pairs` has
+  /// them.
+  void touch(std::span<const Link> links, std::span<const Contact> contacts);
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
   void scale(double share);
@@ -100,12 +103,12 @@ class Solver : public System {
   std::size_t bytes() const;
   void keep(Tape& tape) {
     System::keep(tape);
-    if (tape.reads()) place_contacts();
+    if (tape.reads()) place_others();
     tape(laws_, hessian_, newton_, prediction_, ledger_.energies, last_, motion_.share, predicted_);
   }
 
  private:
-  void place_contacts();
+  void place_others();
   void book(Joint& joint, const Rows& gap);
 
   StepLaws laws_;

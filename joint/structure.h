@@ -84,8 +84,12 @@ struct Structure::Impl {
  private:
   void form();
   dynamics::Component& form(std::vector<dynamics::Member*> group, std::vector<dynamics::BodyPair> touching);
+  // reach.cpp
   void choose_contacts(const b2SolverData& data);
-  bool distribute_contacts();
+  void choose_stock_joints();
+  void follow(b2Body& body);
+  bool may_take(const b2Body& body) const;
+  bool distribute();
   // first_touch.cpp
   void meet_guests();
   void hold_bullets();
@@ -104,10 +108,11 @@ struct Structure::Impl {
   int velocity_calls_ = 0;
   bool enlisting_ = false;
   dynamics::IslandContacts contacts_;
-  std::vector<b2Body*> bullets_;  // that are none until update()
-  bool incomplete_ = false;       // some enlisted joint is in no component
-  bool stepped_ = false;          // since the last update()
-  bool broke_ = false;            // some joint, since then
+  std::vector<dynamics::StockJoint> stock_;  // that hold its pieces, and what touches these
+  std::vector<b2Body*> bullets_;             // that are none until update()
+  bool incomplete_ = false;                  // some enlisted joint is in no component
+  bool stepped_ = false;                     // since the last update()
+  bool broke_ = false;                       // some joint, since then
 
   JointEnergy gone_;  // of components and joints that are no more
 

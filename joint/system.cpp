@@ -45,7 +45,7 @@ void System::keep(Tape& tape) {
   tape(places);
   if (tape.reads()) locate_all(*this);
   tape(bodies);
-  if (!keep_contacts(tape)) return tape.refuse();
+  if (!keep_others(tape)) return tape.refuse();
   tape(joints, records);
   std::size_t inertias = turn_inertias.size();
   tape(inertias);
@@ -70,29 +70,29 @@ void System::keep(Tape& tape) {
   if (tape.reads()) list_special(*this);
 }
 
-// The points, and what of their rows follows from nothing else; false where they are of other bodies.
-bool System::keep_contacts(Tape& tape) {
-  std::size_t count = contacts.size();
-  tape(count);
-  if (count > tape.left() && tape.reads()) return false;
+// Links and contacts, and what of their rows follows from nothing else; false where they are of other bodies.
+bool System::keep_others(Tape& tape) {
+  std::size_t link_count = links.size(), contact_count = contacts.size();
+  tape(link_count, contact_count);
   if (tape.reads()) {
+    if (std::max(link_count, contact_count) > tape.left()) return false;
     const std::size_t own_count = own();
-    contacts.resize(count);
-    joints.resize(own_count + count);
-    records.resize(own_count + count);
+    links.resize(link_count);
+    contacts.resize(contact_count);
+    joints.resize(own_count + link_count + contact_count);
+    records.resize(joints.size());
   }
-  tape(contacts);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Contact& c = contacts[k];
-    Joint& j = joints[own() + k];
+  tape(links, contacts);
+  for (std::size_t k = own(); k < joints.size(); ++k) {
+    Joint& j = joints[k];
     tape(j.J, record(j).m_eff);
     if (!tape.reads()) continue;
-    const auto [a, b] = std::minmax(c.a, c.b);
+    const auto take = [&j](const auto& of) { j.a = of.a, j.b = of.b; };
+    k < first_contact() ? take(links[k - own()]) : take(contacts[k - first_contact()]);
+    const auto [a, b] = std::minmax(j.a, j.b);
     if (a < 0 || z(b) >= bodies.size()) return false;
     if (is_free(b) && !std::binary_search(pairs.begin(), pairs.end(), std::pair<int, int>(a, b)))
       return false;
-    j.a = c.a;
-    j.b = c.b;
   }
   return true;
 }

@@ -126,17 +126,31 @@ struct Contact {
   }
 };
 
+/// A joint that is not the structure's own, as rows of a step: s = clamp(G (J v + b), −c⁻, c).
+struct Link {
+  int a = 0, b = 0;  // bodies
+  Jacobian J;
+  Rows G{};  // kg or kg m²: of springs; infinite: as stiff as contacts; 0: no row
+  Rows bias{};
+  Rows cap{}, cap_reverse{};  // N s or N m s, ≥ 0
+  Rows impulse{};             // where to start, and of the last solve
+  std::uint64_t id = 0;       // of the same kind of rows in the next step; below 2³²
+
+  void keep(Tape& tape) { tape(a, b, J, G, bias, cap, cap_reverse, impulse, id); }
+};
+
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
 /// (static and kinematic bodies) are prescribed.
 struct System {
   std::vector<Body> bodies;
   std::vector<Place> places;               // of the bodies
-  std::vector<Joint> joints;               // the structure's own, then rows of contacts
+  std::vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them
   std::vector<int> driven;                 // joints
-  std::vector<Contact> contacts;           // whose rows follow the structure's own joints
-  std::vector<std::pair<int, int>> pairs;  // bodies that contacts may join: part of the pattern of H
+  std::vector<Link> links;                 // whose rows follow the structure's own joints
+  std::vector<Contact> contacts;           // whose rows follow those
+  std::vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H
   std::size_t free = 0;                    // bodies
   double mass = 0;                         // of all free bodies, kg
   bool gaps_known = false;                 // no pose was moved since they were found
@@ -146,9 +160,10 @@ struct System {
   JointRecord& record(const Joint& joint) { return records[index(joint)]; }
   std::size_t index(const Joint& joint) const { return static_cast<std::size_t>(&joint - joints.data()); }
   /// How many joints are the structure's own; they.
-  std::size_t own() const { return joints.size() - contacts.size(); }
+  std::size_t own() const { return joints.size() - contacts.size() - links.size(); }
   std::span<Joint> own_joints() { return {joints.data(), own()}; }
   std::span<const Joint> own_joints() const { return {joints.data(), own()}; }
+  std::size_t first_contact() const { return joints.size() - contacts.size(); }
   bool is_free(int body) const { return z(body) < free; }
 
   /// After form(), of the same bodies and joints.
@@ -157,7 +172,7 @@ struct System {
   void form(std::size_t free_bodies);
 
  private:
-  bool keep_contacts(Tape& tape);
+  bool keep_others(Tape& tape);
 };
 
 /// After keep() has read a joint and its record: what follows from them.

@@ -139,7 +139,7 @@ TEST(Solver, FrictionIsFoundWithWhatPresses) {
     line.solver.bodies[z(i)].v_free = line.solver.bodies[z(i)].v = {speed, -g * h, 0};
   }
   line.solver.begin(h);
-  line.solver.touch(contacts);
+  line.solver.touch({}, contacts);
   SolveReport report;
   line.solver.solve(report);
   EXPECT_FALSE(report.unsolved);

@@ -1,0 +1,93 @@
+// Box2D's own joints that hold a structure: which of the island at hand they are, what rows they are of the
+// structure's problem, and how their impulses are handed back. Written against Box2D 2.4.1.
+//
+// Solved by Box2D, such a joint would see the mass of the piece that it holds, not of the structure: a motor
+// would hold a deck with a fraction of the moment that it takes. So its rows are solved with the structure.
+// What Box2D is left with has impulses and infinite masses: its own iterations then change neither, and
+// GetReactionForce, GetMotorTorque and the next warm start find the impulse that the structure's problem has.
+// Positions are its own to correct where they are far off, by more than Box2D's slop.
+//
+// Revolute, prismatic, distance, wheel, weld, mouse and pulley joints are rows. Gear, friction and motor
+// joints are not, nor any joint of a world without warm starting: they see the piece.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "ductile/joint.h"
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// An impulse that Box2D keeps of a joint, and the row whose impulse is `sense` times it.
+struct Channel {
+  float* impulse = nullptr;
+  unsigned link = 0, row = 0;
+  int sense = 1;
+  bool one_sided = false;  // Box2D's is ≥ 0
+};
+
+/// The rows of one joint.
+struct StockRows {
+  std::array<Link, 3> links;
+  std::size_t count = 0;  // of links; 0: Box2D solves the joint
+  std::array<Channel, 6> channels;
+  std::size_t channel_count = 0;
+  bool near = true;  // no gap that its rows close is wider than Box2D's slop
+};
+
+/// A stock joint of the island at hand.
+struct StockJoint {
+  b2Joint* joint = nullptr;
+  std::uint32_t member = 0, place = 0;  // beside which of the structure's joints it was found, and when
+  int in_a = -1, in_b = -1;             // its bodies in a component
+  StockRows rows;
+  float position_mass = 0;  // what its iterations of positions read and those of velocities must not
+
+  b2Body* a() const { return joint->GetBodyA(); }
+  b2Body* b() const { return joint->GetBodyB(); }
+};
+
+/// Calls visit() with the joint as what it is; false where its rows are not known.
+template <class Visit>
+bool as_it_is(b2Joint& joint, const Visit& visit) {
+  switch (joint.GetType()) {
+    case e_revoluteJoint:
+      return visit(static_cast<b2RevoluteJoint&>(joint)), true;
+    case e_prismaticJoint:
+      return visit(static_cast<b2PrismaticJoint&>(joint)), true;
+    case e_distanceJoint:
+      return visit(static_cast<b2DistanceJoint&>(joint)), true;
+    case e_wheelJoint:
+      return visit(static_cast<b2WheelJoint&>(joint)), true;
+    case e_mouseJoint:
+      return visit(static_cast<b2MouseJoint&>(joint)), true;
+    case e_pulleyJoint:
+      return visit(static_cast<b2PulleyJoint&>(joint)), true;
+    case e_weldJoint:
+      if (ElasticPlasticJoint::cast(&joint) != nullptr) return false;
+      return visit(static_cast<b2WeldJoint&>(joint)), true;
+    default:
+      return false;
+  }
+}
+
+/// Whether a joint is one whose rows are known, and in the island at hand.
+bool is_stock(b2Joint& joint);
+
+/// Rows of a joint whose bodies are at these places, relative to an origin, in a step of h seconds; with the
+/// impulses that Box2D has given to it by now.
+StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h);
+
+/// Gives the impulses of the links back, and leaves Box2D's iterations nothing to do but to correct positions
+/// where the rows do not.
+void hand_back(StockJoint& stock, std::span<const Link> links);
+
+/// Before Box2D's iterations of positions.
+void let_positions(const StockJoint& stock);
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,81 @@
+// Stock joints of a step as rows of a component: read from Box2D, and given back to it.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "component.h"
+#include "frames.h"
+
+namespace ductile::dynamics {
+
+bool Component::tie(StockJoint t) {
+  t.in_a = index_of(t.a());
+  t.in_b = index_of(t.b());
+  if (!knows(t.in_a, t.in_b)) return false;
+  ties.push_back(t);
+  return true;
+}
+
+// Velocities as they were before Box2D gave them the joints' impulses: those stored, and where such a joint
+// comes before ours in the island, those of its first iteration.
+void Component::set_ties_aside(const b2SolverData& data) {
+  const b2Vec2 origin{static_cast<float>(origin_x), static_cast<float>(origin_y)};
+  const auto place_of = [&](const Mirror& m) {
+    Place place;
+    put(place, relative(m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
+                                                : data.positions[m.island_index]));
+    return place;
+  };
+  for (const StockJoint& t : ties) {
+    Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
+    const Place at_a = place_of(a), at_b = place_of(b);
+    const StockRows rows = rows_of(*t.joint, at_a, at_b, origin, double{data.step.dt});
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      Joint j;
+      j.J = rows.links[k].J;
+      Vec3 for_a, for_b;
+      add_transposed(j, rows.links[k].impulse, for_a, for_b);
+      const auto take_back = [&](int body, const Place& at, const Vec3& impulse) {
+        if (!solver.is_free(body)) return;
+        const Body& m = solver.bodies[z(body)];
+        mirrors[z(body)].exact += into_world(
+            at.turn, {m.inverse_mass * impulse.x, m.inverse_mass * impulse.y, m.inverse_inertia * impulse.w});
+      };
+      take_back(t.in_a, at_a, for_a);
+      take_back(t.in_b, at_b, for_b);
+    }
+  }
+}
+
+void Component::enter_ties() {
+  links_.clear();
+  const b2Vec2 origin{static_cast<float>(origin_x), static_cast<float>(origin_y)};
+  for (StockJoint& t : ties) {
+    t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], origin, solver.step());
+    for (std::size_t k = 0; k < t.rows.count; ++k) {
+      Link& link = links_.emplace_back(t.rows.links[k]);
+      link.a = t.in_a;
+      link.b = t.in_b;
+    }
+  }
+}
+
+void Component::return_ties() {
+  std::span<const Link> left = solver.links;
+  for (StockJoint& t : ties) {
+    if (t.rows.count == 0) continue;
+    dynamics::hand_back(t, left.first(t.rows.count));
+    left = left.subspan(t.rows.count);
+  }
+}
+
+// Whether what does not give holds a body of the structure.
+bool Component::is_anchored() const {
+  const auto anchors = [this](const StockJoint& t) {
+    return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&
+           !(mirrors[z(t.in_a)].guest && mirrors[z(t.in_b)].guest) && t.joint->GetType() != e_mouseJoint;
+  };
+  return anchored_ || std::any_of(ties.begin(), ties.end(), anchors);
+}
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,79 @@
+#include "link_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact_rows.h"
+#include "kinematics.h"
+
+namespace ductile::dynamics {
+
+namespace {
+
+// J M⁻¹ Jᵀ of the rows, each by itself.
+Rows effective_masses(const System& system, const Link& link) {
+  Rows inverse{};
+  const auto add = [&](int body, const JacobianRows& rows) {
+    if (!system.is_free(body)) return;
+    const Body& b = system.bodies[z(body)];
+    const Vec3* const of_row[] = {&rows.u, &rows.v, &rows.w};
+    for (unsigned i = 0; i < 3; ++i) {
+      const Vec3& r = *of_row[i];
+      inverse[i] += b.inverse_mass * (r.x * r.x + r.y * r.y) + b.inverse_inertia * r.w * r.w;
+    }
+  };
+  add(link.a, rows_of_a(link.J));
+  add(link.b, rows_of_b(link.J));
+  for (unsigned i = 0; i < 3; ++i) inverse[i] = inverse[i] > 0 ? 1 / inverse[i] : 0;
+  return inverse;
+}
+
+}  // namespace
+
+bool enter_links(System& system, std::span<const Link> links, double h) {
+  bool same = links.size() == system.links.size();
+  for (std::size_t k = 0; k < links.size() && same; ++k) {
+    const Link &now = links[k], &before = system.links[k];
+    same = now.id == before.id && now.a == before.a && now.b == before.b;
+  }
+  const std::size_t own = system.own();
+  if (!same) {
+    // The rows of contacts move along.
+    system.contacts.clear();
+    system.joints.resize(own);
+    system.records.resize(own);
+    system.joints.resize(own + links.size());
+    system.records.resize(own + links.size());
+  }
+  system.links.assign(links.begin(), links.end());
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Link& link = links[k];
+    Joint& j = system.joints[own + k];
+    JointRecord& r = system.records[own + k];
+    j.a = link.a;
+    j.b = link.b;
+    j.J = link.J;
+    j.bias = link.bias;
+    j.impulse = link.impulse;
+    r.m_eff = effective_masses(system, link);
+    r.law.h = h;
+    for (unsigned i = 0; i < 3; ++i) {
+      double G = std::isfinite(link.G[i]) ? link.G[i] : contact_ratio * r.m_eff[i];
+      // What can hold nothing is no row: it would leave an interior point no room.
+      if (!(r.m_eff[i] > 0) || (link.cap[i] <= 0 && link.cap_reverse[i] <= 0)) G = 0;
+      same &= (j.G[i] > 0) == (G > 0);
+      r.law.G[i] = j.G[i] = G;
+      r.law.cap[i] = link.cap[i];
+      r.law.cap_reverse[i] = link.cap_reverse[i];
+    }
+    j.elastic_range = r.law.elastic_range();
+  }
+  return same;
+}
+
+void read_links(System& system) {
+  for (std::size_t k = 0; k < system.links.size(); ++k)
+    system.links[k].impulse = system.joints[system.own() + k].impulse;
+}
+
+}  // namespace ductile::dynamics

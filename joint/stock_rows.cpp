@@ -1,0 +1,279 @@
+// Box2D's joints as rows, each as its own source has them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "box2d_joints.h"
+#include "kinematics.h"
+#include "reveal.h"
+
+namespace ductile::dynamics {
+
+DUCTILE_REVEAL(b2RevoluteJoint, m_impulse, b2Vec2);
+DUCTILE_REVEAL(b2RevoluteJoint, m_motorImpulse, float);
+DUCTILE_REVEAL(b2RevoluteJoint, m_lowerImpulse, float);
+DUCTILE_REVEAL(b2RevoluteJoint, m_upperImpulse, float);
+DUCTILE_REVEAL(b2PrismaticJoint, m_impulse, b2Vec2);
+DUCTILE_REVEAL(b2PrismaticJoint, m_motorImpulse, float);
+DUCTILE_REVEAL(b2PrismaticJoint, m_lowerImpulse, float);
+DUCTILE_REVEAL(b2PrismaticJoint, m_upperImpulse, float);
+DUCTILE_REVEAL(b2DistanceJoint, m_impulse, float);
+DUCTILE_REVEAL(b2DistanceJoint, m_lowerImpulse, float);
+DUCTILE_REVEAL(b2DistanceJoint, m_upperImpulse, float);
+DUCTILE_REVEAL(b2WheelJoint, m_impulse, float);
+DUCTILE_REVEAL(b2WheelJoint, m_motorImpulse, float);
+DUCTILE_REVEAL(b2WheelJoint, m_springImpulse, float);
+DUCTILE_REVEAL(b2WheelJoint, m_lowerImpulse, float);
+DUCTILE_REVEAL(b2WheelJoint, m_upperImpulse, float);
+DUCTILE_REVEAL(b2WeldJoint, m_impulse, b2Vec3);
+DUCTILE_REVEAL(b2MouseJoint, m_impulse, b2Vec2);
+DUCTILE_REVEAL(b2MouseJoint, m_localAnchorB, b2Vec2);
+DUCTILE_REVEAL(b2PulleyJoint, m_impulse, float);
+DUCTILE_REVEAL(b2PulleyJoint, m_localAnchorA, b2Vec2);
+DUCTILE_REVEAL(b2PulleyJoint, m_localAnchorB, b2Vec2);
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A gap is closed by this share of Box2D's slop a step at most: what was drawn apart shall not be a blow.
+constexpr double slop_share = 0.2;
+
+constexpr double slop[] = {b2_linearSlop, b2_linearSlop, b2_angularSlop};
+/// Limits farther away than this, m and rad, are no rows: Box2D moves no body by more in a step.
+constexpr double far[] = {2 * b2_maxTranslation, 2 * b2_maxTranslation, 2 * b2_maxRotation};
+
+struct Arm {
+  double x, y;  // from the centre of mass, own frame
+};
+
+Arm arm(b2Body* body, const b2Vec2& anchor) {
+  return {double{anchor.x} - body->GetLocalCenter().x, double{anchor.y} - body->GetLocalCenter().y};
+}
+
+/// Rows under construction. The rate of a gap C is J v, so b = C/h closes it by the end of the step.
+class Draft {
+ public:
+  Draft(b2Joint& joint, double h) : joint_(joint), h_(h) {}
+
+  /// Rows along and across an axis that is fixed to A, or that runs from anchor to anchor, and of rotation.
+  void locate(const Place& a, const Place& b, const Arm& ra, const Arm& rb, const Turn& axis,
+              double reference = 0, bool line = false) {
+    Joint j;
+    j.frame = {.ax = ra.x,
+               .ay = ra.y,
+               .bx = rb.x,
+               .by = rb.y,
+               .axis = axis,
+               .follow = 0,
+               .reference = reference,
+               .line = line};
+    gap = dynamics::locate(j, a, b);
+    open(j.J);
+  }
+  void open(const Jacobian& J) {
+    Link& link = rows.links[rows.count];
+    link = {};
+    link.J = J;
+    link.id = 4 * static_cast<std::uint64_t>(joint_.GetType()) + rows.count++;
+  }
+
+  /// Keeps a gap C at 0.
+  void hold(unsigned row, double C) {
+    rows.near = rows.near && std::abs(C) <= slop[row];
+    const double most = slop_share * slop[row];
+    set(row, infinity, std::clamp(C, -most, most) / h_, infinity, infinity);
+  }
+  /// With no more than so much force or moment.
+  void drive(unsigned row, double speed, double most) { set(row, infinity, -speed, h_ * most, h_ * most); }
+  /// Box2D's soft constraint: spring and damper at the end of the step.
+  void spring(unsigned row, double C, double stiffness, double damping, double most = infinity) {
+    const double G = h_ * (damping + h_ * stiffness);
+    set(row, G, G > 0 ? C * h_ * stiffness / G : 0, h_ * most, h_ * most);
+  }
+  /// Keeps a gap within limits, each by a link of its own, or by one where they are equal.
+  void limit(unsigned row, double lower, double upper, float& lower_impulse, float& upper_impulse) {
+    const Jacobian J = rows.links[0].J;
+    const double over = gap[row] - lower, under = upper - gap[row];
+    open(J);
+    tell(lower_impulse, row, -1, true);
+    if (upper - lower < 2 * slop[row]) {
+      hold(row, (over - under) / 2);
+    } else {
+      if (over < far[row]) set(row, infinity, way(row, over), 0, infinity);
+      open(J);
+      if (under < far[row]) set(row, infinity, -way(row, under), infinity, 0);
+    }
+    tell(upper_impulse, row, 1, true);
+  }
+  /// The impulse that Box2D keeps of the last link's row.
+  void tell(float& impulse, unsigned row, int sense, bool one_sided = false) {
+    const auto link = static_cast<unsigned>(rows.count - 1);
+    rows.channels[rows.channel_count++] = {&impulse, link, row, sense, one_sided};
+    rows.links[link].impulse[row] += sense * double{impulse};
+  }
+
+  StockRows rows;
+  Rows gap{};
+
+ private:
+  // The rate at which the way C that is left to a limit may close. What is beyond it comes back slowly: the
+  // bodies keep that velocity.
+  double way(unsigned row, double C) {
+    rows.near = rows.near && C >= -slop[row];
+    return (C > 0 ? C : slop_share * std::max(C, -slop[row])) / h_;
+  }
+  void set(unsigned row, double G, double bias, double cap, double cap_reverse) {
+    Link& link = rows.links[rows.count - 1];
+    link.G[row] = G;
+    link.bias[row] = bias;
+    link.cap[row] = cap;
+    link.cap_reverse[row] = cap_reverse;
+  }
+
+  b2Joint& joint_;
+  double h_;
+};
+
+struct Places {
+  const Place &a, &b;
+  b2Vec2 origin;
+};
+
+// World axes.
+void draft(b2RevoluteJoint& j, const Places& at, Draft& d) {
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
+           inverse(at.a.turn), j.GetReferenceAngle());
+  d.hold(axial, d.gap[axial]);
+  d.hold(shear, d.gap[shear]);
+  d.tell(of(j, b2RevoluteJoint_m_impulse{}).x, axial, -1);
+  d.tell(of(j, b2RevoluteJoint_m_impulse{}).y, shear, -1);
+  if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
+  d.tell(of(j, b2RevoluteJoint_m_motorImpulse{}), rotation, -1);
+  if (!j.IsLimitEnabled()) return;
+  d.limit(rotation, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2RevoluteJoint_m_lowerImpulse{}),
+          of(j, b2RevoluteJoint_m_upperImpulse{}));
+}
+
+void draft(b2PrismaticJoint& j, const Places& at, Draft& d) {
+  const b2Vec2 axis = j.GetLocalAxisA();
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
+           {axis.x, axis.y}, j.GetReferenceAngle());
+  d.hold(shear, d.gap[shear]);
+  d.hold(rotation, d.gap[rotation]);
+  d.tell(of(j, b2PrismaticJoint_m_impulse{}).x, shear, -1);
+  d.tell(of(j, b2PrismaticJoint_m_impulse{}).y, rotation, -1);
+  if (j.IsMotorEnabled()) d.drive(axial, j.GetMotorSpeed(), j.GetMaxMotorForce());
+  d.tell(of(j, b2PrismaticJoint_m_motorImpulse{}), axial, -1);
+  if (!j.IsLimitEnabled()) return;
+  d.limit(axial, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2PrismaticJoint_m_lowerImpulse{}),
+          of(j, b2PrismaticJoint_m_upperImpulse{}));
+}
+
+// A rod where its limits are equal; otherwise a spring, if any, within them: a rope.
+void draft(b2DistanceJoint& j, const Places& at, Draft& d) {
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()), {}, 0,
+           true);
+  if (!(d.gap[axial] > 2 * b2_linearSlop)) {  // it has no direction
+    d.rows.count = 0;
+    return;
+  }
+  float& impulse = of(j, b2DistanceJoint_m_impulse{});
+  d.tell(impulse, axial, -1);
+  if (j.GetMinLength() == j.GetMaxLength()) return d.hold(axial, d.gap[axial] - j.GetMinLength());
+  if (j.GetStiffness() > 0) d.spring(axial, d.gap[axial] - j.GetLength(), j.GetStiffness(), j.GetDamping());
+  d.limit(axial, j.GetMinLength(), j.GetMaxLength(), of(j, b2DistanceJoint_m_lowerImpulse{}),
+          of(j, b2DistanceJoint_m_upperImpulse{}));
+}
+
+void draft(b2WheelJoint& j, const Places& at, Draft& d) {
+  const b2Vec2 axis = j.GetLocalAxisA();
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
+           {axis.x, axis.y});
+  if (j.GetStiffness() > 0) d.spring(axial, d.gap[axial], j.GetStiffness(), j.GetDamping());
+  d.tell(of(j, b2WheelJoint_m_springImpulse{}), axial, -1);
+  d.hold(shear, d.gap[shear]);
+  d.tell(of(j, b2WheelJoint_m_impulse{}), shear, -1);
+  if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
+  d.tell(of(j, b2WheelJoint_m_motorImpulse{}), rotation, -1);
+  if (!j.IsLimitEnabled()) return;
+  d.limit(axial, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2WheelJoint_m_lowerImpulse{}),
+          of(j, b2WheelJoint_m_upperImpulse{}));
+}
+
+void draft(b2WeldJoint& j, const Places& at, Draft& d) {
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
+           inverse(at.a.turn), j.GetReferenceAngle());
+  b2Vec3& impulse = of(j, b2WeldJoint_m_impulse{});
+  d.hold(axial, d.gap[axial]);
+  d.hold(shear, d.gap[shear]);
+  d.tell(impulse.x, axial, -1);
+  d.tell(impulse.y, shear, -1);
+  if (j.GetStiffness() > 0) {
+    d.spring(rotation, d.gap[rotation], j.GetStiffness(), j.GetDamping());
+  } else {
+    d.hold(rotation, d.gap[rotation]);
+  }
+  d.tell(impulse.z, rotation, -1);
+}
+
+// From target to anchor, in world axes. A is not pulled.
+void draft(b2MouseJoint& j, const Places& at, Draft& d) {
+  Place target;
+  put(target, {double{j.GetTarget().x} - at.origin.x, double{j.GetTarget().y} - at.origin.y, 0});
+  d.locate(target, at.b, {}, arm(j.GetBodyB(), of(j, b2MouseJoint_m_localAnchorB{})), {});
+  Jacobian& J = d.rows.links[0].J;
+  J.axis_a = {0, 0};
+  J.au = J.av = 0;
+  for (const unsigned row : {axial, shear})
+    d.spring(row, d.gap[row], j.GetStiffness(), j.GetDamping(), j.GetMaxForce());
+  d.tell(of(j, b2MouseJoint_m_impulse{}).x, axial, -1);
+  d.tell(of(j, b2MouseJoint_m_impulse{}).y, shear, -1);
+}
+
+// The way from the ground's anchors over both bodies, length A + ratio · length B, is one row.
+void draft(b2PulleyJoint& j, const Places& at, Draft& d) {
+  const auto rope = [&](const Place& place, b2Body* body, const b2Vec2& local, const b2Vec2& ground,
+                        Turn& along, double& moment) {
+    const Arm r = arm(body, local);
+    const Turn own = inverse(place.turn);
+    const Turn to_centre =
+        own * Turn{place.pose.x + at.origin.x - ground.x, place.pose.y + at.origin.y - ground.y};
+    const double x = to_centre.c + r.x, y = to_centre.s + r.y, length = std::sqrt(x * x + y * y);
+    along = {x / length, y / length};
+    moment = r.x * along.s - r.y * along.c;
+    return length;
+  };
+  Jacobian J;
+  const double a =
+      rope(at.a, j.GetBodyA(), of(j, b2PulleyJoint_m_localAnchorA{}), j.GetGroundAnchorA(), J.axis_a, J.au);
+  const double b =
+      rope(at.b, j.GetBodyB(), of(j, b2PulleyJoint_m_localAnchorB{}), j.GetGroundAnchorB(), J.axis_b, J.bu);
+  if (!(std::min(a, b) > 10 * b2_linearSlop)) return;  // Box2D knows no direction, either
+  const double ratio = j.GetRatio();
+  J.axis_a = {-J.axis_a.c, -J.axis_a.s};
+  J.axis_b = {ratio * J.axis_b.c, ratio * J.axis_b.s};
+  J.bu *= ratio;
+  d.open(J);
+  d.hold(axial, a + ratio * b - (double{j.GetLengthA()} + ratio * j.GetLengthB()));
+  d.tell(of(j, b2PulleyJoint_m_impulse{}), axial, 1);
+}
+
+}  // namespace
+
+StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h) {
+  Draft d(joint, h);
+  as_it_is(joint, [&](auto& j) { draft(j, {a, b, origin}, d); });
+  if (!d.rows.near) {
+    // What is far apart is not closed by velocities.
+    for (std::size_t k = 0; k < d.rows.count; ++k) {
+      Link& link = d.rows.links[k];
+      for (unsigned i = 0; i < 3; ++i)
+        if (link.cap[i] == infinity && link.cap_reverse[i] == infinity && link.G[i] == infinity)
+          link.bias[i] = 0;
+    }
+  }
+  return d.rows;
+}
+
+}  // namespace ductile::dynamics
