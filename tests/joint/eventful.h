@@ -96,6 +96,33 @@ inline const std::vector<Kind> kinds{
        def.Initialize(s.structure.joints().back()->GetBodyB(), right, vec(5.5, 4.5), {1, 0});
        s.structure.create_joint(def);
      }},
+    // A lift bridge: hinge with motor, counterweight on a rod, a weight on a rope, a car's axle.
+    {"stock_joints",
+     [](Scene& s) {
+       b2Body* wall = add_wall(s);
+       s.add_row(nullptr, 0, 0, 1, 0, 8, unlimited, unlimited, 0);
+       b2Body *first = s.structure.joints().front()->GetBodyA(),
+              *last = s.structure.joints().back()->GetBodyB();
+       b2RevoluteJointDef hinge;
+       hinge.Initialize(wall, first, {0, 0});
+       hinge.enableMotor = hinge.enableLimit = true;
+       hinge.maxMotorTorque = 1e6f;
+       hinge.motorSpeed = 0.2f;
+       hinge.lowerAngle = -0.2f;
+       hinge.upperAngle = 0.3f;
+       s.world.CreateJoint(&hinge);
+       b2Body* load = add_box(s.world, {.x = 7.5, .y = -4, .mass = 3000, .group = 0});
+       b2DistanceJointDef rope;
+       rope.Initialize(last, load, vec(7.5, -0.4), vec(7.5, -3.5));
+       rope.minLength = 0, rope.maxLength = rope.length;
+       s.world.CreateJoint(&rope);
+       b2Body *car = add_box(s.world, {.x = 3, .y = 2, .width = 2, .mass = 2000, .group = -2}),
+              *wheel = add_box(s.world, {.x = 3, .y = 1, .mass = 100, .group = 0});
+       b2WheelJointDef axle;
+       axle.Initialize(car, wheel, wheel->GetPosition(), {0, 1});
+       axle.stiffness = 4e5f, axle.damping = 2e4f;
+       s.world.CreateJoint(&axle);
+     }},
     {"yielding_beam", [](Scene& s) { s.add_row(add_wall(s), 0, 0, 1, 0, 8, 2.4e5); }, 20},
     {"break_in_between", [](Scene& s) { s.add_row(add_wall(s), 0, 0, 1, 0, 8, 2e5, 0.3); }, 20, true},
     {"broken_before", [](Scene& s) { s.add_row(add_wall(s), 0, 0, 1, 0, 8, 2e5, 0.3); }, 100},

@@ -1,0 +1,450 @@
+// Box2D's own joints that hold a structure, against statics and the closed forms of rigid bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "allocations.h"
+#include "bodies.h"
+
+namespace ductile {
+namespace {
+
+constexpr double gravity = 10;
+
+// A deck of boxes in a row from the origin, 12 m and 3768 kg, rigid or of steel.
+struct Deck {
+  explicit Deck(int count = 12, double youngs_modulus = 0) : world(vec(0, -gravity)), structure(world) {
+    world.SetAllowSleeping(false);
+    ground = add_box(world, {.x = -1, .type = b2_staticBody});
+    const double l = length / count;
+    for (int i = 0; i < count; ++i) {
+      b2Body* piece =
+          add_box(world, {.x = (i + 0.5) * l, .width = l, .height = height, .mass = mass / count});
+      if (i > 0) {
+        ElasticPlasticJointDef def;
+        def.Initialize(pieces.back(), piece, vec(i * l, 0), {1, 0});
+        if (youngs_modulus > 0) {
+          const double E = youngs_modulus, A = 0.01, I = A * height * height / 4;  // a flange on each side
+          def.rows[axial].stiffness = E * A / l;
+          def.rows[shear].stiffness = E / 2.6 * A / l;
+          def.rows[rotation].stiffness = E * I / l;
+          for (RowDef& row : def.rows) row.damping = 0.1 * row.stiffness;
+        }
+        joints.push_back(structure.create_joint(def));
+      }
+      pieces.push_back(piece);
+    }
+  }
+  /// Welds the deck's root to the ground, or hinges it.
+  ElasticPlasticJoint* fix(bool hinge) {
+    ElasticPlasticJointDef def;
+    def.Initialize(ground, pieces.front(), {0, 0}, {1, 0});
+    if (hinge) def.rows[rotation] = RowDef::free();
+    return structure.create_joint(def);
+  }
+  void run(double seconds, double hz = 60, int iterations = 8) {
+    for (int i = 0; i < std::lround(seconds * hz); ++i) {
+      world.Step(static_cast<float>(1 / hz), iterations, 3);
+      EXPECT_EQ(structure.report().bounds_hit, 0);
+      structure.update();
+    }
+  }
+  /// Of the pieces' weights about the origin, where they are.
+  double moment() const {
+    double sum = 0;
+    for (b2Body* piece : pieces) sum += piece->GetMass() * gravity * double{piece->GetWorldCenter().x};
+    return sum;
+  }
+  template <class Def>
+  auto* hold(Def def) {
+    return world.CreateJoint(&def);
+  }
+  b2RevoluteJoint* motor(double torque, double speed = 0) {
+    b2RevoluteJointDef def;
+    def.Initialize(ground, pieces.front(), {0, 0});
+    def.enableMotor = true;
+    def.maxMotorTorque = static_cast<float>(torque);
+    def.motorSpeed = static_cast<float>(speed);
+    return static_cast<b2RevoluteJoint*>(hold(def));
+  }
+  static constexpr double length = 12, height = 0.2, mass = 3768, weight = mass * gravity;
+  static constexpr double statics = weight * length / 2;         // moment about the root
+  static constexpr double inertia = mass * length * length / 3;  // likewise
+  b2World world;
+  Structure structure;
+  b2Body* ground;
+  std::vector<b2Body*> pieces;
+  std::vector<ElasticPlasticJoint*> joints;
+};
+
+struct Drive {
+  int pieces, iterations;
+  double hz, youngs_modulus;
+};
+class Motor : public testing::TestWithParam<Drive> {};
+
+// Just above the static moment it holds, for 10 s, and tells that moment.
+TEST_P(Motor, HoldsWhatStaticsAsks) {
+  const Drive d = GetParam();
+  Deck deck(d.pieces, d.youngs_modulus);
+  b2RevoluteJoint* motor = deck.motor(d.youngs_modulus > 0 ? 3 * Deck::statics : 1.01 * Deck::statics);
+  deck.run(10, d.hz, d.iterations);
+  const auto hz = static_cast<float>(d.hz);
+  EXPECT_NEAR(motor->GetJointAngle(), 0, 1e-4);
+  EXPECT_NEAR(motor->GetMotorTorque(hz), deck.moment(), 1e-5 * Deck::statics);
+  EXPECT_NEAR(motor->GetReactionForce(hz).y, Deck::weight, 1e-5 * Deck::weight);
+  EXPECT_NEAR(motor->GetReactionForce(hz).x, 0, 1e-4 * Deck::weight);
+  EXPECT_LT((motor->GetAnchorA() - motor->GetAnchorB()).Length(), 1e-5);
+}
+
+// Just below it sinks with what is missing: α = (M − T)/I.
+TEST_P(Motor, SinksWithWhatIsMissing) {
+  const Drive d = GetParam();
+  if (d.youngs_modulus > 0) return;
+  Deck deck(d.pieces);
+  b2RevoluteJoint* motor = deck.motor(0.99 * Deck::statics);
+  deck.run(1, d.hz, d.iterations);
+  // Of pieces about their own centres: a box, not a rod.
+  const double inertia = Deck::inertia + Deck::mass * Deck::height * Deck::height / 12;
+  const double speed = -0.01 * Deck::statics / inertia;
+  EXPECT_NEAR(motor->GetJointSpeed(), speed, 2e-3 * -speed);
+  EXPECT_NEAR(motor->GetMotorTorque(static_cast<float>(d.hz)), 0.99 * Deck::statics, 1e-5 * Deck::statics);
+}
+
+TEST_P(Motor, RaisesAtItsSpeed) {
+  const Drive d = GetParam();
+  Deck deck(d.pieces, d.youngs_modulus);
+  b2RevoluteJoint* motor = deck.motor(20 * Deck::statics, 0.2);
+  deck.run(4, d.hz, d.iterations);
+  EXPECT_NEAR(motor->GetJointAngle(), 0.8, 2e-3);
+  EXPECT_LT((motor->GetAnchorA() - motor->GetAnchorB()).Length(), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfDecks, Motor,
+                         testing::Values(Drive{2, 8, 60, 0}, Drive{12, 8, 60, 0}, Drive{12, 1, 60, 0},
+                                         Drive{12, 8, 30, 0}, Drive{12, 8, 120, 0}, Drive{48, 8, 60, 0},
+                                         Drive{12, 8, 60, 210e9}, Drive{48, 8, 60, 210e9}),
+                         [](const auto& info) {
+                           const Drive& d = info.param;
+                           return std::to_string(d.pieces) + "_pieces_" + std::to_string(std::lround(d.hz)) +
+                                  "_Hz_" + std::to_string(d.iterations) +
+                                  (d.youngs_modulus > 0 ? "_of_steel" : "_rigid");
+                         });
+
+// Falls to the limit and rests on it, as it was made or where the limit was moved to, and leaves it again.
+TEST(StockLimits, CarryTheDeck) {
+  Deck deck;
+  b2RevoluteJointDef def;
+  def.Initialize(deck.ground, deck.pieces.front(), {0, 0});
+  def.enableLimit = true;
+  def.lowerAngle = -0.3f;
+  def.upperAngle = 0.5f;
+  auto* hinge = static_cast<b2RevoluteJoint*>(deck.hold(def));
+  deck.run(5);
+  EXPECT_NEAR(hinge->GetJointAngle(), -0.3, 1e-5);
+  EXPECT_NEAR(hinge->GetReactionTorque(60), deck.moment(), 1e-5 * Deck::statics);
+  hinge->SetLimits(-0.6f, -0.4f);
+  deck.run(5);
+  EXPECT_NEAR(hinge->GetReactionTorque(60), deck.moment(), 1e-4 * Deck::statics);
+  EXPECT_NEAR(hinge->GetJointAngle(), -0.6, 1e-4);
+  hinge->EnableMotor(true);
+  hinge->SetMaxMotorTorque(static_cast<float>(3 * Deck::statics));
+  hinge->SetMotorSpeed(0.5f);
+  deck.run(2);
+  EXPECT_NEAR(hinge->GetJointAngle(), -0.4, 1e-4);
+  EXPECT_NEAR(hinge->GetMotorTorque(60), 3 * Deck::statics, 1e-4 * Deck::statics);
+  EXPECT_NEAR(hinge->GetReactionTorque(60), deck.moment(), 1e-4 * Deck::statics);
+}
+
+enum class Cord { rod, rope, spring };
+class Hung : public testing::TestWithParam<std::tuple<Cord, double, double>> {};
+
+b2DistanceJointDef cord(Cord kind, b2Body* a, b2Body* b, b2Vec2 at_a, b2Vec2 at_b) {
+  b2DistanceJointDef def;
+  def.Initialize(a, b, at_a, at_b);
+  if (kind == Cord::rod) def.minLength = def.maxLength = def.length;
+  if (kind == Cord::rope) def.minLength = 0, def.maxLength = def.length;
+  if (kind == Cord::spring) def.stiffness = 1e6f, def.damping = 1e5f;
+  return def;
+}
+
+// A hinged deck that hangs at its tip: half its weight in the cord, w l²/8 at midspan, along the deck what
+// the cord's slope makes.
+TEST_P(Hung, FromTheGround) {
+  const auto [kind, slope, hz] = GetParam();
+  Deck deck;
+  ElasticPlasticJoint* root = deck.fix(true);
+  const double rise = 6, back = slope * rise;
+  auto* hung = static_cast<b2DistanceJoint*>(deck.hold(
+      cord(kind, deck.ground, deck.pieces.back(), vec(Deck::length - back, rise), vec(Deck::length, 0))));
+  deck.run(10, hz);
+  const b2Vec2 force = hung->GetReactionForce(static_cast<float>(hz));
+  const b2Vec2 along = deck.pieces.back()->GetWorldPoint(vec(0.5, 0));
+  // Moments about the root, where the deck is.
+  const double pull = -(along.x * double{force.y} - along.y * double{force.x});
+  EXPECT_NEAR(-pull, deck.moment(), 1e-5 * Deck::statics);
+  EXPECT_NEAR(root->force(rotation), 0, 1e-9 * Deck::statics);
+  const double midspan = deck.joints[5]->force(rotation), lever = Deck::weight * Deck::length / 8;
+  EXPECT_NEAR(std::abs(midspan), lever, (kind == Cord::spring ? 1e-3 : 1e-5) * lever);
+  const double half = Deck::weight / 2;
+  if (kind != Cord::spring) {
+    EXPECT_NEAR(force.y, half, 1e-5 * half);
+    EXPECT_NEAR(deck.joints[5]->force(axial), -slope * half, 1e-5 * half);
+    EXPECT_NEAR(hung->GetCurrentLength(), hung->GetLength(), 1e-5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ByCords, Hung,
+                         testing::Combine(testing::Values(Cord::rod, Cord::rope, Cord::spring),
+                                          testing::Values(0.0, 1.0), testing::Values(30.0, 60.0, 120.0)));
+
+class Weights : public testing::TestWithParam<double> {};
+
+// A weight of so many pieces on a rope from the tip of a cantilever, and another one below it.
+TEST_P(Weights, HangFromTheTip) {
+  Deck deck;
+  ElasticPlasticJoint* root = deck.fix(false);
+  const double piece = Deck::mass / 12, load = GetParam() * piece;
+  b2Body *upper = add_box(deck.world, {.x = Deck::length - 0.5, .y = -3, .mass = load}),
+         *lower = add_box(deck.world, {.x = Deck::length - 0.5, .y = -6, .mass = load / 3});
+  auto* rope = static_cast<b2DistanceJoint*>(
+      deck.hold(cord(Cord::rope, deck.pieces.back(), upper, vec(11.5, 0), vec(11.5, -2.5))));
+  deck.hold(cord(Cord::rod, upper, lower, vec(11.5, -3.5), vec(11.5, -5.5)));
+  deck.run(10);
+  const double hung = gravity * load * 4 / 3;
+  const double moment = deck.moment() + hung * upper->GetWorldCenter().x;
+  EXPECT_NEAR(std::abs(root->force(rotation)), moment, 1e-5 * moment);
+  EXPECT_NEAR(rope->GetReactionForce(60).y, hung, 1e-5 * hung);
+  EXPECT_NEAR(rope->GetCurrentLength(), 2.5, 1e-5);
+  EXPECT_LT(upper->GetLinearVelocity().Length(), 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfPieces, Weights, testing::Values(1.0, 10.0, 100.0, 1000.0));
+
+// A deck on two supports, hinge and roller of its own, and a car of stock wheel joints on it.
+TEST(StockWheels, CarryACarOverADeck) {
+  Deck deck;
+  ElasticPlasticJoint* root = deck.fix(true);
+  ElasticPlasticJointDef roller;
+  roller.Initialize(deck.ground, deck.pieces.back(), vec(Deck::length, 0), {1, 0});
+  roller.rows[axial] = roller.rows[rotation] = RowDef::free();
+  ElasticPlasticJoint* end = deck.structure.create_joint(roller);
+  const double chassis_mass = 20000, wheel_mass = 200, radius = 0.4;
+  b2Body* chassis = add_box(deck.world, {.x = 4, .y = 1.1, .width = 4, .mass = chassis_mass});
+  std::vector<b2WheelJoint*> axles;
+  for (const double x : {2.5, 5.5}) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = vec(x, 0.1 + radius);
+    b2Body* wheel = deck.world.CreateBody(&def);
+    b2CircleShape circle;
+    circle.m_radius = static_cast<float>(radius);
+    b2FixtureDef fixture;
+    fixture.shape = &circle;
+    fixture.friction = 0.9f;
+    fixture.density = static_cast<float>(wheel_mass / (b2_pi * radius * radius));
+    wheel->CreateFixture(&fixture);
+    b2WheelJointDef axle;
+    axle.Initialize(chassis, wheel, wheel->GetPosition(), {0, 1});
+    b2LinearStiffness(axle.stiffness, axle.damping, 4, 0.7f, chassis, wheel);
+    axle.stiffness *= 50, axle.damping *= 50;  // for the chassis, not for the wheel
+    axle.enableMotor = true;
+    axle.maxMotorTorque = 1000;
+    axles.push_back(static_cast<b2WheelJoint*>(deck.hold(axle)));
+  }
+  const double all = (chassis_mass + 2 * wheel_mass) * gravity;
+  const auto expect_carried = [&] {
+    // Moments about the root, and the sum.
+    double moment = deck.moment() + chassis->GetMass() * gravity * chassis->GetWorldCenter().x;
+    for (b2WheelJoint* axle : axles)
+      moment += axle->GetBodyB()->GetMass() * gravity * axle->GetBodyB()->GetWorldCenter().x;
+    EXPECT_NEAR(std::abs(end->force(shear)) * Deck::length, moment, 1e-4 * moment);
+    EXPECT_NEAR(std::abs(root->force(shear)) + std::abs(end->force(shear)), all + Deck::weight,
+                1e-4 * (all + Deck::weight));
+    double on_axles = 0;
+    for (b2WheelJoint* axle : axles) on_axles += std::abs(axle->GetReactionForce(60).y);
+    EXPECT_NEAR(on_axles, chassis_mass * gravity, 1e-4 * all);
+  };
+  deck.run(6);
+  expect_carried();
+  // With all that its motors have: discs roll with half their mass more.
+  for (b2WheelJoint* axle : axles) axle->SetMotorSpeed(-20);
+  deck.run(1);
+  const double thrust = 2 * 1000 / radius, speed = thrust / (chassis_mass + 3 * wheel_mass);
+  EXPECT_NEAR(chassis->GetLinearVelocity().x, speed, 0.01 * speed);
+  for (b2WheelJoint* axle : axles) axle->SetMotorSpeed(0);
+  deck.run(6);
+  EXPECT_GT(chassis->GetPosition().x, 4.1);
+  expect_carried();
+}
+
+// Free in the air, the deck follows the mouse like one body; hinged, it hangs at the mouse's force.
+TEST(StockMice, LiftWithNoMoreThanTheirForce) {
+  for (const double share : {0.49, 0.51, 2.0}) {
+    Deck deck;
+    ElasticPlasticJoint* root = deck.fix(true);
+    b2MouseJointDef def;
+    def.bodyA = deck.ground;
+    def.bodyB = deck.pieces.back();
+    def.target = vec(Deck::length, 0);
+    def.maxForce = static_cast<float>(share * Deck::weight);
+    b2LinearStiffness(def.stiffness, def.damping, 5, 0.7f, def.bodyA, def.bodyB);
+    def.stiffness *= 20, def.damping *= 20;  // for the deck
+    auto* mouse = static_cast<b2MouseJoint*>(deck.hold(def));
+    deck.run(share < 0.5 ? 0.5 : 5);
+    const b2Vec2 force = mouse->GetReactionForce(60);
+    EXPECT_LE(force.Length(), 1.0001 * share * Deck::weight);
+    if (share < 0.5) {
+      EXPECT_NEAR(force.y, share * Deck::weight, 1e-3 * Deck::weight);
+      EXPECT_LT(deck.pieces.back()->GetLinearVelocity().y, -0.05);
+    } else {
+      const b2Vec2 at = deck.pieces.back()->GetWorldPoint(vec(0.5, 0));
+      const double pull = double{at.x} * force.y - double{at.y} * force.x;
+      EXPECT_NEAR(pull, deck.moment(), 1e-4 * Deck::statics);
+      EXPECT_NEAR(root->force(rotation), 0, 1e-9 * Deck::statics);
+    }
+  }
+}
+
+// A table that a stock slider with a motor lifts: held at its own end.
+TEST(StockSliders, LiftADeck) {
+  Deck deck;
+  b2PrismaticJointDef def;
+  def.Initialize(deck.ground, deck.pieces.front(), {0, 0}, {0, 1});
+  def.enableMotor = true;
+  def.maxMotorForce = static_cast<float>(1.01 * Deck::weight);
+  def.enableLimit = true;
+  def.lowerTranslation = -0.5f;
+  def.upperTranslation = 2;
+  auto* slider = static_cast<b2PrismaticJoint*>(deck.hold(def));
+  deck.run(5);
+  EXPECT_NEAR(slider->GetJointTranslation(), 0, 1e-5);
+  EXPECT_NEAR(slider->GetMotorForce(60), Deck::weight, 1e-5 * Deck::weight);
+  EXPECT_NEAR(slider->GetReactionTorque(60), deck.moment(), 1e-5 * Deck::statics);
+  slider->SetMotorSpeed(1);
+  deck.run(1);  // with 1 % of its weight in hand: a = g/100
+  EXPECT_NEAR(slider->GetJointTranslation(), 0.01 * gravity / 2, 3e-3);
+  slider->SetMaxMotorForce(static_cast<float>(2 * Deck::weight));
+  deck.run(4);
+  EXPECT_NEAR(slider->GetJointTranslation(), 2, 1e-5);
+  EXPECT_NEAR(slider->GetMotorForce(60), 2 * Deck::weight, 1e-4 * Deck::weight);
+  EXPECT_NEAR(slider->GetReactionForce(60).y, Deck::weight, 1e-4 * Deck::weight);
+  slider->EnableMotor(false);
+  deck.run(3);
+  EXPECT_NEAR(slider->GetJointTranslation(), -0.5, 1e-5);
+  EXPECT_NEAR(slider->GetReactionForce(60).y, Deck::weight, 1e-4 * Deck::weight);
+}
+
+// A counterweight over a pulley of ratio 2 holds the tip of a hinged deck.
+TEST(StockPulleys, HoldWithACounterweight) {
+  for (const double share : {1.0, 1.02}) {
+    Deck deck;
+    deck.fix(true);
+    // Tension T on the counterweight, ratio · T on the deck.
+    b2Body* weight = add_box(deck.world, {.x = 15, .y = 0, .mass = share * Deck::mass / 4});
+    b2PulleyJointDef def;
+    def.Initialize(weight, deck.pieces.back(), vec(15, 6), vec(Deck::length, 6), vec(15, 0.5),
+                   vec(Deck::length, 0), 2);
+    auto* pulley = static_cast<b2PulleyJoint*>(deck.hold(def));
+    deck.run(0.25);
+    const double made = 0.25 * (1 - 1 / share) * weight->GetMass() * gravity;
+    // At rest, or with what is in excess: the tip moves by ½ of the weight.
+    const double inert = weight->GetMass() + Deck::inertia / (4 * Deck::length * Deck::length);
+    EXPECT_NEAR(-weight->GetLinearVelocity().y, made / inert, 5e-3 * made / inert + 1e-5);
+    EXPECT_NEAR(pulley->GetCurrentLengthA() + 2 * pulley->GetCurrentLengthB(),
+                pulley->GetLengthA() + 2 * pulley->GetLengthB(), 1e-4);
+  }
+}
+
+// A stock weld at the root is the root of a cantilever.
+TEST(StockWelds, HoldADeck) {
+  Deck deck;
+  b2WeldJointDef def;
+  def.Initialize(deck.ground, deck.pieces.front(), {0, 0});
+  auto* weld = static_cast<b2WeldJoint*>(deck.hold(def));
+  deck.run(5);
+  EXPECT_NEAR(weld->GetReactionTorque(60), deck.moment(), 1e-6 * Deck::statics);
+  EXPECT_NEAR(weld->GetReactionForce(60).y, Deck::weight, 1e-6 * Deck::weight);
+}
+
+// Whichever came first: the order of joints in an island is that of their making, turned round.
+TEST(StockJoints, MayBeMadeBeforeTheStructure) {
+  for (const bool before : {false, true}) {
+    b2World world(vec(0, -gravity));
+    world.SetAllowSleeping(false);
+    Structure structure(world);
+    b2Body* ground = add_box(world, {.x = -1, .type = b2_staticBody});
+    b2Body *a = add_box(world, {.x = 0.5}), *b = add_box(world, {.x = 1.5});
+    b2RevoluteJoint* motor = nullptr;
+    const auto make = [&] {
+      b2RevoluteJointDef def;
+      def.Initialize(ground, a, {0, 0});
+      def.enableMotor = true;
+      def.maxMotorTorque = 1e6f;
+      motor = static_cast<b2RevoluteJoint*>(world.CreateJoint(&def));
+    };
+    if (before) make();
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, {1, 0}, {1, 0});
+    structure.create_joint(def);
+    if (!before) make();
+    for (int i = 0; i < 300; ++i) {
+      world.Step(1.0f / 60, 8, 3);
+      structure.update();
+    }
+    EXPECT_NEAR(motor->GetMotorTorque(60), 2000 * gravity * 1, 0.1);
+    EXPECT_NEAR(motor->GetJointAngle(), 0, 1e-5);
+  }
+}
+
+// As Box2D has it: gear joints, and all where nothing starts warm.
+TEST(StockJoints, WithoutWarmStartsAreBox2Ds) {
+  Deck deck;
+  deck.world.SetWarmStarting(false);
+  b2RevoluteJoint* motor = deck.motor(3 * Deck::statics);
+  deck.run(1);
+  EXPECT_TRUE(finite(deck.pieces));
+  EXPECT_LT(motor->GetMotorTorque(60), 0.99 * Deck::statics);
+}
+
+// Made apart, they come together without a blow.
+TEST(StockJoints, CloseWhatWasMadeApart) {
+  for (const double apart : {0.003, 0.1, 0.5}) {
+    Deck deck;
+    b2RevoluteJointDef def;
+    def.bodyA = deck.ground;
+    def.bodyB = deck.pieces.front();
+    def.localAnchorA = vec(1, apart);
+    def.localAnchorB = vec(-0.5, 0);
+    deck.hold(cord(Cord::rod, deck.ground, deck.pieces.back(), vec(12, 6), vec(12, 0)));
+    auto* hinge = static_cast<b2RevoluteJoint*>(deck.hold(def));
+    double fastest = 0;
+    for (int i = 0; i < 600; ++i) {
+      deck.run(1.0 / 60);
+      for (const b2Body* piece : deck.pieces)
+        fastest = std::max(fastest, double{piece->GetLinearVelocity().Length()});
+    }
+    EXPECT_LT((hinge->GetAnchorA() - hinge->GetAnchorB()).Length(), 1e-5);
+    EXPECT_LT(fastest, 3) << apart;
+  }
+}
+
+TEST(StockJoints, AllocateNothingInTheSteadyState) {
+  Deck deck(12, 210e9);
+  b2RevoluteJoint* motor = deck.motor(3 * Deck::statics);
+  b2Body* load = add_box(deck.world, {.x = 11.5, .y = -3});
+  deck.hold(cord(Cord::rope, deck.pieces.back(), load, vec(11.5, 0), vec(11.5, -2.5)));
+  deck.run(0.5);
+  const long before = allocations();
+  for (int i = 0; i < 120; ++i) {
+    motor->SetMotorSpeed(0.01f * static_cast<float>(i % 7 - 3));
+    deck.world.Step(1.0f / 60, 8, 3);
+    deck.structure.update();
+  }
+  EXPECT_EQ(allocations(), before);
+}
+
+}  // namespace
+}  // namespace ductile
