@@ -21,6 +21,8 @@ struct Benchmark {
 
 /// In equilibrium.
 std::vector<Benchmark> static_benchmarks(const Context& context);
+/// The same, of frames and arches.
+std::vector<Benchmark> frame_benchmarks();
 /// In motion, at small steps and at 60 Hz.
 std::vector<Benchmark> motion_benchmarks(const Context& context);
 

@@ -43,7 +43,8 @@ Table table(std::string name, std::string title, const std::vector<Benchmark>& r
 }
 
 Result run_benchmarks(const Context& context) {
-  const auto rest = static_benchmarks(context);
+  auto rest = static_benchmarks(context);
+  for (Benchmark& frame : frame_benchmarks()) rest.push_back(std::move(frame));
   context.progress(0.6);
   const auto motion = motion_benchmarks(context);
   Result result;
