@@ -1,6 +1,5 @@
 #include "desk.h"
 
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,8 +20,6 @@ constexpr double left_width = 238, right_width = 336, bottom_height = 68, narrow
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-bool key(int glfw_key, bool repeat = false) { return ImGui::IsKeyPressed(glfw_key, repeat); }
 
 void place_window(const Box& box) {
   ImGui::SetNextWindowPos(px(box.low));
@@ -112,109 +109,6 @@ void Desk::save() {
   } catch (const std::exception& error) {
     bench_.message = "Not saved.\n" + std::string(error.what());
   }
-}
-
-// What Box2D's testbed has a key for has the same here.
-void Desk::keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) {
-    if (key(GLFW_KEY_S)) save();
-    if (key(GLFW_KEY_Z)) bench_.undo();
-    if (key(GLFW_KEY_Y)) bench_.redo();
-    if (key(GLFW_KEY_A)) bench_.select(joints_from(bench_.frame(), 0), false);
-    if (key(GLFW_KEY_N)) start_new();
-    if (key(GLFW_KEY_O)) open_named();
-    return;
-  }
-  const bool made = make_keys();
-  if (key(GLFW_KEY_R)) bench_.restart();
-  if (key(GLFW_KEY_P)) bench_.playing = !bench_.playing;
-  if (key(GLFW_KEY_O, true) || key(GLFW_KEY_PERIOD, true)) bench_.step_by(1);
-  if (key(GLFW_KEY_COMMA, true)) bench_.step_by(-1);
-  if (key(GLFW_KEY_Y)) bench_.seek_first(JointEvent::yield);
-  if (key(GLFW_KEY_B)) bench_.seek_first(JointEvent::broke);
-  const Point mouse = point(io.MousePos);
-  const bool over = camera_.screen.contains(mouse) && !io.WantCaptureMouse;
-  const Point target = over ? camera_.to_world(mouse) : camera_.centre;
-  if (key(GLFW_KEY_SPACE)) hand_.throw_at(bench_, camera_, target);
-  if (key(GLFW_KEY_M)) hand_.put(bench_, target);
-  if (key(GLFW_KEY_LEFT_BRACKET)) bench_.open_neighbour(-1);
-  if (key(GLFW_KEY_RIGHT_BRACKET)) bench_.open_neighbour(1);
-  if (key(GLFW_KEY_Z, true)) camera_.zoom(1 / 1.1, camera_.screen.middle());
-  if (key(GLFW_KEY_X, true)) camera_.zoom(1.1, camera_.screen.middle());
-  if (const double pan = 40 * ui_; !made) {
-    if (key(GLFW_KEY_LEFT, true)) camera_.pan({pan, 0});
-    if (key(GLFW_KEY_RIGHT, true)) camera_.pan({-pan, 0});
-    if (key(GLFW_KEY_UP, true)) camera_.pan({0, pan});
-    if (key(GLFW_KEY_DOWN, true)) camera_.pan({0, -pan});
-  }
-  if (key(GLFW_KEY_HOME)) camera_.show(extent(bench_.plan()));
-  if (key(GLFW_KEY_F)) look_.forces = !look_.forces;
-  if (key(GLFW_KEY_T)) look_.moments = !look_.moments;
-  if (key(GLFW_KEY_N)) look_.numbers = static_cast<Look::Numbers>((static_cast<int>(look_.numbers) + 1) % 3);
-  if (key(GLFW_KEY_H) || key(GLFW_KEY_F1)) helping_ = !helping_;
-  if (key(GLFW_KEY_ESCAPE) && !made) {
-    if (helping_) {
-      helping_ = false;
-    } else {
-      bench_.select({}, false);
-    }
-  }
-  if (!bench_.plan().wheels.empty()) {
-    if (key(GLFW_KEY_A)) bench_.act(act::Drive{1});
-    if (key(GLFW_KEY_S)) bench_.act(act::Drive{0});
-    if (key(GLFW_KEY_D)) bench_.act(act::Drive{-1});
-  }
-}
-
-void Desk::help() {
-  struct Row {
-    const char *keys, *what;
-  };
-  static constexpr std::array rows{
-      Row{"P", "play or pause"},
-      Row{"O  .", "one step on"},
-      Row{",", "one step back"},
-      Row{"R", "restart"},
-      Row{"Y  B", "back to the first yield, to the first break"},
-      Row{"[  ]", "previous, next scene"},
-      Row{"Z  X", "zoom out, in (or the wheel)"},
-      Row{"arrows", "move the view (or drag with the right button)"},
-      Row{"Home", "all of the scene"},
-      Row{"space", "throw a bomb at the pointer"},
-      Row{"M", "put a mass at the pointer"},
-      Row{"A  S  D", "drive on, brake, drive back"},
-      Row{"F  T  N", "forces, moments, numbers"},
-      Row{"1 … 6", "look; make a beam, support, load; move; delete"},
-      Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
-      Row{"Enter", "with a tool: what a press and a release do"},
-      Row{"Delete", "delete what is at the cursor, or the body"},
-      Row{"click", "select a joint (shift: one more), or a body"},
-      Row{"drag", "drag a body; from empty ground: select in a box"},
-      Row{"ctrl+drag", "select in a box anywhere"},
-      Row{"shift+drag", "pull a bomb back and let it go"},
-      Row{"ctrl+A", "select all joints"},
-      Row{"ctrl+click", "type a slider's value"},
-      Row{"ctrl+Z  Y", "undo, redo"},
-      Row{"ctrl+N  O  S", "new scene, open, save"},
-      Row{"Escape", "give up what is drawn, lay the tool down, select nothing"},
-      Row{"H", "this list"},
-  };
-  const Point middle = camera_.screen.middle();
-  ImGui::SetNextWindowPos(px(middle), ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::Begin("Keys", &helping_,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoSavedSettings);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Row& row : rows) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row.keys);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row.what);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
 }
 
 // The scene, and what the pointer does to it.

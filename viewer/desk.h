@@ -58,15 +58,26 @@ class Desk {
   void message();
   void help();
   void make();
+  void with_chosen();
+  void copy();
+  void cut();
+  void line_style();
+  void beam_style(BeamStyle& style);
+  bool section_style(BeamStyle& style);
+  void beam_section(const SceneDef& scene, const BodyDef& beam);
+  bool choose_material(Material& material);
+  bool choose_profile(std::string& profile);
   bool make_keys();
   void make_with(Point mouse, bool over);
   void draw_grid(ImDrawList& to) const;
+  void draw_chosen(ImDrawList& to) const;
   void draw_making(ImDrawList& to) const;
   void take(Maker::Tool tool);
   void start_new();
   void open_named();
 
   void save();
+  void exports();
   /// Puts a changed scene on the bench where a control `changed` it; wrong values become the message.
   void commit(bool changed, SceneDef scene);
   /// To be called right after a control: its name, and what it does, for whoever rests the pointer on it.
@@ -88,6 +99,7 @@ class Desk {
   int edition_ = -1;
   std::filesystem::path file_;   // of the scene that is shown
   std::string save_as_, scene_;  // what is typed; what was opened
+  std::string profile_filter_;   // what is typed to find one
   std::map<std::string, Box> controls_;
   std::optional<Diagram> diagram_;  // of the joint in focus
   std::size_t diagram_of_ = 0;

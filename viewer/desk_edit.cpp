@@ -42,7 +42,9 @@ void Desk::edit() {
   tip("body", "Which body is edited; a click on one in the scene chooses it too.");
   BodyDef& body = scene.bodies[at];
   material(scene, body);
-  if (body.profile.empty()) {
+  if (axis_of(body)) {
+    beam_section(scene, body);
+  } else if (body.profile.empty()) {
     constexpr double thinnest = 1e-4, thickest = 100;
     const bool changed = ImGui::SliderScalar("depth", ImGuiDataType_Double, &body.depth, &thinnest, &thickest,
                                              "%.4g m", ImGuiSliderFlags_Logarithmic);
@@ -59,25 +61,21 @@ void Desk::edit() {
   ImGui::PopItemWidth();
 }
 
+void Desk::beam_section(const SceneDef& scene, const BodyDef& beam) {
+  BeamStyle style = style_of(beam);
+  if (section_style(style)) attempt(bench_, [&] { commit(true, with_style(scene, beam.name, style)); });
+}
+
 void Desk::material(SceneDef& scene, BodyDef& body) {
   if (!body.material) return;
+  const auto is_now = [&](bool changed) {
+    if (changed && !body.profile_name.empty()) body.profile.front().material = *body.material;
+    commit(changed, scene);
+  };
   Material& material = *body.material;
-  const char* name = "its own";
-  for (const NamedMaterial& known : materials::all()) {
-    if (known.material == material) name = known.name.data();
-  }
-  bool changed = false;
-  if (ImGui::BeginCombo("material", name)) {
-    for (const NamedMaterial& known : materials::all()) {
-      if (ImGui::Selectable(std::string(known.name).c_str(), known.material == material)) {
-        material = known.material;
-        changed = true;
-      }
-    }
-    ImGui::EndCombo();
-  }
+  const bool other = choose_material(material);
   tip("material", "A built-in material, or its own by the values below.");
-  commit(changed, scene);
+  is_now(other);
   struct Value {
     const char *label, *name, *text, *format;
     double Material::*of;
@@ -94,11 +92,11 @@ void Desk::material(SceneDef& scene, BodyDef& body) {
             &Material::fracture_strain, 0, 2, 1}};
   for (const Value& value : values) {
     double shown = material.*value.of / value.unit;
-    changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low, &value.high,
-                                  value.format, ImGuiSliderFlags_Logarithmic);
+    const bool changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low, &value.high,
+                                             value.format, ImGuiSliderFlags_Logarithmic);
     tip(value.name, value.text);
     if (changed) material.*value.of = shown * value.unit;
-    commit(changed, scene);
+    is_now(changed);
   }
 }
 

@@ -1,82 +1,119 @@
-// Making things in the window: the tools and what they make, the cursor, and the keys that move it.
+// Making things in the window: the tools and what they make, and the keys that move them.
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "controls.h"
 #include "desk.h"
-#include "quantity.h"
 
 namespace ductile::viewer {
 namespace {
 
 using Tool = Maker::Tool;
 
+constexpr double least_stroke = -5, most_stroke = 5;  // m
+
 struct ToolButton {
   Tool tool;
   const char *label, *control, *text;
 };
+// In the order of their keys.
 constexpr std::array tools{
     ToolButton{Tool::none, "1 look", "tool look", "The pointer selects, drags and throws (1)."},
-    ToolButton{Tool::beam, "2 beam", "tool beam",
-               "Drag from one end to the other: it is pinned to what is there (2)."},
+    ToolButton{Tool::beam, "2 beam", "tool beam", "Drag from one end to the other: it is pinned to what is there (2)."},
     ToolButton{Tool::support, "3 support", "tool support",
-               "On a beam: a hinge; once more a roller, clamped, nothing (3)."},
+               "On a beam: a hinge; once more a roller, clamped, springs, nothing (3)."},
     ToolButton{Tool::load, "4 load", "tool load", "On a beam: a force downwards; once more: none (4)."},
-    ToolButton{Tool::move, "5 move", "tool move", "Drag the end of beams, with all that is there (5)."},
+    ToolButton{Tool::move, "5 move", "tool move", "Drag a node, or a body, with all that hangs on it (5)."},
     ToolButton{Tool::remove, "6 delete", "tool delete",
-               "On a load, a support, or else a beam: it goes (6, or Delete)."}};
-
-bool key(int glfw_key, bool repeat = false) { return ImGui::IsKeyPressed(glfw_key, repeat); }
-
-bool slide(const char* label, double& value, double low, double high, const char* format) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
-                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-}
+               "On a load, a support, a line, or else a body: it goes (6, or Delete)."},
+    ToolButton{Tool::line, "7 line", "tool line", "Drag a rope, a strut or a jack from one body to another (7)."},
+    ToolButton{Tool::node, "8 weld", "tool node", "On a node: its beams are welded; once more: pinned (8)."},
+    ToolButton{Tool::choose, "9 choose", "tool choose",
+               "Drag a box around bodies, or click on one, to copy, mirror, move or delete them; shift: more (9)."}};
 
 }  // namespace
 
 void Desk::make() {
-  if (button("New", "new", "A floor and nothing else (ctrl+N).")) start_new();
+  if (button("New", "new", "A floor and nothing else (ctrl+N; alt+N in a browser).")) start_new();
   ImGui::SameLine();
   if (button("Open", "open", "The file that is named on the left, above Save (ctrl+O).")) open_named();
   if (!bench_.editable()) return ImGui::TextWrapped("A level is made in the editor that it comes from.");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(105 * ui_ * static_cast<double>(i % 3)));
-    if (ImGui::RadioButton(tools[i].label, maker_.tool() == tools[i].tool))
-      maker_.choose(bench_, tools[i].tool);
+    if (ImGui::RadioButton(tools[i].label, maker_.tool() == tools[i].tool)) take(tools[i].tool);
     tip(tools[i].control, tools[i].text);
   }
+  with_chosen();
   ImGui::Separator();
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52f);
-  BeamStyle& style = maker_.style;
-  const auto is = [&](const NamedMaterial& known) { return known.material == style.material; };
-  const auto& all = materials::all();
-  const auto now = std::find_if(all.begin(), all.end(), is);
-  if (ImGui::BeginCombo("material", now == all.end() ? "its own" : std::string(now->name).c_str())) {
-    for (const NamedMaterial& known : all) {
-      if (ImGui::Selectable(std::string(known.name).c_str(), is(known))) style.material = known.material;
-    }
-    ImGui::EndCombo();
+  if (maker_.tool() == Tool::support) {
+    double stiffness = maker_.stiffness / 1e3;
+    if (slide("springs", stiffness, 1e-3, 1e9, "%.4g kN/m")) maker_.stiffness = 1e3 * stiffness;
+    tip("spring stiffness", "Of the next springs, across and upright.");
+  } else if (maker_.tool() == Tool::load) {
+    double force = maker_.force / 1e3;
+    if (slide("load", force, 1e-3, 1e6, "%.4g kN")) maker_.force = 1e3 * force;
+    tip("load force", "Of the next load, downwards.");
+  } else if (maker_.tool() == Tool::line) {
+    line_style();
+  } else {
+    beam_style(maker_.style);
   }
-  tip("beam material", "Of the next beam.");
-  slide("height", style.height, 0.01, 10, "%.3g m");
-  tip("beam height", "Of the next beam, in the plane.");
-  slide("depth", style.depth, 0.001, 10, "%.3g m");
-  tip("beam depth", "Of the next beam, out of the plane.");
-  ImGui::SliderInt("pieces", &style.pieces, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
-  tip("beam pieces", "Into how many the next beam is split.");
-  double kilonewtons = maker_.force / 1e3;
-  if (slide("load", kilonewtons, 1e-3, 1e6, "%.4g kN")) maker_.force = 1e3 * kilonewtons;
-  tip("load force", "Of the next load, downwards.");
   slide("grid", maker_.grid, 0.01, 10, "%.3g m");
   tip("grid", "What the cursor snaps to where no node is near.");
   ImGui::PopItemWidth();
   ImGui::Separator();
   ImGui::TextWrapped("%s", bench_.verdict().c_str());
+}
+
+// What can be done with the bodies that are chosen.
+void Desk::with_chosen() {
+  const std::size_t chosen = maker_.chosen(bench_).size();
+  ImGui::BeginDisabled(chosen == 0);
+  if (button("Copy", "copy", "What is chosen, with what holds, loads and joins it (ctrl+C).")) copy();
+  ImGui::SameLine();
+  if (button("Cut", "cut", "Copies it, and takes it away (ctrl+X).")) cut();
+  ImGui::SameLine();
+  if (button("Mirror", "mirror", "Then click where the mirror stands: what is chosen is there twice (ctrl+M)."))
+    take(Tool::mirror);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!maker_.can_paste());
+  if (button("Paste", "paste", "Then click where its lowest node goes (ctrl+V).")) take(Tool::paste);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::TextDisabled("%zu chosen", chosen);
+}
+
+void Desk::copy() {
+  if (!maker_.copy(bench_)) bench_.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
+}
+
+void Desk::cut() {
+  copy();
+  maker_.remove_chosen(bench_);
+}
+
+void Desk::line_style() {
+  LineStyle& line = maker_.line;
+  int kind = static_cast<int>(line.kind);
+  if (choose("line", "What the next line is: a rope pulls, a strut pushes, a jack grows or shortens.", kind,
+             {"rope", "strut", "jack"})) {
+    line.kind = static_cast<LineStyle::Kind>(kind);
+  }
+  if (line.kind != LineStyle::Kind::jack) return;
+  double force = line.force / 1e3;
+  if (slide("force", force, 1e-3, 1e6, "%.4g kN")) line.force = 1e3 * force;
+  tip("jack force", "With which the next jack pushes or pulls at most.");
+  ImGui::SliderScalar("stroke", ImGuiDataType_Double, &line.stroke, &least_stroke, &most_stroke, "%.3g m");
+  tip("jack stroke", "By how much it grows; shortens, to the left.");
+  slide("speed", line.speed, 1e-3, 10, "%.3g m/s");
+  tip("jack speed", "How fast it does.");
 }
 
 void Desk::start_new() {
@@ -110,8 +147,9 @@ bool Desk::make_keys() {
   if (columns != 0 || rows != 0) maker_.step(bench_, columns, rows);
   if (key(GLFW_KEY_E)) maker_.next_node(bench_, 1);
   if (key(GLFW_KEY_Q)) maker_.next_node(bench_, -1);
-  if (key(GLFW_KEY_ENTER)) maker_.start() ? maker_.release(bench_) : maker_.press(bench_);
-  if (key(GLFW_KEY_DELETE)) {
+  const bool shift = ImGui::GetIO().KeyShift;
+  if (key(GLFW_KEY_ENTER)) maker_.start() ? maker_.release(bench_, shift) : maker_.press(bench_);
+  if (key(GLFW_KEY_DELETE) && !(maker_.tool() == Tool::choose && maker_.remove_chosen(bench_))) {
     const Tool before = maker_.tool();
     take(Tool::remove);
     maker_.press(bench_);
@@ -131,49 +169,7 @@ void Desk::make_with(Point mouse, bool over) {
     maker_.point(bench_, camera_.to_world(mouse), reach);
   }
   if (clicked) maker_.press(bench_);
-  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) maker_.release(bench_);
-}
-
-// Below the scene.
-void Desk::draw_grid(ImDrawList& to) const {
-  const Point low = camera_.to_world({camera_.screen.low.x, camera_.screen.high.y}),
-              high = camera_.to_world({camera_.screen.high.x, camera_.screen.low.y});
-  const double grid = maker_.grid;
-  if (grid * camera_.scale < 8 * ui_) return;
-  for (double x = grid * std::ceil(low.x / grid); x <= high.x; x += grid) {
-    for (double y = grid * std::ceil(low.y / grid); y <= high.y; y += grid) {
-      to.AddCircleFilled(px(camera_.to_screen({x, y})), static_cast<float>(ui_), ink::line, 4);
-    }
-  }
-}
-
-// Nodes, what holds the scene, and the cursor.
-void Desk::draw_making(ImDrawList& to) const {
-  const auto f = [this](double value) { return static_cast<float>(value * ui_); };
-  for (const Point node : nodes(bench_.scene())) {
-    const ImVec2 at = px(camera_.to_screen(node));
-    to.AddCircleFilled(at, f(3.5), ink::ground);
-    to.AddCircle(at, f(3.5), ink::edge, 0, f(1.5));
-  }
-  for (const SupportDef& support : bench_.scene().supports) {
-    const Point at = camera_.to_screen(support.at);
-    const Point left = at + ui_ * Point{-8, 14}, right = at + ui_ * Point{8, 14};
-    if (support.fix_angle) {
-      to.AddRectFilled(px(at + ui_ * Point{-8, 4}), px(right), ink::accent);
-    } else {
-      to.AddTriangle(px(at + ui_ * Point{0, 3}), px(left), px(right), ink::accent, f(2));
-    }
-    if (!support.fix_x)
-      to.AddLine(px(left + ui_ * Point{0, 4}), px(right + ui_ * Point{0, 4}), ink::accent, f(2));
-  }
-  const Point cursor = maker_.cursor(), at = camera_.to_screen(cursor);
-  const Point across{7 * ui_, 0}, up{0, 7 * ui_};
-  to.AddLine(px(at - across), px(at + across), ink::accent, f(2));
-  to.AddLine(px(at - up), px(at + up), ink::accent, f(2));
-  std::string text = fmt::format("{:.4g}, {:.4g} m", cursor.x, cursor.y);
-  if (maker_.start()) text += fmt::format("   {} long", si(length(cursor - *maker_.start()), "m"));
-  to.AddText(px(at + ui_ * Point{10, -20}), ink::accent, text.c_str());
-  to.AddText(px(camera_.screen.low + ui_ * Point{12, 28}), ink::edge, bench_.verdict().c_str());
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) maker_.release(bench_, io.KeyShift);
 }
 
 }  // namespace ductile::viewer

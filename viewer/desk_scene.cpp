@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "controls.h"
 #include "desk.h"
+#include "exporting.h"
+#include "ductile/files.h"
 
 #include <imgui_stdlib.h>  // after imgui.h
 
@@ -16,11 +19,6 @@ namespace {
 std::string scene_name(const std::filesystem::path& file) {
   std::string name = file.filename().string();
   return name.substr(0, name.find('.'));
-}
-
-bool slide(const char* label, double& value, double low, double high, const char* format) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
-                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
 }  // namespace
@@ -55,12 +53,35 @@ void Desk::scene(const Box& box) {
   ImGui::BeginDisabled(!bench_.can_redo());
   if (button("Redo", "redo", "Does it again (ctrl+Y).")) bench_.redo();
   ImGui::EndDisabled();
+  ImGui::SameLine();
+  exports();
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
   run();
   show();
   throwing();
   ImGui::PopItemWidth();
   ImGui::End();
+}
+
+// Into files beside the scene, of its name and the format's ending.
+void Desk::exports() {
+  if (button("Export", "export", "For other programs: definitions, C++, a level, a picture, a replay.")) {
+    ImGui::OpenPopup("formats");
+  }
+  if (!ImGui::BeginPopup("formats")) return;
+  for (const ExportFormat& format : export_formats()) {
+    const bool wanted = ImGui::Selectable(format.name);
+    tip((std::string("export ") + format.name).c_str(), format.what);
+    if (!wanted) continue;
+    const std::filesystem::path scene = save_as_;
+    const std::filesystem::path file = scene.parent_path() / (scene_name(scene) + format.ending);
+    attempt(bench_, [&] {
+      write_text(file, format.text(bench_));
+      bench_.message = "Exported to " + file.string();
+      if (when_saved_) when_saved_(file);
+    });
+  }
+  ImGui::EndPopup();
 }
 
 void Desk::run() {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "part.h"
+
 namespace ductile::viewer {
 
 void Maker::choose(Workbench& bench, Tool tool) {
@@ -17,38 +19,61 @@ void Maker::choose(Workbench& bench, Tool tool) {
   bench.check_at_rest(tool != Tool::none);
 }
 
-void Maker::point(Workbench& bench, Point at, double reach) {
-  Point to{grid * std::round(at.x / grid), grid * std::round(at.y / grid)};
-  // What is being drawn has its own end under the pointer.
-  for (const Point node : nodes(drawn_ ? before_ : bench.scene())) {
-    if (length(node - at) > reach) continue;
-    reach = length(node - at);
-    to = node;
+// What is being drawn has its own end under the pointer, so it snaps to what was there before.
+Point Maker::snapped(const Workbench& bench, Point at, double reach) const {
+  const SceneDef& scene = drawn_ ? before_ : bench.scene();
+  std::optional<Point> nearest;
+  double within = reach;
+  const auto offer = [&](Point p) {
+    if (length(p - at) > within) return;
+    within = length(p - at);
+    nearest = p;
+  };
+  for (const Point node : nodes(scene)) offer(node);
+  if (nearest) return *nearest;
+  const Point on_grid{grid * std::round(at.x / grid), grid * std::round(at.y / grid)};
+  const bool on_things = tool_ == Tool::support || tool_ == Tool::load || tool_ == Tool::remove ||
+                         tool_ == Tool::line || tool_ == Tool::node;
+  if (!on_things || body_at(scene, on_grid)) return on_grid;
+  for (const BodyDef& body : scene.bodies) {
+    if (const auto axis = axis_of(body)) offer(axis->nearest(at));
   }
-  put(bench, to);
+  if (tool_ == Tool::remove) {
+    for (const JointBetweenDef& joint : scene.joints) {
+      if (joint.line) offer(Axis{(*joint.line)[0], (*joint.line)[1]}.nearest(at));
+    }
+  }
+  if (!nearest && body_at(scene, at)) return at;  // a body that the grid misses
+  return nearest.value_or(on_grid);
+}
+
+void Maker::point(Workbench& bench, Point at, double reach) {
+  aim_ = at;
+  put(bench, snapped(bench, at, reach));
 }
 
 void Maker::step(Workbench& bench, int columns, int rows) {
   const auto on = [this](double from, int by) {
     return by == 0 ? from : grid * (std::round(from / grid) + by);
   };
-  put(bench, {on(cursor_.x, columns), on(cursor_.y, rows)});
+  aim_ = {on(cursor_.x, columns), on(cursor_.y, rows)};
+  put(bench, aim_);
 }
 
 void Maker::next_node(Workbench& bench, int by) {
-  std::vector<Point> all = nodes(drawn_ ? before_ : bench.scene());
+  const std::vector<Point> all = nodes(drawn_ ? before_ : bench.scene());
   if (all.empty()) return;
   const auto before = [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-  std::sort(all.begin(), all.end(), before);
   const auto n = static_cast<std::ptrdiff_t>(all.size());
   const auto here = std::lower_bound(all.begin(), all.end(), cursor_, before) - all.begin();
-  const bool on_node = here < n && length(all[static_cast<std::size_t>(here)] - cursor_) < node_size;
+  const bool on_node = here < n && is_same(all[static_cast<std::size_t>(here)], cursor_);
   const std::ptrdiff_t next = by > 0 ? here + (on_node ? 1 : 0) : here - 1;
-  put(bench, all[static_cast<std::size_t>((next + n) % n)]);
+  aim_ = all[static_cast<std::size_t>((next + n) % n)];
+  put(bench, aim_);
 }
 
 void Maker::put(Workbench& bench, Point at) {
-  if (length(at - cursor_) < node_size) return;
+  if (is_same(at, cursor_)) return;
   cursor_ = at;
   if (start_) draw(bench);
 }
@@ -57,26 +82,44 @@ void Maker::press(Workbench& bench) {
   if (tool_ == Tool::none) return;
   bench.playing = false;
   if (bench.run().cursor() > 0) return bench.restart();  // what is seen stands elsewhere
-  if (tool_ == Tool::beam || tool_ == Tool::move) {
-    start_ = cursor_;
-    before_ = bench.scene();
-    edition_ = bench.edition();
-    problem_.clear();
-    return;
+  switch (tool_) {
+    case Tool::beam:
+    case Tool::line:
+    case Tool::move:
+    case Tool::choose:
+      return begin(bench);
+    case Tool::paste:
+    case Tool::mirror:
+      if ((tool_ == Tool::paste ? copied_.bodies : part_of(bench.scene(), chosen_).bodies).empty()) {
+        bench.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
+        return;
+      }
+      begin(bench);
+      return draw(bench);
+    default:
+      return attempt(bench, [&] { click(bench); });
   }
-  try {
-    if (tool_ == Tool::support) bench.edit(with_next_support(bench.scene(), cursor_));
-    if (tool_ == Tool::load) {
-      const auto& loads = bench.scene().loads;
-      const bool same = std::any_of(loads.begin(), loads.end(), [this](const LoadDef& l) {
-        return length(l.at - cursor_) < node_size && l.force.x == 0 && l.force.y == -force;
-      });
-      bench.edit(with_load(bench.scene(), cursor_, {0, same ? 0 : -force}));
-    }
-    if (tool_ == Tool::remove) bench.edit(without(bench.scene(), cursor_));
-  } catch (const InvalidInput& error) {
-    bench.message = "This cannot be.\n" + std::string(error.what());
+}
+
+void Maker::begin(Workbench& bench) {
+  start_ = cursor_;
+  begun_at_ = aim_;
+  before_ = bench.scene();
+  edition_ = bench.edition();
+  problem_.clear();
+}
+
+void Maker::click(Workbench& bench) const {
+  const SceneDef& scene = bench.scene();
+  if (tool_ == Tool::support) bench.edit(with_next_support(scene, cursor_, stiffness));
+  if (tool_ == Tool::load) {
+    const bool same = std::ranges::any_of(scene.loads, [this](const LoadDef& l) {
+      return is_same(l.at, cursor_) && l.force.x == 0 && l.force.y == -force;
+    });
+    bench.edit(with_load(scene, cursor_, {0, same ? 0 : -force}));
   }
+  if (tool_ == Tool::node) bench.edit(with_weld_or_pin(scene, cursor_));
+  if (tool_ == Tool::remove) bench.edit(without(scene, cursor_));
 }
 
 bool Maker::interrupted(const Workbench& bench) {
@@ -86,12 +129,40 @@ bool Maker::interrupted(const Workbench& bench) {
   return true;
 }
 
+SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
+  const auto joined = [&](SceneDef part) {
+    Joined result = with_part(before_, std::move(part));
+    chosen = std::move(result.added);
+    return std::move(result.scene);
+  };
+  switch (tool_) {
+    case Tool::beam:
+      return with_beam(before_, {*start_, cursor_}, style);
+    case Tool::line:
+      return with_line(before_, {*start_, cursor_}, line);
+    case Tool::paste:
+      return joined(shifted(copied_, cursor_ - grip_of(copied_)));
+    case Tool::mirror:
+      return joined(mirrored(part_of(before_, chosen_), cursor_.x));
+    default:
+      break;
+  }
+  // A node where there is one, or else the body there, with all that is chosen where it is one of those.
+  const std::vector<Point> all = nodes(before_);
+  if (std::ranges::any_of(all, [this](Point p) { return is_same(p, *start_); }))
+    return with_node_moved(before_, *start_, cursor_);
+  const BodyDef* body = body_at(before_, begun_at_);
+  if (!body) throw InvalidInput({{"move", "there is nothing here", "drag a node or a body"}});
+  const bool with_chosen = std::ranges::find(chosen_, body->name) != chosen_.end();
+  return with_bodies_moved(before_, with_chosen ? chosen_ : std::vector{body->name}, cursor_ - *start_);
+}
+
 void Maker::draw(Workbench& bench) {
-  if (interrupted(bench)) return;
+  if (interrupted(bench) || tool_ == Tool::choose) return;
   try {
-    bench.edit(tool_ == Tool::beam ? with_beam(before_, {*start_, cursor_}, style)
-                                   : with_node_moved(before_, *start_, cursor_),
-               drawn_);
+    std::vector<std::string> added;
+    bench.edit(drawn(added), drawn_);
+    if (tool_ == Tool::paste) chosen_ = std::move(added);
     drawn_ = true;
     edition_ = bench.edition();
     problem_.clear();
@@ -100,13 +171,31 @@ void Maker::draw(Workbench& bench) {
   }
 }
 
-void Maker::release(Workbench& bench) {
+void Maker::release(Workbench& bench, bool add) {
   if (!start_ || interrupted(bench)) return;
-  const bool moved = length(cursor_ - *start_) >= node_size;
+  if (tool_ == Tool::choose) return choose_between(bench, add);
+  const bool moved = !is_same(cursor_, *start_) || tool_ == Tool::paste || tool_ == Tool::mirror;
   if (moved && !problem_.empty()) bench.message = "This cannot be.\n" + problem_;
   if (!moved || !problem_.empty()) return cancel(bench);
   start_.reset();
   drawn_ = false;
+}
+
+void Maker::choose_between(const Workbench& bench, bool add) {
+  if (!add) chosen_.clear();
+  std::vector<std::string> found;
+  if (is_same(*start_, cursor_)) {
+    const BodyDef* body = body_at(bench.scene(), begun_at_);
+    if (!body) body = body_at(bench.scene(), cursor_);
+    if (body) found = {body->name};
+  } else {
+    Box box;
+    for (const Point p : {*start_, cursor_})
+      for (const double margin : {-node_size, node_size}) box.add(p + Point{margin, margin});
+    found = bodies_in(bench.scene(), box);
+  }
+  chosen_.insert(chosen_.end(), found.begin(), found.end());
+  start_.reset();
 }
 
 void Maker::cancel(Workbench& bench) {
@@ -114,6 +203,30 @@ void Maker::cancel(Workbench& bench) {
   if (drawn_) bench.undo();
   start_.reset();
   drawn_ = false;
+}
+
+std::vector<std::string> Maker::chosen(const Workbench& bench) const {
+  std::vector<std::string> there;
+  for (const std::string& name : chosen_) {
+    if (body_named(bench.scene(), name)) there.push_back(name);
+  }
+  return there;
+}
+
+bool Maker::copy(const Workbench& bench) {
+  SceneDef part = part_of(bench.scene(), chosen_);
+  if (part.bodies.empty()) return false;
+  copied_ = std::move(part);
+  return true;
+}
+
+bool Maker::remove_chosen(Workbench& bench) {
+  const std::vector<std::string> names = chosen(bench);
+  if (names.empty()) return false;
+  SceneDef scene = bench.scene();
+  for (const std::string& name : names) scene = without_body(std::move(scene), name);
+  attempt(bench, [&] { bench.edit(std::move(scene)); });
+  return true;
 }
 
 }  // namespace ductile::viewer

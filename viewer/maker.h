@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "making.h"
 #include "workbench.h"
@@ -13,11 +14,13 @@ namespace ductile::viewer {
 
 class Maker {
  public:
-  enum class Tool { none, beam, support, load, move, remove };
+  enum class Tool { none, beam, support, load, move, remove, line, node, choose, paste, mirror };
 
   BeamStyle style;
-  double force = 100e3;  ///< N, downwards
-  double grid = 0.5;     ///< m
+  LineStyle line;
+  double force = 100e3;    ///< N, downwards
+  double stiffness = 1e6;  ///< N/m, of the next springs
+  double grid = 0.5;       ///< m
 
   Tool tool() const { return tool_; }
   /// With a tool in the hand the scene stands at its start, and its static check is shown.
@@ -25,11 +28,12 @@ class Maker {
 
   /// m: where the next thing is done.
   Point cursor() const { return cursor_; }
-  /// Where the beam that is being drawn, or the node that is being moved, was.
+  /// Where what is being drawn or moved was begun.
   std::optional<Point> start() const { return start_; }
 
   /// The cursor goes to the node nearest to a point within `reach`, m, or else to the nearest point of the
-  /// grid.
+  /// grid; with a tool that needs something there, to the nearest beam within `reach` where nothing is at
+  /// that point.
   void point(Workbench& bench, Point at, double reach);
   /// It goes on by so many lines of the grid.
   void step(Workbench& bench, int columns, int rows);
@@ -38,23 +42,42 @@ class Maker {
 
   /// What is done by a press is done, what is drawn is begun. What cannot be becomes the bench's message.
   void press(Workbench& bench);
-  void release(Workbench& bench);
+  /// What is drawn is done. `add`: what is chosen is chosen beside what was.
+  void release(Workbench& bench, bool add = false);
   /// What is being drawn is given up.
   void cancel(Workbench& bench);
 
+  // --- what is chosen, by the tool for that ---
+  /// Names of bodies that there are.
+  std::vector<std::string> chosen(const Workbench& bench) const;
+  /// Keeps a copy for the tool that pastes; false: nothing is chosen.
+  bool copy(const Workbench& bench);
+  bool can_paste() const { return !copied_.bodies.empty(); }
+  /// False: nothing is chosen.
+  bool remove_chosen(Workbench& bench);
+
  private:
   void put(Workbench& bench, Point at);
+  Point snapped(const Workbench& bench, Point at, double reach) const;
+  void begin(Workbench& bench);
   void draw(Workbench& bench);
+  /// The scene with what is being drawn as far as the cursor.
+  SceneDef drawn(std::vector<std::string>& chosen) const;
+  void click(Workbench& bench) const;
+  void choose_between(const Workbench& bench, bool add);
   /// Another scene, an undo or a restart has come between: what was being drawn is no more.
   bool interrupted(const Workbench& bench);
 
   Tool tool_ = Tool::none;
-  Point cursor_;
+  Point cursor_, aim_;  // where it is, and where it would be if it did not snap
   std::optional<Point> start_;
+  Point begun_at_;       // start_, not snapped
   SceneDef before_;      // without what is being drawn
   bool drawn_ = false;   // it is on the bench
   int edition_ = 0;      // of the bench, since the press or the last drawing
   std::string problem_;  // why it is not
+  std::vector<std::string> chosen_;
+  SceneDef copied_;
 };
 
 }  // namespace ductile::viewer

@@ -1,121 +1,26 @@
 #include "making.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "pins.h"
 
 namespace ductile::viewer {
 namespace {
 
-bool is(Point a, Point b) { return length(a - b) < node_size; }
-
-/// Distance of a point from a segment.
-double distance(const Axis& axis, Point p) {
-  const Point d = axis.to - axis.from;
-  const double t = std::clamp(dot(p - axis.from, d) / dot(d, d), 0., 1.);
-  return length(p - axis.from - t * d);
+/// What can be held, loaded or pulled at a point.
+const BodyDef* moving_at(const SceneDef& scene, Point at) {
+  const BodyDef* body = body_at(scene, at);
+  return body && body->type == BodyType::dynamic_body ? body : nullptr;
 }
 
-/// Whether a static body covers a point or has it on its edge.
-bool covers(const BodyDef& body, Point p) {
-  const Point local = Turn(body.angle).back(p - body.at);
-  if (body.circle > 0) return length(local) <= body.circle + node_size;
-  const Ring& ring = body.outline.outer;
-  bool inside = false;
-  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
-    const Point a = ring[last], b = ring[i];
-    if (distance({a, b}, local) < node_size) return true;
-    if ((a.y > local.y) != (b.y > local.y) && local.x < a.x + (local.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-      inside = !inside;
-    }
-  }
-  return inside;
+std::string need(const BodyDef* body, const std::string& what, const std::string& remedy) {
+  if (body) return body->name;
+  throw InvalidInput({{what, "there is nothing here that could be held or pulled", remedy}});
 }
 
-bool ends_at(const BodyDef& body, Point at) {
-  const auto axis = axis_of(body);
-  return axis && (is(axis->from, at) || is(axis->to, at));
-}
-
-bool passes(const BodyDef& body, Point at) {
-  const auto axis = axis_of(body);
-  return axis && distance(*axis, at) < node_size;
-}
-
-/// The beam at a point, one that ends there if there is one; else null.
-const BodyDef* find_beam(const SceneDef& scene, Point at) {
-  for (const auto there : {ends_at, passes}) {
-    for (const BodyDef& body : scene.bodies) {
-      if (there(body, at)) return &body;
-    }
-  }
-  return nullptr;
-}
-
-std::string beam_at(const SceneDef& scene, Point at, const std::string& what) {
-  if (const BodyDef* beam = find_beam(scene, at)) return beam->name;
-  throw InvalidInput({{what, "there is no beam here", "put it on the axis of a beam, or at its end"}});
-}
-
-std::vector<std::string> bodies_of(const JointBetweenDef& joint) {
-  std::vector<std::string> names{joint.a, joint.b};
-  names.insert(names.end(), joint.others.begin(), joint.others.end());
-  return names;
-}
-
-void set_bodies(JointBetweenDef& joint, const std::vector<std::string>& names) {
-  joint.a = names[0];
-  joint.b = names[1];
-  joint.others.assign(names.begin() + 2, names.end());
-}
-
-/// The pin at a point as it is to be: of the static bodies and the beams there, and of what else it held
-/// before. Beams that cross pass each other where none ends.
-void pin(SceneDef& scene, Point at) {
-  const auto old = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                [&](const JointBetweenDef& j) { return j.at && is(*j.at, at); });
-  JointBetweenDef joint;
-  std::vector<std::string> held;
-  if (old != scene.joints.end()) {
-    joint = *old;
-    held = bodies_of(joint);
-    scene.joints.erase(old);
-  }
-  std::vector<std::string> names;
-  bool is_end = false;
-  for (const bool fixed : {true, false}) {  // the first is the hub
-    for (const BodyDef& body : scene.bodies) {
-      if ((body.type == BodyType::static_body) != fixed) continue;
-      const bool was = !axis_of(body) && std::count(held.begin(), held.end(), body.name) > 0;
-      if (was || (fixed && covers(body, at)) || passes(body, at)) names.push_back(body.name);
-      is_end |= was || ends_at(body, at);
-    }
-  }
-  if (names.size() < 2 || !is_end) return;
-  joint.at = at;
-  set_bodies(joint, names);
-  scene.joints.push_back(std::move(joint));
-}
-
-std::string unused_name(const SceneDef& scene) {
-  for (int number = 1;; ++number) {
-    std::string name = "beam" + std::to_string(number);
-    const auto has = [&](const BodyDef& body) { return body.name == name; };
-    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), has)) return name;
-  }
-}
-
-/// Half the height of a beam, m.
-double half_height(const BodyDef& beam) { return beam.outline.outer[2].y; }
-
-void lay(BodyDef& beam, const Axis& axis, double half) {
-  const double span = length(axis.to - axis.from);
-  if (!(span > 2 * half)) {
-    throw InvalidInput({{"body '" + beam.name + "'", "is no longer than it is high", "draw it longer"}});
-  }
-  beam.outline.outer = {{0, -half}, {span, -half}, {span, half}, {0, half}};
-  beam.at = axis.from;
-  beam.angle = std::atan2(axis.to.y - axis.from.y, axis.to.x - axis.from.x);
+std::string need_moving(const SceneDef& scene, Point at, const std::string& what) {
+  return need(moving_at(scene, at), what, "put it on the axis of a beam, at its end, or on a body that moves");
 }
 
 }  // namespace
@@ -130,114 +35,114 @@ SceneDef empty_scene() {
   return scene;
 }
 
-std::optional<Axis> axis_of(const BodyDef& body) {
-  const Ring& ring = body.outline.outer;
-  if (body.type != BodyType::dynamic_body || body.circle > 0 || ring.size() != 4 ||
-      !body.outline.holes.empty())
-    return std::nullopt;
-  const double span = ring[1].x, half = ring[2].y;
-  const Ring beam{{0, -half}, {span, -half}, {span, half}, {0, half}};
-  if (!(half > 0 && span > 0) || !std::equal(ring.begin(), ring.end(), beam.begin(), is)) return std::nullopt;
-  return Axis{body.at, body.at + Turn(body.angle) * Point{span, 0}};
-}
-
 std::vector<Point> nodes(const SceneDef& scene) {
   std::vector<Point> all;
-  const auto add = [&](Point p) {
-    if (std::none_of(all.begin(), all.end(), [p](Point q) { return is(p, q); })) all.push_back(p);
-  };
   for (const BodyDef& body : scene.bodies) {
-    if (const auto axis = axis_of(body)) {
-      add(axis->from);
-      add(axis->to);
-    }
+    if (const auto axis = axis_of(body)) all.insert(all.end(), {axis->from, axis->to});
   }
   for (const JointBetweenDef& joint : scene.joints) {
-    if (joint.at) add(*joint.at);
+    if (joint.at) all.push_back(*joint.at);
+    if (joint.line) all.insert(all.end(), joint.line->begin(), joint.line->end());
   }
-  for (const SupportDef& support : scene.supports) add(support.at);
-  for (const LoadDef& load : scene.loads) add(load.at);
-  return all;
+  for (const SupportDef& support : scene.supports) all.push_back(support.at);
+  for (const LoadDef& load : scene.loads) all.push_back(load.at);
+  // Points of one node are close to each other in x, and then in y.
+  std::ranges::sort(all, [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Point> once;
+  std::size_t near = 0;  // the first of `once` that may be the same as the next
+  for (const Point p : all) {
+    while (near < once.size() && once[near].x < p.x - node_size) ++near;
+    const auto close = once.begin() + static_cast<std::ptrdiff_t>(near);
+    if (std::none_of(close, once.end(), [p](Point q) { return is_same(p, q); })) once.push_back(p);
+  }
+  return once;
+}
+
+std::string unused_name(const SceneDef& scene, std::string stem) {
+  while (!stem.empty() && stem.back() >= '0' && stem.back() <= '9') stem.pop_back();
+  for (int number = 1;; ++number) {
+    const std::string name = stem + std::to_string(number);
+    if (!body_named(scene, name)) return name;
+  }
 }
 
 SceneDef with_beam(SceneDef scene, const Axis& axis, const BeamStyle& style) {
   BodyDef beam;
-  beam.name = unused_name(scene);
-  beam.material = style.material;
-  beam.depth = style.depth;
-  beam.pieces = style.pieces;
+  beam.name = unused_name(scene, "beam");
   beam.group = -1;  // beams of one structure overlap where they meet
-  lay(beam, axis, style.height / 2);
+  lay(beam, axis, style);
   scene.bodies.push_back(std::move(beam));
   pin(scene, axis.from);
   pin(scene, axis.to);
   return scene;
 }
 
-SceneDef with_next_support(SceneDef scene, Point at) {
-  const auto old = std::find_if(scene.supports.begin(), scene.supports.end(),
-                                [&](const SupportDef& s) { return is(s.at, at); });
+SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
+  JointBetweenDef joint;
+  const std::string remedy = "begin and end it on beams, bodies or the ground";
+  joint.a = need(body_at(scene, axis.from), "line", remedy);
+  joint.b = need(body_at(scene, axis.to), "line", remedy);
+  if (joint.a == joint.b) throw InvalidInput({{"line", "begins and ends on one body", remedy}});
+  joint.line = {axis.from, axis.to};
+  using Kind = LineStyle::Kind;
+  joint.carries = style.kind == Kind::rope    ? Carries::tension
+                  : style.kind == Kind::strut ? Carries::compression
+                                              : Carries::both;
+  if (style.kind == Kind::jack) {
+    const double length = axis.length() + style.stroke;
+    if (!(length > 0)) throw InvalidInput({{"jack", "shortens to nothing", "draw it longer than its stroke"}});
+    joint.drive = DriveDef{.row = axial, .position = length, .speed = style.speed, .cap = style.force};
+  }
+  scene.joints.push_back(std::move(joint));
+  return scene;
+}
+
+SceneDef with_next_support(SceneDef scene, Point at, double stiffness) {
+  const auto old = std::ranges::find_if(scene.supports, [&](const SupportDef& s) { return is_same(s.at, at); });
   if (old == scene.supports.end()) {
     SupportDef hinge;
-    hinge.body = beam_at(scene, at, "support");
+    hinge.body = need_moving(scene, at, "support");
     hinge.at = at;
     hinge.fix_x = hinge.fix_y = true;
     scene.supports.push_back(std::move(hinge));
   } else if (old->fix_angle) {
-    scene.supports.erase(old);
+    old->fix_x = old->fix_y = old->fix_angle = false;
+    old->stiffness_x = old->stiffness_y = stiffness;
   } else if (old->fix_x) {
     old->fix_x = false;
-  } else {
+  } else if (old->fix_y) {
     old->fix_x = old->fix_angle = true;
+  } else {
+    scene.supports.erase(old);
   }
   return scene;
 }
 
 SceneDef with_load(SceneDef scene, Point at, Point force) {
-  std::erase_if(scene.loads, [&](const LoadDef& l) { return is(l.at, at); });
+  std::erase_if(scene.loads, [&](const LoadDef& l) { return is_same(l.at, at); });
   if (force.x == 0 && force.y == 0) return scene;
   LoadDef load;
-  load.body = beam_at(scene, at, "load");
+  load.body = need_moving(scene, at, "load");
   load.at = at;
   load.force = force;
   scene.loads.push_back(std::move(load));
   return scene;
 }
 
-SceneDef with_node_moved(SceneDef scene, Point from, Point to) {
-  bool any = false;
-  for (BodyDef& body : scene.bodies) {
-    if (!ends_at(body, from)) continue;
-    any = true;
-    const Axis old = *axis_of(body);
-    const Axis moved{is(old.from, from) ? to : old.from, is(old.to, from) ? to : old.to};
-    lay(body, moved, half_height(body));
-    // What holds or loads the beam stays where it is along it.
-    const auto carry = [&](auto& of) {
-      if (of.body != body.name || distance(old, of.at) >= node_size) return;
-      const double share = length(of.at - old.from) / length(old.to - old.from);
-      of.at = is(of.at, from)                            ? to
-              : is(of.at, old.from) || is(of.at, old.to) ? of.at
-                                                         : moved.from + share * (moved.to - moved.from);
-    };
-    std::for_each(scene.supports.begin(), scene.supports.end(), carry);
-    std::for_each(scene.loads.begin(), scene.loads.end(), carry);
-  }
-  if (!any) throw InvalidInput({{"move", "no beam ends here", "drag the end of a beam"}});
-  std::vector<Point> pins{to};
-  for (const JointBetweenDef& joint : scene.joints) {
-    if (joint.at) pins.push_back(*joint.at);
-  }
-  for (const Point at : pins) pin(scene, at);
+SceneDef with_style(SceneDef scene, const std::string& beam, const BeamStyle& style) {
+  const auto body = std::ranges::find(scene.bodies, beam, &BodyDef::name);
+  const auto axis = body == scene.bodies.end() ? std::nullopt : axis_of(*body);
+  if (!axis) throw InvalidInput({{"body '" + beam + "'", "is no beam", "choose one"}});
+  lay(*body, *axis, style);
   return scene;
 }
 
 SceneDef without_body(SceneDef scene, const std::string& name) {
   std::erase_if(scene.bodies, [&](const BodyDef& body) { return body.name == name; });
-  // What another beam is there to carry stays.
+  // What another body is there to carry stays.
   const auto gone = [&](auto& of) {
     if (of.body != name) return false;
-    const BodyDef* other = find_beam(scene, of.at);
+    const BodyDef* other = moving_at(scene, of.at);
     if (other) of.body = other->name;
     return other == nullptr;
   };
@@ -247,6 +152,14 @@ SceneDef without_body(SceneDef scene, const std::string& name) {
   std::erase_if(scene.joints, [&](JointBetweenDef& joint) {
     std::vector<std::string> left = bodies_of(joint);
     if (std::erase(left, name) == 0) return false;
+    if (joint.line) {
+      const bool first = joint.a == name;
+      std::string& end = first ? joint.a : joint.b;
+      const BodyDef* other = moving_at(scene, (*joint.line)[first ? 0 : 1]);
+      if (!other || other->name == (first ? joint.b : joint.a)) return true;
+      end = other->name;
+      return false;
+    }
     if (left.size() < 2) return true;
     set_bodies(joint, left);
     return false;
@@ -255,10 +168,25 @@ SceneDef without_body(SceneDef scene, const std::string& name) {
 }
 
 SceneDef without(SceneDef scene, Point at) {
-  if (std::erase_if(scene.loads, [&](const LoadDef& l) { return is(l.at, at); }) > 0) return scene;
-  if (std::erase_if(scene.supports, [&](const SupportDef& s) { return is(s.at, at); }) > 0) return scene;
-  const std::string name = beam_at(scene, at, "delete");
-  return without_body(std::move(scene), name);
+  const auto here = [&](const auto& of) { return is_same(of.at, at); };
+  if (std::erase_if(scene.loads, here) > 0 || std::erase_if(scene.supports, here) > 0) return scene;
+  const auto line = [&](bool ends) {
+    const auto found = std::ranges::find_if(scene.joints, [&](const JointBetweenDef& joint) {
+      if (!joint.line) return false;
+      const Axis axis{(*joint.line)[0], (*joint.line)[1]};
+      return axis.distance(at) < node_size && axis.ends_at(at) == ends;
+    });
+    if (found == scene.joints.end()) return false;
+    scene.joints.erase(found);
+    return true;
+  };
+  if (line(false)) return scene;
+  if (const BodyDef* body = body_at(scene, at)) {
+    const std::string name = body->name;
+    return without_body(std::move(scene), name);
+  }
+  if (line(true)) return scene;
+  throw InvalidInput({{"delete", "there is nothing here", "put the cursor on what is to go"}});
 }
 
 }  // namespace ductile::viewer

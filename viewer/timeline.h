@@ -62,6 +62,8 @@ class Timeline {
                     std::size_t memory = std::size_t{256} << 20);
 
   const Plan& plan() const { return simulation_->plan(); }
+  /// As it is after the last step that was made, which the cursor need not be at.
+  const Simulation& simulation() const { return *simulation_; }
   JointSolver solver() const { return simulation_->solver(); }
   const std::vector<Entry>& acts() const { return acts_; }
   /// How the steps from the cursor on are made.

@@ -122,6 +122,16 @@ class Workbench {
   double owed_ = 0;  // s of the scene that are to be shown
 };
 
+/// Does what may be refused: the reason becomes the bench's message.
+template <class F>
+void attempt(Workbench& bench, const F& f) {
+  try {
+    f();
+  } catch (const InvalidInput& error) {
+    bench.message = "This cannot be.\n" + std::string(error.what());
+  }
+}
+
 /// The overrides that govern a joint, and what they are called; null for a support, which has none.
 struct Limits {
   JointOverrides* overrides;

@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "ductile/design.h"
 #include "ductile/files.h"
+#include "exporting.h"
 #include "maker.h"
+#include "part.h"
 
 namespace ductile::viewer {
 namespace {
@@ -43,7 +47,7 @@ TEST(Making, TwoBarsCarryALoadAsStaticsSays) {
   const Point left{-3, 1}, right{3, 1}, top{0, 5};
   SceneDef scene = with_beam(empty_scene(), {left, top}, style);
   scene = with_beam(scene, {top, right}, style);
-  scene = with_next_support(with_next_support(scene, left), right);
+  scene = with_next_support(with_next_support(scene, left, 0), right, 0);
   scene = with_load(scene, top, {0, -10e3});
   const Plan plan = calibrate(scene);
   const StaticCheck check = static_check(plan);
@@ -60,27 +64,31 @@ TEST(Making, TwoBarsCarryALoadAsStaticsSays) {
 TEST(Making, SupportsGoRoundAndLoadsAreReplaced) {
   SceneDef scene = gate();
   const Point foot{-2, 0};
+  const double stiffness = 1e6;
   const auto rows = [&] {
     const SupportDef& s = scene.supports.at(0);
     return std::array{s.fix_x, s.fix_y, s.fix_angle};
   };
-  EXPECT_EQ((scene = with_next_support(scene, foot), rows()), (std::array{true, true, false}));
-  EXPECT_EQ((scene = with_next_support(scene, foot), rows()), (std::array{false, true, false}));
-  EXPECT_EQ((scene = with_next_support(scene, foot), rows()), (std::array{true, true, true}));
-  EXPECT_TRUE(with_next_support(scene, foot).supports.empty());
+  EXPECT_EQ((scene = with_next_support(scene, foot, stiffness), rows()), (std::array{true, true, false}));
+  EXPECT_EQ((scene = with_next_support(scene, foot, stiffness), rows()), (std::array{false, true, false}));
+  EXPECT_EQ((scene = with_next_support(scene, foot, stiffness), rows()), (std::array{true, true, true}));
+  EXPECT_EQ((scene = with_next_support(scene, foot, stiffness), rows()), (std::array{false, false, false}));
+  EXPECT_EQ(scene.supports[0].stiffness_x, stiffness);
+  EXPECT_EQ(scene.supports[0].stiffness_y, stiffness);
+  EXPECT_TRUE(with_next_support(scene, foot, stiffness).supports.empty());
   scene = with_load(scene, {0, 3}, {0, -1});  // within the span
   scene = with_load(scene, {0, 3}, {0, -2});
   ASSERT_EQ(scene.loads.size(), 1u);
   EXPECT_EQ(scene.loads[0].force.y, -2);
   EXPECT_EQ(scene.loads[0].body, "beam3");
   EXPECT_TRUE(with_load(scene, {0, 3}, {}).loads.empty());
-  EXPECT_THROW(with_next_support(scene, {0, 2}), InvalidInput);
+  EXPECT_THROW(with_next_support(scene, {0, 2}, 0), InvalidInput);
   EXPECT_THROW(with_load(scene, {0, 2}, {0, -1}), InvalidInput);
 }
 
 TEST(Making, AMovedNodeTakesItsBeamsSupportsAndLoadsAlong) {
   SceneDef scene = with_load(gate(), {0, 3}, {0, -1});
-  scene = with_next_support(scene, {-2, 3});
+  scene = with_next_support(scene, {-2, 3}, 0);
   scene = with_node_moved(scene, {-2, 3}, {-2, 5});
   EXPECT_NEAR(length(axis_of(scene.bodies[1])->to - Point{-2, 5}), 0, 1e-12);
   EXPECT_NEAR(length(axis_of(scene.bodies[3])->from - Point{-2, 5}), 0, 1e-12);
@@ -94,8 +102,128 @@ TEST(Making, AMovedNodeTakesItsBeamsSupportsAndLoadsAlong) {
   EXPECT_THROW(with_node_moved(scene, {7, 7}, {8, 8}), InvalidInput);
 }
 
+TEST(Making, WhatHangsOnABeamGoesAlongWithIt) {
+  // A post on the middle of the beam, a rope from there to the floor, and a post on that post's top.
+  const BeamStyle style;
+  SceneDef scene = with_beam(gate(), {{0, 3}, {0, 5}}, style);
+  scene = with_line(scene, {{0, 3}, {0, 0}}, {});
+  scene = with_beam(scene, {{0, 5}, {1, 7}}, style);
+  const std::size_t joints = scene.joints.size();
+  scene = with_node_moved(scene, {2, 3}, {2, 4});
+  EXPECT_NEAR(length(axis_of(scene.bodies[4])->from - Point{0, 3.5}), 0, 1e-12);
+  EXPECT_NEAR(length(axis_of(scene.bodies[4])->to - Point{0, 5}), 0, 1e-12);  // no further
+  EXPECT_EQ(scene.joints.size(), joints);
+  const auto rope = std::ranges::find_if(scene.joints, [](const JointBetweenDef& j) { return j.line.has_value(); });
+  ASSERT_NE(rope, scene.joints.end());
+  EXPECT_NEAR(length((*rope->line)[0] - Point{0, 3.5}), 0, 1e-12);
+  EXPECT_EQ(length((*rope->line)[1] - Point{0, 0}), 0);
+  EXPECT_NO_THROW(calibrate(scene));
+  // The rope's other end by itself, onto a post.
+  scene = with_node_moved(scene, {0, 0}, {-2, 1});
+  const auto moved = std::ranges::find_if(scene.joints, [](const JointBetweenDef& j) { return j.line.has_value(); });
+  EXPECT_EQ(moved->b, "beam1");
+  EXPECT_EQ(length((*moved->line)[1] - Point{-2, 1}), 0);
+}
+
+TEST(Making, BodiesMoveWithAllThatHangsOnThem) {
+  SceneDef scene = with_load(gate(), {0, 3}, {0, -1});
+  const std::size_t joints = scene.joints.size();
+  const SceneDef with_floor = with_bodies_moved(scene, {"floor"}, {1, -1});
+  EXPECT_EQ(length(with_floor.bodies[0].at - Point{1, -1}), 0);
+  EXPECT_EQ(length(axis_of(with_floor.bodies[1])->from - Point{-1, -1}), 0);  // the post's foot stays on it
+  EXPECT_NEAR(length(axis_of(with_floor.bodies[1])->to - Point{-2, 3}), 0, 1e-12);
+  EXPECT_EQ(with_floor.joints.size(), joints);
+  EXPECT_NO_THROW(calibrate(with_floor));
+  const SceneDef with_beam = with_bodies_moved(scene, {"beam3"}, {0, 1});
+  EXPECT_NEAR(length(axis_of(with_beam.bodies[1])->to - Point{-2, 4}), 0, 1e-12);  // posts reach up to it
+  EXPECT_EQ(length(with_beam.loads[0].at - Point{0, 4}), 0);
+  EXPECT_EQ(with_beam.joints.size(), joints);
+}
+
+// A beam of 4 m on two posts, q = its weight per length: pinned at their tops its moment is qL²/8 in the middle
+// and 0 at its ends. Welded to posts that are far stiffer, its n − 1 joints turn by nothing in all: the sum of
+// M_e − q x(L − x)/2 over x = kL/n vanishes, and M_e = qL²/12 (1 + 1/n) at its ends.
+TEST(Making, AWeldTakesMomentsAndAPinNone) {
+  BeamStyle stiff;
+  stiff.height = 1;
+  stiff.pieces = 2;
+  BeamStyle slender;
+  slender.height = 0.1;
+  slender.pieces = 24;
+  SceneDef scene = with_beam(empty_scene(), {{-2, 0}, {-2, 2}}, stiff);
+  scene = with_beam(scene, {{2, 0}, {2, 2}}, stiff);
+  scene = with_beam(scene, {{-2, 2}, {2, 2}}, slender);
+  for (const double x : {-2., 2.}) {
+    for (int clicks = 0; clicks < 3; ++clicks) scene = with_next_support(scene, {x, 0}, 0);  // clamped
+  }
+  const double q = 9.81 * slender.material.density * slender.height * slender.depth, L = 4;
+  const auto moment = [](const SceneDef& of, const std::string& joint) {
+    const Plan plan = calibrate(of);
+    const auto found = std::ranges::find(plan.joints, joint, &PlannedJoint::name);
+    return std::abs(static_check(plan).joints[static_cast<std::size_t>(found - plan.joints.begin())].M);
+  };
+  const std::string middle = "beam3/11-beam3/12", end = "beam1/1-beam3/0";
+  EXPECT_NEAR(moment(scene, middle) / (q * L * L / 8), 1, 1e-6);
+  EXPECT_EQ(moment(scene, end), 0);
+  for (const double x : {-2., 2.}) scene = with_weld_or_pin(scene, {x, 2});
+  const double n = slender.pieces, fixed_end = q * L * L / 12 * (1 + 1 / n);
+  EXPECT_NEAR(moment(scene, end) / fixed_end, 1, 1e-3);
+  EXPECT_NEAR(moment(scene, middle) / (q * L * L / 8 - fixed_end), 1, 1e-3);
+  for (const double x : {-2., 2.}) scene = with_weld_or_pin(scene, {x, 2});
+  EXPECT_EQ(moment(scene, end), 0);
+  EXPECT_THROW(with_weld_or_pin(scene, {0, 2}), InvalidInput);
+}
+
+// 100 kN on a spring of 1 MN/m, straight below it: 0.1 m.
+TEST(Making, ASpringYieldsAsItsStiffnessSays) {
+  BeamStyle style;
+  style.material.density = 1e-6;
+  SceneDef scene = with_beam(empty_scene(), {{-1, 3}, {1, 3}}, style);
+  for (const double x : {-1., 1.}) {
+    for (int clicks = 0; clicks < 4; ++clicks) scene = with_next_support(scene, {x, 3}, 0.5e6);
+  }
+  scene = with_load(scene, {0, 3}, {0, -100e3});
+  const StaticCheck check = static_check(calibrate(scene));
+  EXPECT_NEAR(check.displacement[1].y, -0.1, 2e-3);  // beside what the beam bends
+}
+
+TEST(Making, LinesJoinTwoBodies) {
+  SceneDef scene = with_line(gate(), {{0, 3}, {-2, 1}}, {.kind = LineStyle::Kind::strut});
+  EXPECT_EQ(scene.joints.back().a, "beam3");
+  EXPECT_EQ(scene.joints.back().b, "beam1");
+  EXPECT_EQ(scene.joints.back().carries, Carries::compression);
+  scene = with_line(scene, {{0, 3}, {0, 0}}, {.kind = LineStyle::Kind::jack, .force = 2e3, .stroke = -1, .speed = 0.2});
+  ASSERT_TRUE(scene.joints.back().drive);
+  EXPECT_EQ(scene.joints.back().b, "floor");
+  EXPECT_EQ(*scene.joints.back().drive->position, 2);
+  EXPECT_EQ(scene.joints.back().drive->cap, 2e3);
+  EXPECT_NO_THROW(calibrate(scene));
+  EXPECT_THROW(with_line(scene, {{0, 3}, {1, 3}}, {}), InvalidInput);      // one body
+  EXPECT_THROW(with_line(scene, {{0, 3}, {9, 9}}, {}), InvalidInput);      // nothing there
+  EXPECT_EQ(without(scene, {0, 1.5}).joints.size(), scene.joints.size() - 1);  // in its midst
+  EXPECT_EQ(parse_scene(scene_text(scene)).joints.size(), scene.joints.size());
+}
+
+TEST(Making, ProfilesByTheirNames) {
+  BeamStyle style;
+  style.profile = "ipe200";
+  SceneDef scene = with_beam(empty_scene(), {{-2, 3}, {2, 3}}, style);
+  EXPECT_EQ(scene.bodies[1].profile_name, "IPE 200");
+  const auto W_plastic = [](const SceneDef& of) { return calibrate(of).joints.at(0).M / 355e6; };
+  EXPECT_NEAR(W_plastic(scene) / 220.6e-6, 1, 1e-3);  // tables of EN 10365: W_pl,y of IPE 200
+  style.profile = "HEB 200";
+  scene = with_style(scene, "beam1", style);
+  EXPECT_NEAR(W_plastic(scene) / 642.5e-6, 1, 1e-3);
+  style.profile.clear();
+  scene = with_style(scene, "beam1", style);
+  EXPECT_NEAR(W_plastic(scene) / (0.1 * 0.2 * 0.2 / 4), 1, 1e-6);
+  style.profile = "IPE 13";
+  EXPECT_THROW(with_style(scene, "beam1", style), InvalidInput);
+  EXPECT_THROW(with_style(scene, "floor", {}), InvalidInput);
+}
+
 TEST(Making, WhatIsDeletedLeavesNothingThatNamesIt) {
-  SceneDef scene = with_next_support(with_load(gate(), {0, 3}, {0, -1}), {-2, 3});
+  SceneDef scene = with_next_support(with_load(gate(), {0, 3}, {0, -1}), {-2, 3}, 0);
   scene = without(scene, {0, 3});
   EXPECT_TRUE(scene.loads.empty());
   EXPECT_EQ(scene.bodies.size(), 4u);
@@ -182,7 +310,7 @@ TEST(Maker, SaysWhatTheStaticCheckSays) {
   EXPECT_TRUE(bench.scene().loads.empty());
   maker.point(bench, {0, 9}, 0.1);
   maker.press(bench);
-  EXPECT_NE(bench.message.find("no beam"), std::string::npos);
+  EXPECT_NE(bench.message.find("nothing here"), std::string::npos);
   maker.choose(bench, Tool::none);
   EXPECT_TRUE(bench.verdict().empty());
 }
@@ -200,6 +328,157 @@ TEST(Maker, FindsNodesByKeys) {
   EXPECT_EQ(maker.cursor().y, 0);
   maker.next_node(bench, -1);
   EXPECT_NEAR(length(maker.cursor() - Point{2, 3}), 0, node_size);
+}
+
+TEST(Part, IsPastedWithWhatHoldsLoadsAndJoinsIt) {
+  SceneDef scene = with_next_support(with_load(gate(), {0, 3}, {0, -1}), {2, 3}, 0);
+  scene = with_weld_or_pin(scene, {2, 3});
+  const SceneDef part = part_of(scene, {"beam2", "beam3"});
+  EXPECT_EQ(part.joints.size(), 1u);  // not those to the floor and to the other post
+  EXPECT_EQ(length(grip_of(part) - Point{2, 0}), 0);
+  const Joined joined = with_part(scene, shifted(part, {5, 0}));
+  EXPECT_EQ(joined.added, (std::vector<std::string>{"beam4", "beam5"}));
+  ASSERT_EQ(joined.scene.loads.size(), 2u);
+  EXPECT_EQ(joined.scene.loads[1].body, "beam5");
+  EXPECT_EQ(joined.scene.loads[1].at.x, 5);
+  ASSERT_EQ(joined.scene.supports.size(), 2u);
+  EXPECT_EQ(joined.scene.joints.size(), scene.joints.size() + 2);  // its own, and its foot on the floor
+  const auto weld = std::ranges::find_if(joined.scene.joints, [](const JointBetweenDef& j) { return j.at && j.at->x == 7 && j.at->y == 3; });
+  ASSERT_NE(weld, joined.scene.joints.end());
+  EXPECT_TRUE(weld->overrides.moment);
+  EXPECT_NO_THROW(calibrate(joined.scene));
+  EXPECT_EQ(with_part(scene, part).added.size(), 0u);  // where it is already
+  EXPECT_EQ(with_part(scene, part).scene.loads.size(), 1u);
+}
+
+// A mirror changes no force: both halves of a bridge made of one carry the same, and what is mirrored twice is
+// what it was.
+TEST(Part, AMirrorShowsTheSameStructure) {
+  BeamStyle style;
+  style.profile = "UPN 100";
+  SceneDef half = with_beam(empty_scene(), {{-4, 1}, {0, 1}}, style);
+  half = with_beam(half, {{-4, 1}, {-2, 3}}, {});
+  half = with_beam(half, {{-2, 3}, {0, 1}}, {});
+  half = with_next_support(half, {-4, 1}, 0);
+  half = with_load(half, {-2, 3}, {3e3, -20e3});
+  const std::vector<std::string> all{"beam1", "beam2", "beam3"};
+  SceneDef twice = mirrored(mirrored(part_of(half, all), 0.3), 0.3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(length(axis_of(twice.bodies[i])->from - axis_of(half.bodies[i + 1])->from), 0, 1e-12);
+    EXPECT_NEAR(length(axis_of(twice.bodies[i])->to - axis_of(half.bodies[i + 1])->to), 0, 1e-12);
+  }
+  const Joined joined = with_part(half, mirrored(part_of(half, all), 0));
+  EXPECT_EQ(joined.added.size(), 3u);
+  ASSERT_EQ(joined.scene.loads.size(), 2u);
+  EXPECT_EQ(joined.scene.loads[1].force.x, -3e3);
+  SceneDef whole = joined.scene;
+  whole = with_weld_or_pin(whole, {0, 1});
+  whole = with_beam(whole, {{-2, 3}, {2, 3}}, style);
+  const Plan plan = calibrate(whole);
+  const StaticCheck check = static_check(plan);
+  int compared = 0;
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const PlannedJoint& a = plan.joints[i];
+    if (a.anchor.x > -1e-6 || a.a < 0 || plan.pieces[static_cast<std::size_t>(a.a)].body != plan.pieces[static_cast<std::size_t>(a.b)].body)
+      continue;
+    for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+      const PlannedJoint& b = plan.joints[k];
+      if (b.a < 0 || b.node != 0 || length(b.anchor - Point{-a.anchor.x, a.anchor.y}) > 1e-9) continue;
+      EXPECT_NEAR(check.joints[i].N, check.joints[k].N, 1e-6 * 20e3) << a.name << b.name;
+      EXPECT_NEAR(std::abs(check.joints[i].M), std::abs(check.joints[k].M), 1e-6 * 20e3) << a.name << b.name;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 15);
+}
+
+TEST(Part, OtherBodiesAreMirroredWithTheirCuts) {
+  Workbench bench;
+  bench.open(DUCTILE_SOURCE_DIR "/scenes/harbour_crane.scene.json");
+  const SceneDef& scene = bench.scene();
+  std::vector<std::string> all;
+  for (const BodyDef& body : scene.bodies) all.push_back(body.name);
+  const Plan plan = calibrate(scene), mirror = calibrate(mirrored(part_of(scene, all), 5));
+  ASSERT_EQ(plan.pieces.size(), mirror.pieces.size());
+  std::multiset<double> M, M_mirror;
+  for (const PlannedJoint& joint : plan.joints) M.insert(joint.M + joint.M_reverse);
+  for (const PlannedJoint& joint : mirror.joints) M_mirror.insert(joint.M + joint.M_reverse);
+  ASSERT_EQ(M.size(), M_mirror.size());
+  for (auto a = M.begin(), b = M_mirror.begin(); a != M.end(); ++a, ++b) {
+    if (std::isfinite(*a)) {
+      EXPECT_NEAR(*b, *a, 1e-9 * *a);
+    } else {
+      EXPECT_EQ(*b, *a);
+    }
+  }
+}
+
+TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
+  Workbench bench;
+  Maker maker;
+  bench.edit(gate());
+  const auto drag = [&](Tool tool, Point from, Point to) {
+    maker.choose(bench, tool);
+    maker.point(bench, from, 0.1);
+    maker.press(bench);
+    maker.point(bench, to, 0.1);
+    maker.release(bench);
+  };
+  maker.choose(bench, Tool::paste);
+  maker.press(bench);
+  EXPECT_NE(bench.message.find("Nothing is chosen"), std::string::npos);
+  drag(Tool::choose, {-2.5, -0.5}, {2.5, 3.5});
+  EXPECT_EQ(maker.chosen(bench).size(), 3u);
+  EXPECT_TRUE(maker.copy(bench));
+  drag(Tool::paste, {4, 0}, {5, 0});
+  EXPECT_EQ(bench.scene().bodies.size(), 7u);
+  EXPECT_EQ(axis_of(bench.scene().bodies[4])->from.x, 5);
+  EXPECT_EQ(maker.chosen(bench).size(), 3u);
+  EXPECT_EQ(maker.chosen(bench)[0], "beam4");
+  bench.undo();
+  EXPECT_EQ(bench.scene().bodies.size(), 4u);
+  bench.redo();
+  drag(Tool::mirror, {5, 0}, {5, 0});  // in its own left post: two more
+  EXPECT_EQ(bench.scene().bodies.size(), 9u);
+  bench.undo();
+  // All that is chosen goes with the one that is dragged.
+  drag(Tool::move, {7, 3}, {7, 4});  // by a beam, not by a node
+  EXPECT_EQ(axis_of(bench.scene().bodies[4])->from.y, 1);
+  EXPECT_EQ(axis_of(bench.scene().bodies[6])->to.y, 4);
+  bench.undo();
+  EXPECT_TRUE(maker.remove_chosen(bench));
+  EXPECT_EQ(bench.scene().bodies.size(), 4u);
+  EXPECT_FALSE(maker.remove_chosen(bench));
+}
+
+TEST(Maker, SnapsToABeamThatTheGridMisses) {
+  Workbench bench;
+  Maker maker;
+  maker.choose(bench, Tool::beam);
+  maker.point(bench, {-1, 1}, 0.1);
+  maker.press(bench);
+  maker.point(bench, {2, 2}, 0.1);
+  maker.release(bench);
+  maker.choose(bench, Tool::load);
+  maker.point(bench, {0.25, 1.45}, 0.2);
+  EXPECT_NEAR(axis_of(bench.scene().bodies[1])->distance(maker.cursor()), 0, 1e-12);
+  maker.press(bench);
+  EXPECT_EQ(bench.scene().loads.size(), 1u) << bench.message;
+  maker.choose(bench, Tool::remove);
+  maker.point(bench, {1.1, 1.75}, 0.2);
+  maker.press(bench);
+  EXPECT_EQ(bench.scene().bodies.size(), 1u);
+}
+
+TEST(Export, EveryFormatOfEveryMadeScene) {
+  Workbench bench;
+  bench.edit(gate());
+  bench.run().go_to(5);
+  for (const ExportFormat& format : export_formats()) {
+    const std::string text = format.text(bench);
+    EXPECT_GT(text.size(), 1000u) << format.name;
+    EXPECT_NE(text.find("beam3/5"), std::string::npos) << format.name;
+  }
 }
 
 TEST(Workbench, ANewSceneTakesNoFilesPlace) {

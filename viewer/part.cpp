@@ -1,0 +1,211 @@
+#include "part.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "making.h"
+#include "pins.h"
+
+namespace ductile::viewer {
+namespace {
+
+Box box_of(const BodyDef& body) {
+  Box box;
+  if (const auto axis = axis_of(body)) {
+    box.add(axis->from);
+    box.add(axis->to);
+  } else if (body.circle > 0) {
+    box.add(body.at - Point{body.circle, body.circle});
+    box.add(body.at + Point{body.circle, body.circle});
+  } else {
+    for (const Point p : body.outline.outer) box.add(body.at + Turn(body.angle) * p);
+  }
+  return box;
+}
+
+/// Every point of a part that is not of a body's own outline, in world axes.
+template <class F>
+void each_point(SceneDef& part, const F& f) {
+  for (BodyDef& body : part.bodies) f(body.at);
+  for (SupportDef& support : part.supports) f(support.at);
+  for (LoadDef& load : part.loads) f(load.at);
+  for (WheelDef& wheel : part.wheels) f(wheel.at);
+  for (JointBetweenDef& joint : part.joints) {
+    if (joint.at) f(*joint.at);
+    for (auto* ends : {&joint.across, &joint.line}) {
+      if (*ends) std::ranges::for_each(**ends, f);
+    }
+  }
+}
+
+// A body's own axes are mirrored too: x to −x, and what was in order along x is in the order against it.
+void mirror(BodyDef& body) {
+  const auto flip = [](Point& p) { p.x = -p.x; };
+  const auto flip_ring = [&](Ring& ring) {
+    std::ranges::for_each(ring, flip);
+    std::ranges::reverse(ring);
+  };
+  flip_ring(body.outline.outer);
+  std::ranges::for_each(body.outline.holes, flip_ring);
+  const auto turn_round = [&](std::array<Point, 2>& line) {
+    std::ranges::for_each(line, flip);
+    std::swap(line[0], line[1]);
+  };
+  if (body.along[0] != body.along[1]) turn_round(body.along);
+  for (auto& cut : body.cuts) turn_round(cut);
+  std::ranges::reverse(body.cuts);
+  flip(body.velocity);
+  std::ranges::for_each(body.velocities, flip);
+  std::ranges::reverse(body.velocities);
+  body.angle = -body.angle;
+  body.angular_velocity = -body.angular_velocity;
+}
+
+/// A mirrored beam of that length has its origin at its other end, so that it is a beam again.
+void begin_at_end(BodyDef& beam, double length) {
+  const auto shift = [&](Point& p) { p.x += length; };
+  std::ranges::for_each(beam.outline.outer, shift);
+  std::ranges::rotate(beam.outline.outer, beam.outline.outer.begin() + 2);
+  if (beam.along[0] != beam.along[1]) std::ranges::for_each(beam.along, shift);
+  for (auto& cut : beam.cuts) std::ranges::for_each(cut, shift);
+  beam.at = beam.at + Turn(beam.angle) * Point{-length, 0};
+}
+
+/// Positive M turns b counter-clockwise against a: in a mirror, clockwise.
+void mirror(JointBetweenDef& joint) {
+  JointOverrides& o = joint.overrides;
+  if (o.moment_reverse) std::swap(o.moment, o.moment_reverse);
+  if (!joint.drive || joint.drive->row != rotation) return;
+  for (auto* value : {&joint.drive->position, &joint.drive->speed}) {
+    if (*value) **value = -**value;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box) {
+  std::vector<std::string> names;
+  for (const BodyDef& body : scene.bodies) {
+    const Box own = box_of(body);
+    if (box.contains(own.low) && box.contains(own.high)) names.push_back(body.name);
+  }
+  return names;
+}
+
+SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names) {
+  const auto chosen = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  SceneDef part = scene;
+  std::erase_if(part.bodies, [&](const BodyDef& body) { return !chosen(body.name); });
+  std::erase_if(part.supports, [&](const SupportDef& s) { return !chosen(s.body); });
+  std::erase_if(part.loads, [&](const LoadDef& l) { return !chosen(l.body); });
+  std::erase_if(part.wheels, [&](const WheelDef& w) { return !chosen(w.chassis) || !chosen(w.wheel); });
+  std::erase_if(part.joints, [&](JointBetweenDef& joint) {
+    std::vector<std::string> left = bodies_of(joint);
+    const auto gone = std::erase_if(left, [&](const std::string& name) { return !chosen(name); });
+    if (left.size() < 2 || (gone > 0 && !joint.at)) return true;
+    if (gone > 0) set_bodies(joint, left);
+    return false;
+  });
+  return part;
+}
+
+Point grip_of(const SceneDef& part) {
+  std::vector<Point> all = nodes(part);
+  if (all.empty()) {
+    Box box;
+    for (const BodyDef& body : part.bodies) {
+      const Box own = box_of(body);
+      box.add(own.low);
+      box.add(own.high);
+    }
+    return box.empty() ? Point{} : box.low;
+  }
+  return *std::ranges::min_element(
+      all, [](Point a, Point b) { return std::abs(a.y - b.y) < node_size ? a.x < b.x : a.y < b.y; });
+}
+
+SceneDef shifted(SceneDef part, Point by) {
+  each_point(part, [by](Point& p) { p = p + by; });
+  return part;
+}
+
+SceneDef mirrored(SceneDef part, double x) {
+  each_point(part, [x](Point& p) { p.x = 2 * x - p.x; });
+  for (BodyDef& body : part.bodies) {
+    const auto axis = axis_of(body);
+    mirror(body);
+    if (axis) begin_at_end(body, axis->length());
+  }
+  for (JointBetweenDef& joint : part.joints) mirror(joint);
+  for (SupportDef& support : part.supports) {
+    support.displacement[0] = -support.displacement[0];
+    support.displacement[2] = -support.displacement[2];
+  }
+  for (LoadDef& load : part.loads) {
+    load.force.x = -load.force.x;
+    load.moment = -load.moment;
+  }
+  for (WheelDef& wheel : part.wheels) {
+    wheel.axis.x = -wheel.axis.x;
+    wheel.motor_speed = -wheel.motor_speed;
+  }
+  return part;
+}
+
+Joined with_part(SceneDef scene, SceneDef part) {
+  Joined result;
+  std::map<std::string, std::string> names;
+  const auto rename = [&](std::string& name) { name = names.at(name); };
+  const auto same_beam = [](const BodyDef& body) {
+    return [axis = axis_of(body)](const BodyDef& other) {
+      const auto its = axis_of(other);
+      return axis && its && its->ends_at(axis->from) && its->ends_at(axis->to);
+    };
+  };
+  for (BodyDef& body : part.bodies) {
+    const auto there = std::ranges::find_if(scene.bodies, same_beam(body));
+    if (there != scene.bodies.end()) {
+      names[body.name] = there->name;
+      continue;
+    }
+    const std::string name = names[body.name] = unused_name(scene, body.name);
+    body.name = name;
+    result.added.push_back(name);
+    scene.bodies.push_back(body);
+  }
+  const auto add = [&](auto& list, auto& more) {
+    for (auto& item : more) {
+      const auto same = [&](const auto& other) { return is_same(other.at, item.at); };
+      rename(item.body);
+      if (std::ranges::none_of(list, same)) list.push_back(item);
+    }
+  };
+  add(scene.supports, part.supports);
+  add(scene.loads, part.loads);
+  for (WheelDef& wheel : part.wheels) {
+    rename(wheel.chassis);
+    rename(wheel.wheel);
+    scene.wheels.push_back(wheel);
+  }
+  for (JointBetweenDef& joint : part.joints) {
+    std::vector<std::string> held = bodies_of(joint);
+    std::ranges::for_each(held, rename);
+    set_bodies(joint, held);
+    const auto same_line = [&](const JointBetweenDef& other) {
+      const auto ends = [&](std::size_t i) { return Axis{(*other.line)[0], (*other.line)[1]}.ends_at((*joint.line)[i]); };
+      return other.line && ends(0) && ends(1);
+    };
+    if (!joint.line || std::ranges::none_of(scene.joints, same_line)) scene.joints.push_back(joint);
+  }
+  for (const std::string& name : result.added) {
+    if (const auto axis = axis_of(*body_named(scene, name))) {
+      pin(scene, axis->from);
+      pin(scene, axis->to);
+    }
+  }
+  result.scene = std::move(scene);
+  return result;
+}
+
+}  // namespace ductile::viewer

@@ -1,0 +1,35 @@
+// A part of a scene that is put elsewhere once more: copied, pasted, mirrored. Knows neither window nor
+// pointer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ductile/calibrate.h"
+#include "geometry.h"
+
+namespace ductile::viewer {
+
+/// The bodies, beams and others, that lie in a box wholly.
+std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box);
+
+/// Bodies of those names, with what holds and loads them and what joins them to each other.
+SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names);
+/// The point by which a part is taken: its lowest node, of several the leftmost; without nodes, the lower left
+/// of its bodies.
+Point grip_of(const SceneDef& part);
+/// The part moved.
+SceneDef shifted(SceneDef part, Point by);
+/// The part as a mirror upright at x shows it.
+SceneDef mirrored(SceneDef part, double x);
+
+/// A scene with a part more, pinned where its beams meet others; the names of what has been added. A beam, a
+/// support, a load or a line that would lie on one that is there, as in the midst of a mirror, is that one.
+struct Joined {
+  SceneDef scene;
+  std::vector<std::string> added;
+};
+Joined with_part(SceneDef scene, SceneDef part);
+
+}  // namespace ductile::viewer
