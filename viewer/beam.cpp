@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "ductile/rolled.h"
 
@@ -16,11 +15,13 @@ Point Axis::nearest(Point p) const {
 
 std::optional<Axis> axis_of(const BodyDef& body) {
   const Ring& ring = body.outline.outer;
-  if (body.type != BodyType::dynamic_body || body.circle > 0 || ring.size() != 4 || !body.outline.holes.empty())
+  if (body.type != BodyType::dynamic_body || body.circle > 0 || ring.size() != 4 ||
+      !body.outline.holes.empty())
     return std::nullopt;
   const double span = ring[1].x, half = ring[2].y;
   const Ring beam{{0, -half}, {span, -half}, {span, half}, {0, half}};
-  if (!(half > 0 && span > 0) || !std::equal(ring.begin(), ring.end(), beam.begin(), is_same)) return std::nullopt;
+  if (!(half > 0 && span > 0) || !std::equal(ring.begin(), ring.end(), beam.begin(), is_same))
+    return std::nullopt;
   return Axis{body.at, body.at + Turn(body.angle) * Point{span, 0}};
 }
 
@@ -90,7 +91,8 @@ bool covers(const BodyDef& body, Point at) {
     }
     return false;
   };
-  return cross(body.outline.outer) || std::ranges::any_of(body.outline.holes, cross) || inside;
+  return cross(body.outline.outer) ||
+         std::any_of(body.outline.holes.begin(), body.outline.holes.end(), cross) || inside;
 }
 
 const BodyDef* body_at(const SceneDef& scene, Point at) {
@@ -100,16 +102,19 @@ const BodyDef* body_at(const SceneDef& scene, Point at) {
     }
   }
   for (const bool moves : {true, false}) {
-    for (const BodyDef& body : scene.bodies | std::views::reverse) {  // the last is drawn on top
-      if ((body.type == BodyType::dynamic_body) == moves && covers(body, at)) return &body;
+    for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend();
+         ++body) {  // the last is drawn on top
+      if ((body->type == BodyType::dynamic_body) == moves && covers(*body, at)) return &*body;
     }
   }
   return nullptr;
 }
 
 const BodyDef* body_named(const SceneDef& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.bodies, name, &BodyDef::name);
-  return found == scene.bodies.end() ? nullptr : &*found;
+  for (const BodyDef& body : scene.bodies) {
+    if (body.name == name) return &body;
+  }
+  return nullptr;
 }
 
 }  // namespace ductile::viewer

@@ -47,7 +47,8 @@ void Desk::draw_chosen(ImDrawList& to) const {
   for (const std::string& name : maker_.chosen(bench_)) {
     const BodyDef& body = *body_named(bench_.scene(), name);
     if (body.circle > 0) {
-      to.AddCircle(px(camera_.to_screen(body.at)), static_cast<float>(body.circle * camera_.scale), ink::accent, 0, width);
+      to.AddCircle(px(camera_.to_screen(body.at)), static_cast<float>(body.circle * camera_.scale),
+                   ink::accent, 0, width);
     }
     for (const Point p : body.outline.outer)
       to.PathLineTo(px(camera_.to_screen(body.at + Turn(body.angle) * p)));
@@ -55,7 +56,8 @@ void Desk::draw_chosen(ImDrawList& to) const {
   }
   const Point cursor = camera_.to_screen(maker_.cursor());
   if (maker_.tool() == Maker::Tool::choose && maker_.start()) {
-    to.AddRect(px(camera_.to_screen(*maker_.start())), px(cursor), ink::accent, 0, 0, static_cast<float>(ui_));
+    to.AddRect(px(camera_.to_screen(*maker_.start())), px(cursor), ink::accent, 0, 0,
+               static_cast<float>(ui_));
   }
   if (maker_.tool() == Maker::Tool::mirror) {
     to.AddLine(px({cursor.x, camera_.screen.low.y}), px({cursor.x, camera_.screen.high.y}), ink::accent,
@@ -77,7 +79,8 @@ void Desk::draw_making(ImDrawList& to) const {
     const Point at = camera_.to_screen(*joint.at), half{4 * ui_, 4 * ui_};
     to.AddRectFilled(px(at - half), px(at + half), ink::edge);
   }
-  for (const SupportDef& support : scene.supports) draw_support(to, support, camera_.to_screen(support.at), ui_);
+  for (const SupportDef& support : scene.supports)
+    draw_support(to, support, camera_.to_screen(support.at), ui_);
   const Point cursor = maker_.cursor(), at = camera_.to_screen(cursor);
   const Point across{7 * ui_, 0}, up{0, 7 * ui_};
   to.AddLine(px(at - across), px(at + across), ink::accent, f(2));

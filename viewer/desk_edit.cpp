@@ -92,8 +92,8 @@ void Desk::material(SceneDef& scene, BodyDef& body) {
             &Material::fracture_strain, 0, 2, 1}};
   for (const Value& value : values) {
     double shown = material.*value.of / value.unit;
-    const bool changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low, &value.high,
-                                             value.format, ImGuiSliderFlags_Logarithmic);
+    const bool changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low,
+                                             &value.high, value.format, ImGuiSliderFlags_Logarithmic);
     tip(value.name, value.text);
     if (changed) material.*value.of = shown * value.unit;
     is_now(changed);

@@ -24,17 +24,20 @@ struct ToolButton {
 // In the order of their keys.
 constexpr std::array tools{
     ToolButton{Tool::none, "1 look", "tool look", "The pointer selects, drags and throws (1)."},
-    ToolButton{Tool::beam, "2 beam", "tool beam", "Drag from one end to the other: it is pinned to what is there (2)."},
+    ToolButton{Tool::beam, "2 beam", "tool beam",
+               "Drag from one end to the other: it is pinned to what is there (2)."},
     ToolButton{Tool::support, "3 support", "tool support",
                "On a beam: a hinge; once more a roller, clamped, springs, nothing (3)."},
     ToolButton{Tool::load, "4 load", "tool load", "On a beam: a force downwards; once more: none (4)."},
     ToolButton{Tool::move, "5 move", "tool move", "Drag a node, or a body, with all that hangs on it (5)."},
     ToolButton{Tool::remove, "6 delete", "tool delete",
                "On a load, a support, a line, or else a body: it goes (6, or Delete)."},
-    ToolButton{Tool::line, "7 line", "tool line", "Drag a rope, a strut or a jack from one body to another (7)."},
+    ToolButton{Tool::line, "7 line", "tool line",
+               "Drag a rope, a strut or a jack from one body to another (7)."},
     ToolButton{Tool::node, "8 weld", "tool node", "On a node: its beams are welded; once more: pinned (8)."},
-    ToolButton{Tool::choose, "9 choose", "tool choose",
-               "Drag a box around bodies, or click on one, to copy, mirror, move or delete them; shift: more (9)."}};
+    ToolButton{
+        Tool::choose, "9 choose", "tool choose",
+        "Drag a box around bodies, or click on one, to copy, mirror, move or delete them; shift: more (9)."}};
 
 }  // namespace
 
@@ -79,7 +82,8 @@ void Desk::with_chosen() {
   ImGui::SameLine();
   if (button("Cut", "cut", "Copies it, and takes it away (ctrl+X).")) cut();
   ImGui::SameLine();
-  if (button("Mirror", "mirror", "Then click where the mirror stands: what is chosen is there twice (ctrl+M)."))
+  if (button("Mirror", "mirror",
+             "Then click where the mirror stands: what is chosen is there twice (ctrl+M)."))
     take(Tool::mirror);
   ImGui::EndDisabled();
   ImGui::SameLine();
@@ -91,7 +95,8 @@ void Desk::with_chosen() {
 }
 
 void Desk::copy() {
-  if (!maker_.copy(bench_)) bench_.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
+  if (!maker_.copy(bench_))
+    bench_.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
 }
 
 void Desk::cut() {

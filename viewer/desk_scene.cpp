@@ -8,8 +8,8 @@
 
 #include "controls.h"
 #include "desk.h"
-#include "exporting.h"
 #include "ductile/files.h"
+#include "exporting.h"
 
 #include <imgui_stdlib.h>  // after imgui.h
 

@@ -29,11 +29,13 @@ bool holds(const std::string& name, const std::string& typed) {
 
 bool Desk::choose_material(Material& material) {
   const auto& all = materials::all();
-  const auto now = std::ranges::find(all, material, &NamedMaterial::material);
+  const auto is = [&](const NamedMaterial& known) { return known.material == material; };
+  const auto now = std::find_if(all.begin(), all.end(), is);
   bool changed = false;
-  if (!ImGui::BeginCombo("material", now == all.end() ? "its own" : std::string(now->name).c_str())) return false;
+  if (!ImGui::BeginCombo("material", now == all.end() ? "its own" : std::string(now->name).c_str()))
+    return false;
   for (const NamedMaterial& known : all) {
-    if (!ImGui::Selectable(std::string(known.name).c_str(), known.material == material)) continue;
+    if (!ImGui::Selectable(std::string(known.name).c_str(), is(known))) continue;
     material = known.material;
     changed = true;
   }
@@ -44,7 +46,8 @@ bool Desk::choose_material(Material& material) {
 // Typing shortens the list, and Enter takes its first.
 bool Desk::choose_profile(std::string& profile) {
   static const std::vector<Rolled> all = rolled_profiles();
-  if (!ImGui::BeginCombo("section", profile.empty() ? "rectangle" : profile.c_str(), ImGuiComboFlags_HeightLarge))
+  if (!ImGui::BeginCombo("section", profile.empty() ? "rectangle" : profile.c_str(),
+                         ImGuiComboFlags_HeightLarge))
     return false;
   if (ImGui::IsWindowAppearing()) {
     profile_filter_.clear();
@@ -52,7 +55,8 @@ bool Desk::choose_profile(std::string& profile) {
   }
   std::string chosen = profile;
   ImGui::SetNextItemWidth(-1);
-  bool first = ImGui::InputTextWithHint("##filter", "IPE 200, HEB …", &profile_filter_, ImGuiInputTextFlags_EnterReturnsTrue);
+  bool first = ImGui::InputTextWithHint("##filter", "IPE 200, HEB …", &profile_filter_,
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
   tip("section name", "The profile's name, or part of it: Enter takes the first of the list.");
   const auto offer = [&](const std::string& name, const std::string& label) {
     if (!holds(label, profile_filter_)) return;

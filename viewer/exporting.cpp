@@ -21,7 +21,7 @@ std::string cpp(const Workbench& bench) {
   const auto in_no_name = [](char c) {
     return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'));
   };
-  std::ranges::replace_if(function, in_no_name, '_');
+  std::replace_if(function.begin(), function.end(), in_no_name, '_');
   return cpp_text(bench.plan(), function);
 }
 
@@ -45,9 +45,11 @@ std::string replay(const Workbench& bench) {
 }
 
 constexpr std::array formats{
-    ExportFormat{"Box2D definitions", ".box2d.json", "Bodies, fixtures and joints as data, for Box2D 2.4 and 3.",
+    ExportFormat{"Box2D definitions", ".box2d.json",
+                 "Bodies, fixtures and joints as data, for Box2D 2.4 and 3.",
                  [](const Workbench& bench) { return box2d_text(bench.plan()); }},
-    ExportFormat{"C++ source", ".cpp", "A function that makes the scene in a b2World with ductile's joints.", cpp},
+    ExportFormat{"C++ source", ".cpp", "A function that makes the scene in a b2World with ductile's joints.",
+                 cpp},
     ExportFormat{"R.U.B.E. level", ".rube.json", "For players of R.U.B.E. levels.",
                  [](const Workbench& bench) { return rube_text(bench.plan()); }},
     ExportFormat{"picture", ".svg", "What is seen of the scene now, as SVG.", picture},

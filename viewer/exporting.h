@@ -9,7 +9,7 @@
 namespace ductile::viewer {
 
 struct ExportFormat {
-  const char *name, *ending, *what;           ///< "C++ source", ".cpp", a sentence
+  const char *name, *ending, *what;             ///< "C++ source", ".cpp", a sentence
   std::string (*text)(const Workbench& bench);  ///< throws InvalidInput where the format has no room for it
 };
 

@@ -113,7 +113,7 @@ void Maker::click(Workbench& bench) const {
   const SceneDef& scene = bench.scene();
   if (tool_ == Tool::support) bench.edit(with_next_support(scene, cursor_, stiffness));
   if (tool_ == Tool::load) {
-    const bool same = std::ranges::any_of(scene.loads, [this](const LoadDef& l) {
+    const bool same = std::any_of(scene.loads.begin(), scene.loads.end(), [this](const LoadDef& l) {
       return is_same(l.at, cursor_) && l.force.x == 0 && l.force.y == -force;
     });
     bench.edit(with_load(scene, cursor_, {0, same ? 0 : -force}));
@@ -149,11 +149,11 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
   }
   // A node where there is one, or else the body there, with all that is chosen where it is one of those.
   const std::vector<Point> all = nodes(before_);
-  if (std::ranges::any_of(all, [this](Point p) { return is_same(p, *start_); }))
+  if (std::any_of(all.begin(), all.end(), [this](Point p) { return is_same(p, *start_); }))
     return with_node_moved(before_, *start_, cursor_);
   const BodyDef* body = body_at(before_, begun_at_);
   if (!body) throw InvalidInput({{"move", "there is nothing here", "drag a node or a body"}});
-  const bool with_chosen = std::ranges::find(chosen_, body->name) != chosen_.end();
+  const bool with_chosen = std::find(chosen_.begin(), chosen_.end(), body->name) != chosen_.end();
   return with_bodies_moved(before_, with_chosen ? chosen_ : std::vector{body->name}, cursor_ - *start_);
 }
 

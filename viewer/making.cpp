@@ -20,7 +20,8 @@ std::string need(const BodyDef* body, const std::string& what, const std::string
 }
 
 std::string need_moving(const SceneDef& scene, Point at, const std::string& what) {
-  return need(moving_at(scene, at), what, "put it on the axis of a beam, at its end, or on a body that moves");
+  return need(moving_at(scene, at), what,
+              "put it on the axis of a beam, at its end, or on a body that moves");
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ std::vector<Point> nodes(const SceneDef& scene) {
   for (const SupportDef& support : scene.supports) all.push_back(support.at);
   for (const LoadDef& load : scene.loads) all.push_back(load.at);
   // Points of one node are close to each other in x, and then in y.
-  std::ranges::sort(all, [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(all.begin(), all.end(), [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<Point> once;
   std::size_t near = 0;  // the first of `once` that may be the same as the next
   for (const Point p : all) {
@@ -90,7 +91,8 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
                                               : Carries::both;
   if (style.kind == Kind::jack) {
     const double length = axis.length() + style.stroke;
-    if (!(length > 0)) throw InvalidInput({{"jack", "shortens to nothing", "draw it longer than its stroke"}});
+    if (!(length > 0))
+      throw InvalidInput({{"jack", "shortens to nothing", "draw it longer than its stroke"}});
     joint.drive = DriveDef{.row = axial, .position = length, .speed = style.speed, .cap = style.force};
   }
   scene.joints.push_back(std::move(joint));
@@ -98,7 +100,8 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
 }
 
 SceneDef with_next_support(SceneDef scene, Point at, double stiffness) {
-  const auto old = std::ranges::find_if(scene.supports, [&](const SupportDef& s) { return is_same(s.at, at); });
+  const auto old = std::find_if(scene.supports.begin(), scene.supports.end(),
+                                [&](const SupportDef& s) { return is_same(s.at, at); });
   if (old == scene.supports.end()) {
     SupportDef hinge;
     hinge.body = need_moving(scene, at, "support");
@@ -130,7 +133,8 @@ SceneDef with_load(SceneDef scene, Point at, Point force) {
 }
 
 SceneDef with_style(SceneDef scene, const std::string& beam, const BeamStyle& style) {
-  const auto body = std::ranges::find(scene.bodies, beam, &BodyDef::name);
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                 [&](const BodyDef& b) { return b.name == beam; });
   const auto axis = body == scene.bodies.end() ? std::nullopt : axis_of(*body);
   if (!axis) throw InvalidInput({{"body '" + beam + "'", "is no beam", "choose one"}});
   lay(*body, *axis, style);
@@ -171,11 +175,12 @@ SceneDef without(SceneDef scene, Point at) {
   const auto here = [&](const auto& of) { return is_same(of.at, at); };
   if (std::erase_if(scene.loads, here) > 0 || std::erase_if(scene.supports, here) > 0) return scene;
   const auto line = [&](bool ends) {
-    const auto found = std::ranges::find_if(scene.joints, [&](const JointBetweenDef& joint) {
-      if (!joint.line) return false;
-      const Axis axis{(*joint.line)[0], (*joint.line)[1]};
-      return axis.distance(at) < node_size && axis.ends_at(at) == ends;
-    });
+    const auto found =
+        std::find_if(scene.joints.begin(), scene.joints.end(), [&](const JointBetweenDef& joint) {
+          if (!joint.line) return false;
+          const Axis axis{(*joint.line)[0], (*joint.line)[1]};
+          return axis.distance(at) < node_size && axis.ends_at(at) == ends;
+        });
     if (found == scene.joints.end()) return false;
     scene.joints.erase(found);
     return true;

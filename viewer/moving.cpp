@@ -18,11 +18,18 @@ struct Shift {
   Point from, to;
 };
 
+template <class F>
+bool any_body(const JointBetweenDef& joint, const F& is) {
+  const std::vector<std::string> names = bodies_of(joint);
+  return std::any_of(names.begin(), names.end(), is);
+}
+
 class Moving {
  public:
-  Moving(SceneDef scene, const std::vector<std::string>& whole, Point by) : scene_(std::move(scene)), by_(by) {
+  Moving(SceneDef scene, const std::vector<std::string>& whole, Point by)
+      : scene_(std::move(scene)), by_(by) {
     for (const BodyDef& body : scene_.bodies) {
-      if (std::ranges::find(whole, body.name) == whole.end()) continue;
+      if (std::find(whole.begin(), whole.end(), body.name) == whole.end()) continue;
       if (const auto axis = axis_of(body)) {
         shift(axis->from, axis->from + by);
         shift(axis->to, axis->to + by);
@@ -34,7 +41,7 @@ class Moving {
       if (is_whole(wheel.chassis) && !is_whole(wheel.wheel)) whole_.push_back(wheel.wheel);
     }
     for (const JointBetweenDef& joint : scene_.joints) {
-      if (joint.at && std::ranges::any_of(bodies_of(joint), [&](const auto& name) { return is_whole(name); }))
+      if (joint.at && any_body(joint, [&](const auto& name) { return is_whole(name); }))
         shift(*joint.at, *joint.at + by);
     }
   }
@@ -67,10 +74,13 @@ class Moving {
   }
 
  private:
-  bool is_whole(const std::string& name) const { return std::ranges::find(whole_, name) != whole_.end(); }
+  bool is_whole(const std::string& name) const {
+    return std::find(whole_.begin(), whole_.end(), name) != whole_.end();
+  }
 
   std::optional<Point> shifted(Point p) const {
-    const auto found = std::ranges::find_if(nodes_, [p](const Shift& s) { return is_same(s.from, p); });
+    const auto found =
+        std::find_if(nodes_.begin(), nodes_.end(), [p](const Shift& s) { return is_same(s.from, p); });
     return found == nodes_.end() ? std::nullopt : std::optional(found->to);
   }
 
@@ -139,7 +149,7 @@ class Moving {
       if (!joint.at) continue;
       const auto to = shifted(*joint.at);
       const auto moves = [this](const std::string& name) { return laid_.contains(name); };
-      if (to || std::ranges::any_of(bodies_of(joint), moves)) pins.push_back(to.value_or(*joint.at));
+      if (to || any_body(joint, moves)) pins.push_back(to.value_or(*joint.at));
       if (to) joint.at = to;
     }
     for (const Shift& node : nodes_) pins.push_back(node.to);
@@ -159,8 +169,9 @@ SceneDef with_node_moved(SceneDef scene, Point from, Point to) {
   const auto ends = [&](const JointBetweenDef& joint) {
     return joint.line && Axis{(*joint.line)[0], (*joint.line)[1]}.ends_at(from);
   };
-  if (std::ranges::none_of(scene.bodies, [&](const BodyDef& body) { return ends_at(body, from); }) &&
-      std::ranges::none_of(scene.joints, ends)) {
+  if (std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                   [&](const BodyDef& body) { return ends_at(body, from); }) &&
+      std::none_of(scene.joints.begin(), scene.joints.end(), ends)) {
     throw InvalidInput({{"move", "nothing ends here", "drag the end of a beam or a line"}});
   }
   Moving moving(std::move(scene), {}, {});

@@ -34,7 +34,7 @@ void each_point(SceneDef& part, const F& f) {
   for (JointBetweenDef& joint : part.joints) {
     if (joint.at) f(*joint.at);
     for (auto* ends : {&joint.across, &joint.line}) {
-      if (*ends) std::ranges::for_each(**ends, f);
+      if (*ends) std::for_each((*ends)->begin(), (*ends)->end(), f);
     }
   }
 }
@@ -43,21 +43,21 @@ void each_point(SceneDef& part, const F& f) {
 void mirror(BodyDef& body) {
   const auto flip = [](Point& p) { p.x = -p.x; };
   const auto flip_ring = [&](Ring& ring) {
-    std::ranges::for_each(ring, flip);
-    std::ranges::reverse(ring);
+    std::for_each(ring.begin(), ring.end(), flip);
+    std::reverse(ring.begin(), ring.end());
   };
   flip_ring(body.outline.outer);
-  std::ranges::for_each(body.outline.holes, flip_ring);
+  std::for_each(body.outline.holes.begin(), body.outline.holes.end(), flip_ring);
   const auto turn_round = [&](std::array<Point, 2>& line) {
-    std::ranges::for_each(line, flip);
+    std::for_each(line.begin(), line.end(), flip);
     std::swap(line[0], line[1]);
   };
   if (body.along[0] != body.along[1]) turn_round(body.along);
   for (auto& cut : body.cuts) turn_round(cut);
-  std::ranges::reverse(body.cuts);
+  std::reverse(body.cuts.begin(), body.cuts.end());
   flip(body.velocity);
-  std::ranges::for_each(body.velocities, flip);
-  std::ranges::reverse(body.velocities);
+  std::for_each(body.velocities.begin(), body.velocities.end(), flip);
+  std::reverse(body.velocities.begin(), body.velocities.end());
   body.angle = -body.angle;
   body.angular_velocity = -body.angular_velocity;
 }
@@ -65,10 +65,10 @@ void mirror(BodyDef& body) {
 /// A mirrored beam of that length has its origin at its other end, so that it is a beam again.
 void begin_at_end(BodyDef& beam, double length) {
   const auto shift = [&](Point& p) { p.x += length; };
-  std::ranges::for_each(beam.outline.outer, shift);
-  std::ranges::rotate(beam.outline.outer, beam.outline.outer.begin() + 2);
-  if (beam.along[0] != beam.along[1]) std::ranges::for_each(beam.along, shift);
-  for (auto& cut : beam.cuts) std::ranges::for_each(cut, shift);
+  std::for_each(beam.outline.outer.begin(), beam.outline.outer.end(), shift);
+  std::rotate(beam.outline.outer.begin(), beam.outline.outer.begin() + 2, beam.outline.outer.end());
+  if (beam.along[0] != beam.along[1]) std::for_each(beam.along.begin(), beam.along.end(), shift);
+  for (auto& cut : beam.cuts) std::for_each(cut.begin(), cut.end(), shift);
   beam.at = beam.at + Turn(beam.angle) * Point{-length, 0};
 }
 
@@ -94,7 +94,9 @@ std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box) {
 }
 
 SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names) {
-  const auto chosen = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  const auto chosen = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   SceneDef part = scene;
   std::erase_if(part.bodies, [&](const BodyDef& body) { return !chosen(body.name); });
   std::erase_if(part.supports, [&](const SupportDef& s) { return !chosen(s.body); });
@@ -121,8 +123,9 @@ Point grip_of(const SceneDef& part) {
     }
     return box.empty() ? Point{} : box.low;
   }
-  return *std::ranges::min_element(
-      all, [](Point a, Point b) { return std::abs(a.y - b.y) < node_size ? a.x < b.x : a.y < b.y; });
+  return *std::min_element(all.begin(), all.end(), [](Point a, Point b) {
+    return std::abs(a.y - b.y) < node_size ? a.x < b.x : a.y < b.y;
+  });
 }
 
 SceneDef shifted(SceneDef part, Point by) {
@@ -164,7 +167,7 @@ Joined with_part(SceneDef scene, SceneDef part) {
     };
   };
   for (BodyDef& body : part.bodies) {
-    const auto there = std::ranges::find_if(scene.bodies, same_beam(body));
+    const auto there = std::find_if(scene.bodies.begin(), scene.bodies.end(), same_beam(body));
     if (there != scene.bodies.end()) {
       names[body.name] = there->name;
       continue;
@@ -178,7 +181,7 @@ Joined with_part(SceneDef scene, SceneDef part) {
     for (auto& item : more) {
       const auto same = [&](const auto& other) { return is_same(other.at, item.at); };
       rename(item.body);
-      if (std::ranges::none_of(list, same)) list.push_back(item);
+      if (std::none_of(list.begin(), list.end(), same)) list.push_back(item);
     }
   };
   add(scene.supports, part.supports);
@@ -190,13 +193,16 @@ Joined with_part(SceneDef scene, SceneDef part) {
   }
   for (JointBetweenDef& joint : part.joints) {
     std::vector<std::string> held = bodies_of(joint);
-    std::ranges::for_each(held, rename);
+    std::for_each(held.begin(), held.end(), rename);
     set_bodies(joint, held);
     const auto same_line = [&](const JointBetweenDef& other) {
-      const auto ends = [&](std::size_t i) { return Axis{(*other.line)[0], (*other.line)[1]}.ends_at((*joint.line)[i]); };
+      const auto ends = [&](std::size_t i) {
+        return Axis{(*other.line)[0], (*other.line)[1]}.ends_at((*joint.line)[i]);
+      };
       return other.line && ends(0) && ends(1);
     };
-    if (!joint.line || std::ranges::none_of(scene.joints, same_line)) scene.joints.push_back(joint);
+    if (!joint.line || std::none_of(scene.joints.begin(), scene.joints.end(), same_line))
+      scene.joints.push_back(joint);
   }
   for (const std::string& name : result.added) {
     if (const auto axis = axis_of(*body_named(scene, name))) {

@@ -16,8 +16,8 @@ std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box);
 
 /// Bodies of those names, with what holds and loads them and what joins them to each other.
 SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names);
-/// The point by which a part is taken: its lowest node, of several the leftmost; without nodes, the lower left
-/// of its bodies.
+/// The point by which a part is taken: its lowest node, of several the leftmost; without nodes, the lower
+/// left of its bodies.
 Point grip_of(const SceneDef& part);
 /// The part moved.
 SceneDef shifted(SceneDef part, Point by);

@@ -34,7 +34,7 @@ void pin(SceneDef& scene, Point at) {
   for (const bool fixed : {true, false}) {  // the first is the hub
     for (const BodyDef& body : scene.bodies) {
       if ((body.type == BodyType::static_body) != fixed) continue;
-      const bool was = !axis_of(body) && std::ranges::count(held, body.name) > 0;
+      const bool was = !axis_of(body) && std::count(held.begin(), held.end(), body.name) > 0;
       if (was || (fixed && covers(body, at)) || passes(body, at)) names.push_back(body.name);
       is_end |= was || ends_at(body, at);
     }

@@ -14,8 +14,8 @@ std::vector<std::string> bodies_of(const JointBetweenDef& joint);
 void set_bodies(JointBetweenDef& joint, const std::vector<std::string>& names);
 
 /// The node at a point as it is to be: of the static bodies and the beams there, and of what else it held
-/// before; one where there were several. Beams that cross pass each other where none ends. What it was limited
-/// to stays.
+/// before; one where there were several. Beams that cross pass each other where none ends. What it was
+/// limited to stays.
 void pin(SceneDef& scene, Point at);
 
 }  // namespace ductile::viewer

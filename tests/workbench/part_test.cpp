@@ -1,0 +1,106 @@
+// Parts of scenes: copied, pasted, mirrored.
+#include "part.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ductile/design.h"
+#include "gate.h"
+#include "workbench.h"
+
+namespace ductile::viewer {
+namespace {
+
+TEST(Part, IsPastedWithWhatHoldsLoadsAndJoinsIt) {
+  SceneDef scene = with_next_support(with_load(gate(), {0, 3}, {0, -1}), {2, 3}, 0);
+  scene = with_weld_or_pin(scene, {2, 3});
+  const SceneDef part = part_of(scene, {"beam2", "beam3"});
+  EXPECT_EQ(part.joints.size(), 1u);  // not those to the floor and to the other post
+  EXPECT_EQ(length(grip_of(part) - Point{2, 0}), 0);
+  const Joined joined = with_part(scene, shifted(part, {5, 0}));
+  EXPECT_EQ(joined.added, (std::vector<std::string>{"beam4", "beam5"}));
+  ASSERT_EQ(joined.scene.loads.size(), 2u);
+  EXPECT_EQ(joined.scene.loads[1].body, "beam5");
+  EXPECT_EQ(joined.scene.loads[1].at.x, 5);
+  ASSERT_EQ(joined.scene.supports.size(), 2u);
+  EXPECT_EQ(joined.scene.joints.size(), scene.joints.size() + 2);  // its own, and its foot on the floor
+  const auto weld =
+      std::find_if(joined.scene.joints.begin(), joined.scene.joints.end(),
+                   [](const JointBetweenDef& j) { return j.at && j.at->x == 7 && j.at->y == 3; });
+  ASSERT_NE(weld, joined.scene.joints.end());
+  EXPECT_TRUE(weld->overrides.moment);
+  EXPECT_NO_THROW(calibrate(joined.scene));
+  EXPECT_EQ(with_part(scene, part).added.size(), 0u);  // where it is already
+  EXPECT_EQ(with_part(scene, part).scene.loads.size(), 1u);
+}
+
+// A mirror changes no force: both halves of a bridge made of one carry the same, and what is mirrored twice
+// is what it was.
+TEST(Part, AMirrorShowsTheSameStructure) {
+  BeamStyle style;
+  style.profile = "UPN 100";
+  SceneDef half = with_beam(empty_scene(), {{-4, 1}, {0, 1}}, style);
+  half = with_beam(half, {{-4, 1}, {-2, 3}}, {});
+  half = with_beam(half, {{-2, 3}, {0, 1}}, {});
+  half = with_next_support(half, {-4, 1}, 0);
+  half = with_load(half, {-2, 3}, {3e3, -20e3});
+  const std::vector<std::string> all{"beam1", "beam2", "beam3"};
+  SceneDef twice = mirrored(mirrored(part_of(half, all), 0.3), 0.3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(length(axis_of(twice.bodies[i])->from - axis_of(half.bodies[i + 1])->from), 0, 1e-12);
+    EXPECT_NEAR(length(axis_of(twice.bodies[i])->to - axis_of(half.bodies[i + 1])->to), 0, 1e-12);
+  }
+  const Joined joined = with_part(half, mirrored(part_of(half, all), 0));
+  EXPECT_EQ(joined.added.size(), 3u);
+  ASSERT_EQ(joined.scene.loads.size(), 2u);
+  EXPECT_EQ(joined.scene.loads[1].force.x, -3e3);
+  SceneDef whole = joined.scene;
+  whole = with_weld_or_pin(whole, {0, 1});
+  whole = with_beam(whole, {{-2, 3}, {2, 3}}, style);
+  const Plan plan = calibrate(whole);
+  const StaticCheck check = static_check(plan);
+  int compared = 0;
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    const PlannedJoint& a = plan.joints[i];
+    if (a.anchor.x > -1e-6 || a.a < 0 ||
+        plan.pieces[static_cast<std::size_t>(a.a)].body != plan.pieces[static_cast<std::size_t>(a.b)].body)
+      continue;
+    for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+      const PlannedJoint& b = plan.joints[k];
+      if (b.a < 0 || b.node != 0 || length(b.anchor - Point{-a.anchor.x, a.anchor.y}) > 1e-9) continue;
+      EXPECT_NEAR(check.joints[i].N, check.joints[k].N, 1e-6 * 20e3) << a.name << b.name;
+      EXPECT_NEAR(std::abs(check.joints[i].M), std::abs(check.joints[k].M), 1e-6 * 20e3) << a.name << b.name;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 15);
+}
+
+TEST(Part, OtherBodiesAreMirroredWithTheirCuts) {
+  Workbench bench;
+  bench.open(DUCTILE_SOURCE_DIR "/scenes/harbour_crane.scene.json");
+  const SceneDef& scene = bench.scene();
+  std::vector<std::string> all;
+  for (const BodyDef& body : scene.bodies) all.push_back(body.name);
+  const Plan plan = calibrate(scene), mirror = calibrate(mirrored(part_of(scene, all), 5));
+  ASSERT_EQ(plan.pieces.size(), mirror.pieces.size());
+  std::multiset<double> M, M_mirror;
+  for (const PlannedJoint& joint : plan.joints) M.insert(joint.M + joint.M_reverse);
+  for (const PlannedJoint& joint : mirror.joints) M_mirror.insert(joint.M + joint.M_reverse);
+  ASSERT_EQ(M.size(), M_mirror.size());
+  for (auto a = M.begin(), b = M_mirror.begin(); a != M.end(); ++a, ++b) {
+    if (std::isfinite(*a)) {
+      EXPECT_NEAR(*b, *a, 1e-9 * *a);
+    } else {
+      EXPECT_EQ(*b, *a);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ductile::viewer
