@@ -150,7 +150,9 @@ void Desk::centre(const Box& box) {
       hand_.release(bench_, camera_, mouse);
     }
   }
+  const int edition = bench_.edition();
   if (maker_.tool() != Maker::Tool::none) make_with(mouse, over);
+  if (bench_.edition() != edition) pointed.reset();  // joints have other numbers now
   ImDrawList& to = *ImGui::GetWindowDrawList();
   const bool making = maker_.tool() != Maker::Tool::none && bench_.run().cursor() == 0;
   if (making) draw_grid(to);

@@ -24,7 +24,11 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
     pieces[bench.plan().pieces[i].name] = pixels(bench.frame().pieces[i].position);
   }
   double usage = 0;  // the largest of all joints' rows
-  for (const JointReading& joint : bench.frame().joints) usage = std::max(usage, stage(joint));
+  long broken = 0;
+  for (const JointReading& joint : bench.frame().joints) {
+    usage = std::max(usage, stage(joint));
+    broken += joint.broken;
+  }
   for (const std::size_t i : bench.selected) selected.push_back(bench.plan().joints[i].name);
   const Box& view = desk.camera().screen;
   const Json state{{"file", bench.file().string()},
@@ -44,7 +48,9 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
                    {"tool", static_cast<int>(desk.maker().tool())},
                    {"cursor", {desk.maker().cursor().x, desk.maker().cursor().y}},
                    {"verdict", bench.verdict()},
+                   {"chosen", desk.maker().chosen(bench)},
                    {"usage", usage},
+                   {"broken", broken},
                    {"centre", {desk.camera().centre.x, desk.camera().centre.y}},
                    {"scale", desk.camera().scale},
                    {"view", {view.low.x, view.low.y, view.high.x, view.high.y}},

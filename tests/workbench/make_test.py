@@ -5,7 +5,6 @@
 import json
 import math
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -13,14 +12,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import driven  # noqa: E402
+import warren  # noqa: E402
 import xwindow  # noqa: E402
+from warren import BEAMS, NODES  # noqa: E402
 
 COMMAND, SCENES = sys.argv[1], Path(sys.argv[2])
-
-# A Warren girder of 8 m in two fields: its nodes, and the beams between them.
-NODES = {"a": (-4, 2), "b": (0, 2), "c": (4, 2), "d": (-2, 4), "e": (2, 4)}
-BEAMS = ["ab", "bc", "ad", "db", "be", "ec", "de"]
-
 
 def setUpModule():
     global screen
@@ -52,30 +48,10 @@ class Bridge(driven.Window):
         return ((x0 + x1) / 2 + (x - state["centre"][0]) * state["scale"],
                 (y0 + y1) / 2 - (y - state["centre"][1]) * state["scale"])
 
-    def is_the_bridge(self, load):
-        """The file says so, to the command as well."""
+    def is_the_bridge(self, load, **section):
         self.assertFalse(self.state["changed"])
         self.assertIn("Saved", self.state["message"])
-        file = self.path / "new.scene.json"
-        scene = json.loads(file.read_text())
-        ends = []
-        for body in scene["bodies"][1:]:
-            (x, y), angle = body["at"], body.get("angle", 0)
-            span = body["outline"][1][0] - body["outline"][0][0]
-            ends.append(sorted([(round(x, 6), round(y, 6)),
-                                (round(x + span * math.cos(angle), 6), round(y + span * math.sin(angle), 6))]))
-        self.assertCountEqual(ends, [sorted(tuple(map(float, NODES[end])) for end in beam) for beam in BEAMS])
-        checked = subprocess.run([COMMAND, "check", file, "--json"], capture_output=True, text=True)
-        self.assertEqual((checked.returncode, checked.stderr), (0, ""))
-        answer = json.loads(checked.stdout)
-        self.assertEqual(answer["loose"], [])
-        self.assertIn(f"{answer['reserve']:.3g}", self.state["verdict"])
-        # Statics: half of all weight and load in each support.
-        weight = 9.81 * 7850 * 0.2 * 0.1 * sum(math.dist(*beam) for beam in ends)  # steel of 0.2 m by 0.1 m
-        support = [joint for joint in answer["joints"] if joint["name"].startswith("support/")]
-        self.assertEqual(len(support), 2)
-        for joint in support:
-            self.assertAlmostEqual(math.hypot(joint["N"], joint["Q"]) / ((weight + load) / 2), 1, delta=1e-6)
+        warren.is_in(self.path / "new.scene.json", COMMAND, self.state["verdict"], load, **section)
 
     def test_by_pointer_alone(self):
         self.control("tab make")
@@ -122,11 +98,24 @@ class Bridge(driven.Window):
         self.click(self.at(*NODES["b"]))
         self.assertEqual(self.state["usage"], 1)  # it yields
         self.control("play")
-        self.wait(lambda: self.state["events"] > 0)
+        self.wait(lambda: self.state["broken"] > 0)
         self.control("play")
         self.control("undo")
         self.control("save")
         self.is_the_bridge(load=100e3)
+        # For other programs and people, run again.
+        self.control("play")
+        self.wait(lambda: self.state["step"] > 20)
+        self.control("play")
+        for name, ending, word in (("Box2D definitions", "box2d.json", '"beam1/0"'), ("C++ source", "cpp", "build_new(b2World"),
+                                   ("R.U.B.E. level", "rube.json", '"joint"'), ("picture", "svg", "</svg>"),
+                                   ("replay", "html", "</html>")):
+            self.control("export")
+            self.control("export " + name)
+            file = self.path / f"new.{ending}"
+            self.wait(lambda: str(file) in self.state["message"])
+            self.assertIn(word, file.read_text())
+            self.control("close message")
 
     def test_by_keys_alone(self):
         def go(node):
@@ -177,6 +166,68 @@ class Bridge(driven.Window):
         self.key("r")
         self.key("s", "Control_L")
         self.is_the_bridge(load=100e3)
+
+    def test_half_of_it_mirrored(self):
+        """Of HEB 100, chosen by its name, and pinned where the halves meet."""
+        self.control("tab make")
+        self.control("new")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.control("beam section", 0.2)
+        self.wait(lambda: "section name" in self.state["controls"])
+        for letter in "heb100":
+            self.key(letter)
+        self.key("Return")
+        for beam in warren.LEFT:
+            self.drag(*(self.at(*NODES[node]) for node in beam))
+        self.control("tool support")
+        self.click(self.at(*NODES["a"]))
+        self.click(self.at(*NODES["a"]))  # a roller
+        self.control("tool choose")
+        self.drag(self.at(-4.5, 1.5), self.at(0.5, 4.5))
+        self.assertEqual(len(self.state["chosen"]), 3)
+        self.control("mirror")
+        self.click(self.at(0, 3))
+        self.assertEqual(len(self.bodies()), 6)
+        self.control("undo")
+        self.assertEqual(len(self.bodies()), 3)
+        self.control("redo")
+        self.control("tool beam")
+        self.drag(self.at(*NODES["d"]), self.at(*NODES["e"]))
+        self.control("tool support")
+        self.click(self.at(*NODES["c"]))  # what was a roller
+        self.click(self.at(*NODES["c"]))
+        self.click(self.at(*NODES["c"]))
+        self.click(self.at(*NODES["c"]))  # a hinge
+        self.assertTrue(self.state["verdict"].startswith("yields at"), self.state["verdict"])
+        self.control("save")
+        # EN 10365: flanges of 100 by 10 mm, a web of 6 mm, fillets of 12 mm.
+        self.is_the_bridge(load=0, area=2 * 0.1 * 0.01 + 0.08 * 0.006 + (4 - math.pi) * 0.012**2)
+
+    def test_copied_pasted_and_cut(self):
+        self.key("n", "Control_L")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.key("Return")
+        for _ in range(4):
+            self.key("Up")
+        self.key("Return")  # from (0, 0) to (0, 2)
+        self.key("9")
+        self.key("Return")
+        self.key("Return")
+        self.assertEqual(self.state["chosen"], ["beam1"])
+        self.key("c", "Control_L")
+        self.key("v", "Control_L")
+        self.key("Right")
+        self.key("Return")
+        self.assertEqual(self.bodies(), {"beam1", "beam2"})  # before it is let go
+        self.key("Right")
+        self.key("Return")
+        self.assertEqual(self.state["chosen"], ["beam2"])
+        self.key("x", "Control_L")
+        self.assertEqual(self.bodies(), {"beam1"})
+        self.key("z", "Control_L")
+        self.assertEqual(self.bodies(), {"beam1", "beam2"})
+        self.key("z", "Control_L")
+        self.assertEqual(self.bodies(), {"beam1"})
 
 
 if __name__ == "__main__":
