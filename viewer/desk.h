@@ -28,6 +28,8 @@ class Desk {
   /// One frame, of `size` px; `ui`: pixels per pixel of a window at scale 1.
   void draw(Point size, double ui);
 
+  /// How a file is asked for, instead of opening the one that is named.
+  void when_opening(std::function<void()> what) { when_opening_ = std::move(what); }
   /// What is done with a file after it has been saved: a page hands it over to the user.
   void when_saved(std::function<void(const std::filesystem::path&)> what) { when_saved_ = std::move(what); }
 
@@ -88,6 +90,7 @@ class Desk {
   void seek(std::optional<long> step);
 
   Workbench& bench_;
+  std::function<void()> when_opening_;
   std::function<void(const std::filesystem::path&)> when_saved_;
   std::string first_tab_;  // to be opened in the next frame
   Camera camera_;

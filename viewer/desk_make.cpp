@@ -44,7 +44,7 @@ constexpr std::array tools{
 void Desk::make() {
   if (button("New", "new", "A floor and nothing else (ctrl+N; alt+N in a browser).")) start_new();
   ImGui::SameLine();
-  if (button("Open", "open", "The file that is named on the left, above Save (ctrl+O).")) open_named();
+  if (button("Open", "open", "A file: on a desktop the one that is named on the left, above Save (ctrl+O).")) open_named();
   if (!bench_.editable()) return ImGui::TextWrapped("A level is made in the editor that it comes from.");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(105 * ui_ * static_cast<double>(i % 3)));
@@ -126,6 +126,7 @@ void Desk::start_new() {
 }
 
 void Desk::open_named() {
+  if (when_opening_) return when_opening_();
   if (bench_.try_open(save_as_)) take(Tool::none);
 }
 

@@ -161,7 +161,7 @@ void Maker::draw(Workbench& bench) {
   if (interrupted(bench) || tool_ == Tool::choose) return;
   try {
     std::vector<std::string> added;
-    bench.edit(drawn(added), drawn_);
+    bench.draw(drawn(added), drawn_);
     if (tool_ == Tool::paste) chosen_ = std::move(added);
     drawn_ = true;
     edition_ = bench.edition();
@@ -177,6 +177,7 @@ void Maker::release(Workbench& bench, bool add) {
   const bool moved = !is_same(cursor_, *start_) || tool_ == Tool::paste || tool_ == Tool::mirror;
   if (moved && !problem_.empty()) bench.message = "This cannot be.\n" + problem_;
   if (!moved || !problem_.empty()) return cancel(bench);
+  bench.settle();
   start_.reset();
   drawn_ = false;
 }

@@ -20,9 +20,10 @@ EM_JS(double, pixel_ratio, (), { return window.devicePixelRatio || 1; });
 EM_JS(int, inner_width, (), { return window.innerWidth; });
 EM_JS(int, inner_height, (), { return window.innerHeight; });
 EM_JS(void, frame_is_drawn, (), { window.firstFrame = window.firstFrame || performance.now(); });
+EM_JS(void, ask_for_files, (), { askForFiles(); });
 EM_JS(void, hand_over, (const char* name, const char* text, int size), {
   const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([HEAPU8.slice(text, text + size)], {type: 'application/json'}));
+  link.href = URL.createObjectURL(new Blob([HEAPU8.slice(text, text + size)], {type: 'application/octet-stream'}));
   link.download = UTF8ToString(name);
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
@@ -45,6 +46,7 @@ class Page {
       : bench_(scenes_in("/scenes")), window_(bench_, 0, true), desk_(bench_) {
     bench_.open("/scenes/harbour_crane.scene.json");
     if (!scene.empty()) bench_.try_open(scene);
+    desk_.when_opening([] { ask_for_files(); });
     desk_.when_saved([](const std::filesystem::path& file) {
       const std::string text = read_text(file);
       hand_over(file.filename().c_str(), text.data(), static_cast<int>(text.size()));

@@ -21,6 +21,15 @@ namespace {
 constexpr std::size_t gone = std::numeric_limits<std::size_t>::max();  // the saved version was edited away
 constexpr double most_owed = 0.1;  // s: what a slow machine does not show in time is shown later, not lost
 
+/// Nothing in it is damped.
+SceneDef undamped(SceneDef scene) {
+  const auto stop = [](JointOverrides& joint) { joint.damping_ratio = 0; };
+  stop(scene.joint);
+  for (BodyDef& body : scene.bodies) stop(body.joint);
+  for (JointBetweenDef& joint : scene.joints) stop(joint.overrides);
+  return scene;
+}
+
 /// Steps per second that one of this repository's scenes asks for; 0: those of every other scene.
 double usual_hz(const std::filesystem::path& file) {
   for (const SceneEntry& entry : scene_list) {
@@ -51,6 +60,7 @@ void Workbench::put(Opened opened, const std::filesystem::path& source) {
   // Nothing can fail from here on.
   ++edition_;
   run_ = std::move(run);
+  drawing_ = false;
   before_ = std::move(plan);
   versions_ = {std::move(opened.scene)};
   editable_ = !opened.level;
@@ -113,6 +123,7 @@ void Workbench::require_editable() const {
 
 void Workbench::save(const std::filesystem::path& file) {
   require_editable();
+  settle();
   std::string text = edited_scene(text_, scene(), file.parent_path());
   write_text(file, text);
   text_ = std::move(text);
@@ -124,6 +135,22 @@ void Workbench::save(const std::filesystem::path& file) {
 void Workbench::edit(SceneDef scene, bool continued) {
   require_editable();
   Plan plan = calibrate(scene);
+  change(std::move(scene), std::move(plan), continued);
+}
+
+void Workbench::draw(SceneDef scene, bool continued) {
+  require_editable();
+  Plan plan = calibrate(undamped(scene));
+  change(std::move(scene), std::move(plan), continued);
+  drawing_ = true;
+}
+
+void Workbench::settle() {
+  if (!drawing_) return;
+  show(calibrate(scene()), solver(), run_->acts());
+}
+
+void Workbench::change(SceneDef scene, Plan plan, bool continued) {
   // What was done to pieces that are no longer there is forgotten.
   std::vector<Timeline::Entry> acts{{0, act::Set{run_->stepping()}}};
   if (plan.pieces.size() == this->plan().pieces.size()) acts = run_->acts();
@@ -169,6 +196,7 @@ void Workbench::show(Plan plan, JointSolver solver, std::vector<Timeline::Entry>
   if (focus) focus = again(*focus);
   ++edition_;
   run_ = std::move(run);
+  drawing_ = false;
   owed_ = 0;
   if (stock_) start_stock();
   check();
@@ -202,6 +230,7 @@ void Workbench::check() {
 }
 
 void Workbench::set_solver(JointSolver solver) {
+  settle();
   const long step = run_->cursor();
   show(plan(), solver, run_->acts());
   run_->seek(step);
@@ -220,6 +249,7 @@ void Workbench::act(const Act& what) {
 }
 
 void Workbench::restart() {
+  settle();
   const Stepping stepping = run_->stepping();
   show(plan(), solver(), {{0, act::Set{stepping}}});
 }
@@ -235,12 +265,14 @@ bool Workbench::seek_first(JointEvent::Kind kind) {
 }
 
 void Workbench::step_by(long steps) {
+  settle();
   playing = false;
   run_->seek(run_->cursor() + steps);
 }
 
 void Workbench::tick(double seconds, double budget) {
   using Clock = std::chrono::steady_clock;
+  if (playing) settle();
   const auto start = Clock::now();
   const auto left = [&] { return budget - std::chrono::duration<double>(Clock::now() - start).count(); };
   if (run_->work(budget) && playing) {

@@ -42,6 +42,10 @@ class Workbench {
   /// InvalidInput, with everything as it was. `continued`: it replaces the last edit, as a slider does while
   /// it is dragged.
   void edit(SceneDef scene, bool continued = false);
+  /// The same while something is being drawn, as fast as its check allows: dampers, whose constants take the
+  /// structure's lowest frequency, are left out until settle(), or until it is played or saved.
+  void draw(SceneDef scene, bool continued);
+  void settle();
   void undo();
   void redo();
   bool can_undo() const { return version_ > 0; }
@@ -102,6 +106,7 @@ class Workbench {
   /// On the bench, from `source`.
   void put(Opened opened, const std::filesystem::path& source);
   void show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts);
+  void change(SceneDef scene, Plan plan, bool continued);
   void start_stock();
   void check();
   void require_editable() const;
@@ -119,7 +124,8 @@ class Workbench {
   bool checks_ = false;
   std::optional<Frame> at_rest_;  // with the forces of the static check; none where nothing decides them
   std::string verdict_;
-  double owed_ = 0;  // s of the scene that are to be shown
+  bool drawing_ = false;  // the plan has no dampers
+  double owed_ = 0;       // s of the scene that are to be shown
 };
 
 /// Does what may be refused: the reason becomes the bench's message.

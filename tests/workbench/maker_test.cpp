@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ductile/design.h"
+#include "ductile/files.h"
 #include "exporting.h"
 #include "gate.h"
 
@@ -33,6 +34,27 @@ TEST(Maker, DrawsOnTheGridAndFromNodeToNodeInOneEdit) {
   EXPECT_FALSE(bench.can_undo());
   bench.redo();
   EXPECT_EQ(bench.scene().bodies.size(), 2u);
+}
+
+// While something is drawn its joints have no dampers, which the static check does not need; what is let go has.
+TEST(Maker, WhatIsLetGoIsDamped) {
+  Workbench bench;
+  Maker maker;
+  maker.choose(bench, Tool::beam);
+  maker.point(bench, {-2, 0}, 0.1);
+  maker.press(bench);
+  maker.point(bench, {-2, 3}, 0.1);
+  EXPECT_EQ(bench.plan().joints.at(0).damping_ratio, 0);
+  bench.step_by(1);  // played while it is drawn
+  EXPECT_GT(bench.plan().joints.at(0).damping_ratio, 0);
+  bench.restart();
+  bench.undo();
+  maker.press(bench);
+  maker.point(bench, {-1, 3}, 0.1);
+  maker.release(bench);
+  EXPECT_GT(bench.plan().joints.at(0).damping_ratio, 0);
+  EXPECT_GT(bench.plan().joints.at(0).damping_frequency, 0);
+  EXPECT_GT(parse_scene(scene_text(bench.scene())).bodies.at(1).material->damping_ratio, 0);
 }
 
 TEST(Maker, GivesUpWithoutATrace) {
