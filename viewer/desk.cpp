@@ -164,7 +164,9 @@ void Desk::centre(const Box& box) {
                   solvers[static_cast<std::size_t>(bench_.solver())], placing_ ? "   click: a mass" : "");
   to.AddText(px(box.low + ui_ * Point{12, 10}), ink::edge, title.c_str());
   if (making) draw_making(to);
-  if (pointed && hand_.doing() == Hand::Doing::nothing) {
+  // Beside a tool it would cover what is being made.
+  const bool asks = maker_.tool() == Maker::Tool::none || (!maker_.start() && rests_ > 0.8);
+  if (pointed && asks && hand_.doing() == Hand::Doing::nothing) {
     const JointReading& joint = bench_.frame().joints[*pointed];
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(bench_.plan().joints[*pointed].name.c_str());

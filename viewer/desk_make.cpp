@@ -44,7 +44,8 @@ constexpr std::array tools{
 void Desk::make() {
   if (button("New", "new", "A floor and nothing else (ctrl+N; alt+N in a browser).")) start_new();
   ImGui::SameLine();
-  if (button("Open", "open", "A file: on a desktop the one that is named on the left, above Save (ctrl+O).")) open_named();
+  if (button("Open", "open", "A file: on a desktop the one that is named on the left, above Save (ctrl+O)."))
+    open_named();
   if (!bench_.editable()) return ImGui::TextWrapped("A level is made in the editor that it comes from.");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(105 * ui_ * static_cast<double>(i % 3)));
@@ -52,6 +53,11 @@ void Desk::make() {
     tip(tools[i].control, tools[i].text);
   }
   with_chosen();
+  const auto now = std::find_if(tools.begin(), tools.end(),
+                                [this](const ToolButton& t) { return t.tool == maker_.tool(); });
+  ImGui::TextWrapped("%s", now != tools.end()              ? now->text
+                           : maker_.tool() == Tool::mirror ? "Click where the mirror stands."
+                                                           : "Click where its lowest node goes.");
   ImGui::Separator();
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52f);
   if (maker_.tool() == Tool::support) {
