@@ -1,5 +1,5 @@
-// What a designer waits for between moving the pointer and seeing what the static check says: a node of a frame
-// of 2000 joints is dragged in the window's workbench.
+// What a designer waits for between moving the pointer and seeing what the static check says: a node of a
+// frame of 2000 joints is dragged in the window's workbench.
 #include "maker.h"
 
 #include <benchmark/benchmark.h>

@@ -36,7 +36,8 @@ TEST(Maker, DrawsOnTheGridAndFromNodeToNodeInOneEdit) {
   EXPECT_EQ(bench.scene().bodies.size(), 2u);
 }
 
-// While something is drawn its joints have no dampers, which the static check does not need; what is let go has.
+// While something is drawn its joints have no dampers, which the static check does not need; what is let go
+// has.
 TEST(Maker, WhatIsLetGoIsDamped) {
   Workbench bench;
   Maker maker;
