@@ -105,11 +105,12 @@ class Page:
         self.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
 
     def chord(self, *keys):
-        """Keys that are held together for a frame, each (key, code, number of its key code)."""
+        """Keys that are held together for one frame and no longer, so that a slow one does not repeat them; each (key, code,
+        number of its key code)."""
         for kind, order in (("rawKeyDown", keys), ("keyUp", keys[::-1])):
             for key, code, number in order:
                 self._call("Input.dispatchKeyEvent", type=kind, key=key, code=code, windowsVirtualKeyCode=number)
-                self.frame()
+            self.evaluate("new Promise((done) => requestAnimationFrame(() => done(true)))")
 
     def touch(self, kind, *points):
         """kind: touchStart, touchMove or touchEnd; points: those that touch now."""

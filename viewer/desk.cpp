@@ -54,10 +54,11 @@ void Desk::draw(Point size, double ui) {
 void Desk::adopt() {
   edition_ = bench_.edition();
   diagram_.reset();
-  if (scene_ == bench_.file().string()) return;  // edited
+  const bool edited = scene_ == bench_.file().string();
+  hand_.suit(bench_.plan(), edited);
+  if (edited) return;
   scene_ = save_as_ = bench_.file().string();
   camera_.show(extent(bench_.plan()));
-  hand_.suit(bench_.plan());
   if (maker_.tool() != Maker::Tool::none) take(maker_.tool());
 }
 

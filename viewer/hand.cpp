@@ -30,16 +30,24 @@ std::optional<act::Grab> grab_at(const Workbench& bench, Point at) {
 
 }  // namespace
 
-void Hand::suit(const Plan& plan) {
+Hand::Throwing Hand::suited(const Plan& plan) {
   double moving = 0;
   for (const Piece& piece : plan.pieces) moving += piece.mass;
   const Point box = extent(plan).size();
   const double length = std::max(box.x, box.y);
-  mass = round_number(0.1 * moving);
-  size = round_number(0.05 * length);
   // Twice what a fall over the whole scene ends with, on earth where there is no gravity.
   const double g = viewer::length(plan.gravity);
-  speed = round_number(2 * std::sqrt(2 * (g > 0 ? g : 9.81) * length));
+  return {.mass = round_number(0.1 * moving),
+          .size = round_number(0.05 * length),
+          .speed = round_number(2 * std::sqrt(2 * (g > 0 ? g : 9.81) * length))};
+}
+
+void Hand::suit(const Plan& plan, bool edited) {
+  const Throwing now = suited(plan);
+  if (!edited || mass == suited_.mass) mass = now.mass;
+  if (!edited || size == suited_.size) size = now.size;
+  if (!edited || speed == suited_.speed) speed = now.speed;
+  suited_ = now;
 }
 
 void Hand::press(const Camera& camera, Point px, Keys keys) {

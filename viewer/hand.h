@@ -14,8 +14,9 @@ class Hand {
   /// Greatest force on what is dragged, over its mass, m/s².
   double strength = 1000;
 
-  /// Mass, size and speed that matter to a scene, in round numbers.
-  void suit(const Plan& plan);
+  /// Mass, size and speed that matter to a scene, in round numbers; what the user has changed since the last
+  /// time stays where the scene is the same, edited.
+  void suit(const Plan& plan, bool edited = false);
 
   struct Keys {
     bool shift = false, ctrl = false;
@@ -40,6 +41,12 @@ class Hand {
   double ui_scale = 1;
 
  private:
+  struct Throwing {
+    double mass, size, speed;
+  };
+  static Throwing suited(const Plan& plan);
+
+  Throwing suited_{};
   Doing doing_ = Doing::nothing;
   Keys keys_;
   Point from_, now_;

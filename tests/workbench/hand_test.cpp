@@ -107,6 +107,10 @@ TEST_F(HandTest, ABombHitsWhatItIsThrownAt) {
 
 TEST_F(HandTest, ThrowsSuitTheScene) {
   hand.suit(bench.plan());  // 80 t, 10 m long
+  hand.speed = 7;
+  hand.suit(calibrate(cantilever(1, 1)), true);
+  EXPECT_EQ(hand.speed, 7);  // as the user has it
+  hand.suit(bench.plan());
   EXPECT_EQ(hand.mass, 8000);
   EXPECT_EQ(hand.size, 0.5);
   EXPECT_EQ(hand.speed, 30);  // 2 √(2·10·10) = 28

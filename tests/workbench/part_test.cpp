@@ -60,7 +60,6 @@ TEST(Part, AMirrorShowsTheSameStructure) {
   ASSERT_EQ(joined.scene.loads.size(), 2u);
   EXPECT_EQ(joined.scene.loads[1].force.x, -3e3);
   SceneDef whole = joined.scene;
-  whole = with_weld_or_pin(whole, {0, 1});
   whole = with_beam(whole, {{-2, 3}, {2, 3}}, style);
   const Plan plan = calibrate(whole);
   const StaticCheck check = static_check(plan);
