@@ -120,6 +120,15 @@ void add_node(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, co
                            form(row.sign > 0, column.sign > 0) * row.scale[2] * column.scale[2]);
 }
 
+// Rigid rows are very stiff ones to these factors: a mode of theirs alone is none.
+bool gives(const Equilibrium& statics, const VectorXd& mode) {
+  const VectorXd energy = statics.resist(mode).cwiseProduct(statics.B * mode);
+  double elastic = 0;
+  for (Index row = 0; row < energy.size(); ++row)
+    if (statics.gives(row)) elastic += energy[row];
+  return elastic > energy.sum() / 2;
+}
+
 }  // namespace
 
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
@@ -217,7 +226,7 @@ Buckle buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K
   const VectorXd share = ritz.eigenvectors().col(ritz.eigenvectors().cols() - 1);  // in ascending order
   result.mode = VectorXd::Zero(start.size());
   for (Index i = 0; i < share.size(); ++i) result.mode += share[i] * basis[static_cast<std::size_t>(i)];
-  return result;
+  return gives(statics, result.mode) ? result : Buckle{};
 }
 
 VectorXd any_motion(const Equilibrium& statics) {

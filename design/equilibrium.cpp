@@ -69,6 +69,12 @@ Equilibrium::Equilibrium(const Plan& plan, Between between) : plan_(plan) {
   stiffen(roots());
 }
 
+bool Equilibrium::gives(Index row) const {
+  const auto joint = static_cast<std::size_t>(row / 3);
+  const bool bends = !arms_.empty() && arms_[joint][0].length + arms_[joint][1].length > 0;
+  return k_[row] > 0 && (bends || stiffness_of(plan_.joints[joint], static_cast<Row>(row % 3)) < unlimited);
+}
+
 std::vector<Root> Equilibrium::roots() const {
   std::vector<Root> roots;
   for (std::size_t i = 0; i < plan_.joints.size(); ++i) {

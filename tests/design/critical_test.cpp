@@ -207,6 +207,14 @@ TEST(CriticalLoad, NoneInTension) {
 }
 
 // The loads that act at one time belong together, and the worst time counts.
+TEST(CriticalLoad, NoneOfWhatIsRigid) {
+  SceneDef scene = on_two_pins();
+  scene.joint.elastic = Elasticity::rigid;
+  EXPECT_EQ(critical_load(calibrate(scene)).factor, unlimited);
+  scene.joint.moment = unlimited;
+  EXPECT_EQ(second_order_limit(calibrate(scene)).load_factor, unlimited);
+}
+
 TEST(CriticalLoad, LoadsThatEnd) {
   SceneDef scene = on_two_pins();
   scene.loads[0].to = 1;
