@@ -73,7 +73,8 @@ class Equilibrium {
   const std::vector<std::array<Arm, 2>>& arms() const { return arms_; }
   /// Stiffness of every row (0: free), rigid ones replaced.
   const Eigen::VectorXd& stiffness() const { return k_; }
-  /// Whether a row's stiffness is the plan's or that of bars: false where it stands for a rigid or a free one.
+  /// Whether a row's stiffness is the plan's or that of bars: false where it stands for a rigid or a free
+  /// one.
   bool gives(Eigen::Index row) const;
   /// stiffness() joint by joint, with the bars where they give.
   std::vector<Root> roots() const;
