@@ -5,7 +5,7 @@
 // would hold a deck with a fraction of the moment that it takes. So its rows are solved with the structure.
 // What Box2D is left with has impulses and infinite masses: its own iterations then change neither, and
 // GetReactionForce, GetMotorTorque and the next warm start find the impulse that the structure's problem has.
-// Positions are its own to correct where they are far off, by more than Box2D's slop.
+// Positions are its own to correct where they are far off.
 //
 // Revolute, prismatic, distance, wheel, weld, mouse and pulley joints are rows. Gear, friction and motor
 // joints are not, nor any joint of a world without warm starting: they see the piece.
@@ -37,7 +37,7 @@ struct StockRows {
   std::size_t count = 0;  // of links; 0: Box2D solves the joint
   std::array<Channel, 6> channels;
   std::size_t channel_count = 0;
-  bool near = true;  // no gap that its rows close is wider than Box2D's slop
+  bool near = true;  // its rows close its gaps; otherwise Box2D's iterations of positions do
 };
 
 /// A stock joint of the island at hand.

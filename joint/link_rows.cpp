@@ -62,10 +62,7 @@ bool enter_links(System& system, std::span<const Link> links, double h) {
       // What can hold nothing is no row: it would leave an interior point no room.
       if (!(r.m_eff[i] > 0) || (link.cap[i] <= 0 && link.cap_reverse[i] <= 0)) G = 0;
       same &= (j.G[i] > 0) == (G > 0);
-      // From what a motor gave in the last step, not from 0: with no compliance left in G, an even load does
-      // not make it creep by s/G.
-      const bool motor = std::isinf(link.G[i]) && std::isfinite(link.cap[i] + link.cap_reverse[i]);
-      if (motor && G > 0) j.bias[i] += link.impulse[i] / G;
+      if ((link.goes_on >> i & 1u) != 0 && G > 0) j.bias[i] += link.impulse[i] / G;
       r.law.G[i] = j.G[i] = G;
       r.law.cap[i] = link.cap[i];
       r.law.cap_reverse[i] = link.cap_reverse[i];

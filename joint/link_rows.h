@@ -5,7 +5,8 @@
 //   s = clamp(G (J v + b), −c⁻, c)
 // A pin is two rows without caps, b what closes its gap in this step; a motor a row with b the speed and c
 // the torque that it has in a step; a limit or a slack rope a row with one cap 0, b the way that is left to
-// it in a step; a spring a row with a G of its own.
+// it in a step; a spring a row with a G of its own. A motor goes on from the impulse s₋ of the step before,
+// b = s₋/G − speed: under an even load it does not creep by s/G.
 //
 // Rows of links follow the structure's joints in System::joints. They have no law in time and no material:
 // what integrates, books or projects joints leaves them out (System::own).

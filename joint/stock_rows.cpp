@@ -36,12 +36,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A gap is closed by this share of Box2D's slop a step at most: what was drawn apart shall not be a blow.
-constexpr double slop_share = 0.2;
-
+/// Gaps up to this, m and rad, are closed by the rows; wider ones by Box2D's iterations of positions. In long
+/// steps a rope that is wound up lags behind by more.
+double closable(unsigned row, double h) {
+  return row == rotation ? b2_angularSlop : 4 * b2_linearSlop * std::max(1.0, 60 * h);
+}
+/// So much of a gap is closed in a step, or this share of it where that is more: what was drawn apart shall
+/// not be a blow, and a rope that is wound up at 0.5 m/s shall follow.
+constexpr double at_once[] = {0.2 * b2_linearSlop, 0.2 * b2_linearSlop, 0.2 * b2_angularSlop};
+constexpr double share[] = {0.5, 0.5, 0.2};
 constexpr double slop[] = {b2_linearSlop, b2_linearSlop, b2_angularSlop};
 /// Limits farther away than this, m and rad, are no rows: Box2D moves no body by more in a step.
-constexpr double far[] = {2 * b2_maxTranslation, 2 * b2_maxTranslation, 2 * b2_maxRotation};
+constexpr double out_of_reach[] = {2 * b2_maxTranslation, 2 * b2_maxTranslation, 2 * b2_maxRotation};
 
 struct Arm {
   double x, y;  // from the centre of mass, own frame
@@ -80,12 +86,14 @@ class Draft {
 
   /// Keeps a gap C at 0.
   void hold(unsigned row, double C) {
-    rows.near = rows.near && std::abs(C) <= slop[row];
-    const double most = slop_share * slop[row];
-    set(row, infinity, std::clamp(C, -most, most) / h_, infinity, infinity);
+    rows.near = rows.near && std::abs(C) <= closable(row, h_);
+    set(row, infinity, closing(row, C) / h_, infinity, infinity);
   }
   /// With no more than so much force or moment.
-  void drive(unsigned row, double speed, double most) { set(row, infinity, -speed, h_ * most, h_ * most); }
+  void drive(unsigned row, double speed, double most) {
+    set(row, infinity, -speed, h_ * most, h_ * most);
+    rows.links[0].goes_on |= 1u << row;
+  }
   /// Box2D's soft constraint: spring and damper at the end of the step.
   void spring(unsigned row, double C, double stiffness, double damping, double most = infinity) {
     const double G = h_ * (damping + h_ * stiffness);
@@ -94,15 +102,17 @@ class Draft {
   /// Keeps a gap within limits, each by a link of its own, or by one where they are equal.
   void limit(unsigned row, double lower, double upper, float& lower_impulse, float& upper_impulse) {
     const Jacobian J = rows.links[0].J;
+    // A motor that presses against a limit would be answered by it, more and more.
+    if (lower_impulse > 0 || upper_impulse > 0) rows.links[0].goes_on &= ~(1u << row);
     const double over = gap[row] - lower, under = upper - gap[row];
     open(J);
     tell(lower_impulse, row, -1, true);
     if (upper - lower < 2 * slop[row]) {
       hold(row, (over - under) / 2);
     } else {
-      if (over < far[row]) set(row, infinity, way(row, over), 0, infinity);
+      if (over < out_of_reach[row]) set(row, infinity, way(row, over), 0, infinity);
       open(J);
-      if (under < far[row]) set(row, infinity, -way(row, under), infinity, 0);
+      if (under < out_of_reach[row]) set(row, infinity, -way(row, under), infinity, 0);
     }
     tell(upper_impulse, row, 1, true);
   }
@@ -117,11 +127,14 @@ class Draft {
   Rows gap{};
 
  private:
-  // The rate at which the way C that is left to a limit may close. What is beyond it comes back slowly: the
-  // bodies keep that velocity.
+  double closing(unsigned row, double C) {
+    const double most = std::max(at_once[row], share[row] * std::abs(C));
+    return std::clamp(C, -most, most);
+  }
+  // The rate at which the way C that is left to a limit may close, or has to open again.
   double way(unsigned row, double C) {
-    rows.near = rows.near && C >= -slop[row];
-    return (C > 0 ? C : slop_share * std::max(C, -slop[row])) / h_;
+    rows.near = rows.near && C >= -closable(row, h_);
+    return (C > 0 ? C : closing(row, C)) / h_;
   }
   void set(unsigned row, double G, double bias, double cap, double cap_reverse) {
     Link& link = rows.links[rows.count - 1];
@@ -264,13 +277,14 @@ void draft(b2PulleyJoint& j, const Places& at, Draft& d) {
 StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h) {
   Draft d(joint, h);
   as_it_is(joint, [&](auto& j) { draft(j, {a, b, origin}, d); });
-  if (!d.rows.near) {
-    // What is far apart is not closed by velocities.
-    for (std::size_t k = 0; k < d.rows.count; ++k) {
-      Link& link = d.rows.links[k];
-      for (unsigned i = 0; i < 3; ++i)
-        if (link.cap[i] == infinity && link.cap_reverse[i] == infinity && link.G[i] == infinity)
-          link.bias[i] = 0;
+  // What is far apart is not closed by velocities.
+  for (std::size_t k = 0; k < d.rows.count && !d.rows.near; ++k) {
+    Link& link = d.rows.links[k];
+    for (unsigned i = 0; i < 3; ++i) {
+      if (link.G[i] != infinity) continue;
+      const bool pulls = link.cap[i] == infinity, pushes = link.cap_reverse[i] == infinity;
+      if (pulls && pushes) link.bias[i] = 0;
+      if (pulls != pushes) link.bias[i] = pulls ? std::min(link.bias[i], 0.0) : std::max(link.bias[i], 0.0);
     }
   }
   return d.rows;

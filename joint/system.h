@@ -134,9 +134,10 @@ struct Link {
   Rows bias{};
   Rows cap{}, cap_reverse{};  // N s or N m s, ≥ 0
   Rows impulse{};             // where to start, and of the last solve
+  unsigned goes_on = 0;       // rows, one bit each, whose compliance 1/G counts from that start, not from 0
   std::uint64_t id = 0;       // of the same kind of rows in the next step; below 2³²
 
-  void keep(Tape& tape) { tape(a, b, J, G, bias, cap, cap_reverse, impulse, id); }
+  void keep(Tape& tape) { tape(a, b, J, G, bias, cap, cap_reverse, impulse, goes_on, id); }
 };
 
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others

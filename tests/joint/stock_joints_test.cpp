@@ -399,6 +399,47 @@ TEST(StockJoints, MayBeMadeBeforeTheStructure) {
   }
 }
 
+// A winch, made of a rope whose length is set in each step: the load follows, and is not jerked.
+TEST(StockRopes, AreWoundUp) {
+  for (const double hz : {30.0, 60.0, 120.0}) {
+    Deck deck;
+    ElasticPlasticJoint* root = deck.fix(false);
+    b2Body* load = add_box(deck.world, {.x = 11.5, .y = -6, .mass = 3000});
+    auto* rope = static_cast<b2DistanceJoint*>(
+        deck.hold(cord(Cord::rope, deck.pieces.back(), load, vec(11.5, 0), vec(11.5, -5.5))));
+    deck.run(2, hz);
+    const double hung = 3000 * gravity;
+    for (int i = 0; i < 4 * hz; ++i) {
+      rope->SetMaxLength(rope->GetMaxLength() - static_cast<float>(0.5 / hz));
+      deck.run(1 / hz, hz);
+      // Half of the speed comes in one step.
+      EXPECT_LT(rope->GetReactionForce(static_cast<float>(hz)).Length(),
+                1.01 * hung * (1 + 0.25 * hz / gravity));
+    }
+    EXPECT_NEAR(load->GetLinearVelocity().y, 0.5, 0.005);
+    EXPECT_NEAR(std::abs(root->force(rotation)), deck.moment() + hung * 11.5, 1e-3 * Deck::statics);
+    deck.run(3, hz);
+    EXPECT_NEAR(rope->GetCurrentLength(), 3.5, 1e-4);
+    EXPECT_NEAR(std::abs(root->force(rotation)), deck.moment() + hung * 11.5, 1e-4 * Deck::statics);
+  }
+}
+
+// A brake on a limit that carries the load: neither grows against the other.
+TEST(StockSliders, RestOnTheirLimit) {
+  Deck deck;
+  b2PrismaticJointDef def;
+  def.Initialize(deck.ground, deck.pieces.front(), {0, 0}, {0, 1});
+  def.enableMotor = def.enableLimit = true;
+  def.maxMotorForce = static_cast<float>(5 * Deck::weight);
+  def.lowerTranslation = 0;
+  def.upperTranslation = 1;
+  auto* slider = static_cast<b2PrismaticJoint*>(deck.hold(def));
+  deck.run(20);
+  EXPECT_NEAR(slider->GetReactionForce(60).y, Deck::weight, 1e-5 * Deck::weight);
+  EXPECT_GE(slider->GetMotorForce(60), -1e-3 * Deck::weight);
+  EXPECT_LE(slider->GetMotorForce(60), 1.001 * Deck::weight);
+}
+
 // As Box2D has it: gear joints, and all where nothing starts warm.
 TEST(StockJoints, WithoutWarmStartsAreBox2Ds) {
   Deck deck;
