@@ -42,7 +42,7 @@ void add_view(CLI::App& app, std::string& output) {
   command->add_option("--select", options->view.select, "name of a joint to look into; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--tab", options->view.tab, "what is open at first on the right")
-      ->check(CLI::IsMember({"joint", "joints", "edit", "events", "ledger"}));
+      ->check(CLI::IsMember({"joint", "joints", "edit", "events", "ledger", "make"}));
   command->add_flag("--forces", options->view.forces, "draw forces and moments at first");
   command->add_option("--zoom", options->view.scale, "size of everything (default: as the display asks for)")
       ->check(CLI::Range(0.5, 8.));

@@ -101,11 +101,17 @@ void Desk::seek(std::optional<long> step) {
   bench_.run().seek(*step);
 }
 
+void Desk::tell(std::string news) {
+  constexpr double shown = 6;  // s
+  news_ends_ = ImGui::GetTime() + shown;
+  bench_.message = news_ = std::move(news);
+}
+
 void Desk::save() {
   try {
     bench_.save(save_as_);
     scene_ = save_as_;
-    bench_.message = "Saved to " + save_as_;
+    tell("Saved to " + save_as_);
     if (when_saved_) when_saved_(save_as_);
   } catch (const std::exception& error) {
     bench_.message = "Not saved.\n" + std::string(error.what());
@@ -183,8 +189,9 @@ void Desk::centre(const Box& box) {
   ImGui::End();
 }
 
-// What went wrong, or what has been done: stays until it is closed.
+// What went wrong stays until it is closed; what has been done, for a while.
 void Desk::message() {
+  if (bench_.message == news_ && ImGui::GetTime() > news_ends_) return bench_.message.clear();
   const double width = std::min(520 * ui_, camera_.screen.size().x - 40 * ui_);
   ImGui::SetNextWindowPos(px({camera_.screen.middle().x, 36 * ui_}), ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSize({static_cast<float>(width), 0});

@@ -58,6 +58,8 @@ class Desk {
   void events();
   void ledger();
   void message();
+  /// Good news, which goes away by itself.
+  void tell(std::string news);
   void help();
   void make();
   void with_chosen();
@@ -106,7 +108,9 @@ class Desk {
   std::map<std::string, Box> controls_;
   std::optional<Diagram> diagram_;  // of the joint in focus
   std::size_t diagram_of_ = 0;
-  bool edited_ = false;      // by the control that is being dragged
+  bool edited_ = false;  // by the control that is being dragged
+  std::string news_;
+  double news_ends_ = 0;     // s of ImGui::GetTime()
   double rests_ = 0;         // s since the pointer moved
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;

@@ -77,7 +77,7 @@ void Desk::exports() {
     const std::filesystem::path file = scene.parent_path() / (scene_name(scene) + format.ending);
     attempt(bench_, [&] {
       write_text(file, format.text(bench_));
-      bench_.message = "Exported to " + file.string();
+      tell("Exported to " + file.string());
       if (when_saved_) when_saved_(file);
     });
   }

@@ -115,7 +115,7 @@ class Bridge(driven.Window):
             file = self.path / f"new.{ending}"
             self.wait(lambda: str(file) in self.state["message"])
             self.assertIn(word, file.read_text())
-            self.control("close message")
+        self.wait(lambda: not self.state["message"])  # good news goes away
 
     def test_by_keys_alone(self):
         def go(node):
