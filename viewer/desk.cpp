@@ -193,7 +193,7 @@ void Desk::centre(const Box& box) {
 void Desk::message() {
   if (bench_.message == news_ && ImGui::GetTime() > news_ends_) return bench_.message.clear();
   const double width = std::min(520 * ui_, camera_.screen.size().x - 40 * ui_);
-  ImGui::SetNextWindowPos(px({camera_.screen.middle().x, 36 * ui_}), ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowPos(px({camera_.screen.middle().x, 52 * ui_}), ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSize({static_cast<float>(width), 0});
   bool open = true;
   ImGui::Begin("Message", &open,

@@ -147,11 +147,10 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
     default:
       break;
   }
-  // A node where there is one, or else the body there, with all that is chosen where it is one of those.
-  const std::vector<Point> all = nodes(before_);
-  if (std::any_of(all.begin(), all.end(), [this](Point p) { return is_same(p, *start_); }))
-    return with_node_moved(before_, *start_, cursor_);
+  // A node where something ends, or else the body there, with all that is chosen where it is one of those.
+  if (is_end(before_, *start_)) return with_node_moved(before_, *start_, cursor_);
   const BodyDef* body = body_at(before_, begun_at_);
+  if (!body) body = body_at(before_, *start_);
   if (!body) throw InvalidInput({{"move", "there is nothing here", "drag a node or a body"}});
   const bool with_chosen = std::find(chosen_.begin(), chosen_.end(), body->name) != chosen_.end();
   return with_bodies_moved(before_, with_chosen ? chosen_ : std::vector{body->name}, cursor_ - *start_);

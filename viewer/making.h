@@ -43,8 +43,10 @@ SceneDef with_weld_or_pin(SceneDef scene, Point at);
 /// A beam is of another section or material.
 SceneDef with_style(SceneDef scene, const std::string& beam, const BeamStyle& style);
 
-/// A node is elsewhere: the beams and lines that end there, what holds and what loads them, and what hangs on
-/// those beams in between.
+/// Whether a beam or a line ends at a point.
+bool is_end(const SceneDef& scene, Point at);
+/// A node where something ends is elsewhere: the beams and lines that end there, what holds and what loads
+/// them, and what hangs on those beams in between.
 SceneDef with_node_moved(SceneDef scene, Point from, Point to);
 /// Bodies are elsewhere, with all that hangs on them.
 SceneDef with_bodies_moved(SceneDef scene, const std::vector<std::string>& names, Point by);

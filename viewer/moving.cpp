@@ -165,13 +165,17 @@ class Moving {
 
 }  // namespace
 
-SceneDef with_node_moved(SceneDef scene, Point from, Point to) {
+bool is_end(const SceneDef& scene, Point at) {
   const auto ends = [&](const JointBetweenDef& joint) {
-    return joint.line && Axis{(*joint.line)[0], (*joint.line)[1]}.ends_at(from);
+    return joint.line && Axis{(*joint.line)[0], (*joint.line)[1]}.ends_at(at);
   };
-  if (std::none_of(scene.bodies.begin(), scene.bodies.end(),
-                   [&](const BodyDef& body) { return ends_at(body, from); }) &&
-      std::none_of(scene.joints.begin(), scene.joints.end(), ends)) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const BodyDef& body) { return ends_at(body, at); }) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), ends);
+}
+
+SceneDef with_node_moved(SceneDef scene, Point from, Point to) {
+  if (!is_end(scene, from)) {
     throw InvalidInput({{"move", "nothing ends here", "drag the end of a beam or a line"}});
   }
   Moving moving(std::move(scene), {}, {});

@@ -162,6 +162,23 @@ TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
   EXPECT_FALSE(maker.remove_chosen(bench));
 }
 
+TEST(Maker, MovesABodyByThePointWhereItIsHeld) {
+  Workbench bench;
+  bench.open(DUCTILE_SOURCE_DIR "/scenes/cantilever.scene.json");
+  ASSERT_FALSE(axis_of(bench.scene().bodies[1]));
+  const Point at{1, 0.5};
+  Maker maker;
+  maker.choose(bench, Tool::support);
+  maker.point(bench, at, 0.01);
+  maker.press(bench);
+  ASSERT_EQ(bench.scene().supports.size(), 1u) << bench.message;
+  maker.choose(bench, Tool::move);
+  maker.press(bench);
+  maker.step(bench, 0, 1);
+  maker.release(bench);
+  EXPECT_EQ(bench.scene().supports.at(0).at.y, at.y + 0.5) << bench.message;
+}
+
 TEST(Maker, SnapsToABeamThatTheGridMisses) {
   Workbench bench;
   Maker maker;
