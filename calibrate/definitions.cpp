@@ -26,14 +26,12 @@ float checked(double value, const std::string& place, const char* name) {
                        "keep it between 1e-37 and 1e38, or leave it unlimited"}});
 }
 
-b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
 Point center(const Plan& plan, int piece) { return piece < 0 ? Point{} : plan.carrier(piece).center; }
 
 template <class Def>
 void place_anchors(Def& def, const Plan& plan, const PlannedJoint& joint) {
-  def.localAnchorA = vector(joint.anchor - center(plan, joint.a));
-  def.localAnchorB = vector(joint.far_anchor() - center(plan, joint.b));
+  def.localAnchorA = to_box2d(joint.anchor - center(plan, joint.a));
+  def.localAnchorB = to_box2d(joint.far_anchor() - center(plan, joint.b));
 }
 
 bool axial_free(const PlannedJoint& j) { return std::max(j.N, j.Nc) == 0; }
@@ -196,7 +194,7 @@ std::optional<StockJointDef> stock_def(const Plan& plan, const PlannedJoint& j) 
     return def;
   };
   const auto along = [&](auto def, Point axis) {
-    def.localAxisA = vector(axis);
+    def.localAxisA = to_box2d(axis);
     return anchored(def);
   };
   if (j.end && !axial_free(j)) return distance_def(plan, j);
@@ -319,7 +317,7 @@ std::optional<b2PolygonShape> polygon_shape(const std::vector<Point>& points) {
   if (ring.size() < 3 || ring.size() > b2_maxPolygonVertices || least_width(ring) < b2_linearSlop)
     return std::nullopt;
   b2Vec2 vertices[b2_maxPolygonVertices];
-  std::transform(ring.begin(), ring.end(), vertices, vector);
+  std::transform(ring.begin(), ring.end(), vertices, to_box2d);
   b2PolygonShape shape;
   shape.Set(vertices, static_cast<int32>(ring.size()));
   return shape;

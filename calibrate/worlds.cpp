@@ -19,8 +19,6 @@ namespace ductile {
 
 namespace {
 
-b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
 // Negative collision groups that nothing in the world or the plan uses yet.
 class FreshGroups {
  public:
@@ -124,7 +122,7 @@ b2Body* create_ground(b2World& world, const Plan& plan) {
 
 b2Vec2 local_point(const Built& built, int piece, Point at) {
   const BodyPlace& place = built.places[static_cast<std::size_t>(piece)];
-  return vector(Rotation(place.angle).inverse(at - Point{place.origin.x, place.origin.y}));
+  return to_box2d(Rotation(place.angle).inverse(at - Point{place.origin.x, place.origin.y}));
 }
 
 Built build_bodies(b2World& world, const Plan& plan) {
@@ -195,12 +193,12 @@ Built build_bodies(b2World& world, const Plan& plan) {
       def.type = plan.is_dynamic(static_cast<int>(i))    ? b2_dynamicBody
                  : body.type == BodyType::kinematic_body ? b2_kinematicBody
                                                          : b2_staticBody;
-      def.position = vector(piece.center);
+      def.position = to_box2d(piece.center);
       if (def.type != b2_staticBody) {
         const Point own = body.velocities.empty()
                               ? body.velocity + body.angular_velocity * left(piece.center - centre)
                               : body.velocities[i - first];
-        def.linearVelocity = vector(own);
+        def.linearVelocity = to_box2d(own);
         def.angularVelocity = static_cast<float>(body.angular_velocity);
       }
       def.allowSleep = plan.sleep;
@@ -220,7 +218,7 @@ Built build_bodies(b2World& world, const Plan& plan) {
     if (piece.circle > 0 && body.collides) {
       b2CircleShape disc;
       disc.m_radius = static_cast<float>(piece.circle);
-      disc.m_p = vector(piece.center - plan.carrier(static_cast<int>(i)).center);
+      disc.m_p = to_box2d(piece.center - plan.carrier(static_cast<int>(i)).center);
       fixture.shape = &disc;
       created->CreateFixture(&fixture);
     }
@@ -231,8 +229,8 @@ Built build_bodies(b2World& world, const Plan& plan) {
 
   for (const Plan::Wheel& wheel : plan.wheels) {
     b2WheelJointDef def;
-    def.Initialize(built.bodies[wheel.chassis], built.bodies[wheel.wheel], vector(wheel.def.at),
-                   vector(unit(wheel.def.axis)));
+    def.Initialize(built.bodies[wheel.chassis], built.bodies[wheel.wheel], to_box2d(wheel.def.at),
+                   to_box2d(unit(wheel.def.axis)));
     b2LinearStiffness(def.stiffness, def.damping, static_cast<float>(wheel.def.frequency),
                       static_cast<float>(wheel.def.damping_ratio), def.bodyA, def.bodyB);
     def.enableMotor = true;
@@ -300,14 +298,14 @@ std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Bui
   const auto ramp = [](double t, double over) {
     return t < 0 ? 0 : over > 0 ? std::min(1.0, t / over) : 1.0;
   };
-  world.SetGravity(vector(ramp(time, plan.gravity_ramp) * plan.gravity));
+  world.SetGravity(to_box2d(ramp(time, plan.gravity_ramp) * plan.gravity));
   for (const Plan::Load& load : plan.loads) {
     if (time >= load.def.to) continue;
     const double factor = ramp(time - load.def.from, load.def.ramp);
     if (factor == 0) continue;
     b2Body* body = built.bodies[load.piece];
     const b2Vec2 at = body->GetWorldPoint(local_point(built, load.piece, load.at));
-    const AppliedLoad now{body, at, vector(factor * load.def.force),
+    const AppliedLoad now{body, at, to_box2d(factor * load.def.force),
                           static_cast<float>(factor * load.def.moment)};
     body->ApplyForce(now.force, at, true);
     body->ApplyTorque(now.moment, true);

@@ -119,7 +119,7 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
 // Complementary energy ½ ∫ (M + F s)²/EI ds of each arm, F across it at its end, s from there. The root of an
 // inverse is the inverse of a root.
 Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
-  const Root rigid = k.cwiseSqrt().asDiagonal();
+  Root rigid = k.cwiseSqrt().asDiagonal();
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
   const bool bends = compliance(arms) > 0;
   if (bends && (joint.a >= 0 || stands_for(joint, arms)))

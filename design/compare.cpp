@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "ductile/box2d.h"
 #include "ductile/clock.h"
+#include "ductile/plane.h"
 
 namespace ductile {
 namespace {
@@ -16,8 +18,7 @@ double time_of_step(Simulation& simulation) {
 // Where the piece is that was centred on `at`: whatever body carries it.
 b2Vec2 place(const Simulation& simulation, std::size_t piece, Point at) {
   const Point centre = simulation.plan().carrier(static_cast<int>(piece)).center;
-  return simulation.built().bodies[piece]->GetWorldPoint(
-      {static_cast<float>(at.x - centre.x), static_cast<float>(at.y - centre.y)});
+  return simulation.built().bodies[piece]->GetWorldPoint(to_box2d(at - centre));
 }
 
 bool broke(const Simulation& simulation) {

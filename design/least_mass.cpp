@@ -20,6 +20,7 @@
 
 #include "ductile/targets.h"
 #include "equilibrium.h"
+#include "simplex.h"
 #include "units.h"
 
 namespace ductile {
@@ -30,7 +31,6 @@ using Eigen::VectorXd;
 
 constexpr double thinnest = 1e-3;  // of what is drawn
 constexpr double strong = 1e6;     // times as much: governs nothing
-constexpr int most_milliseconds = 600'000;
 
 // Which group a body is in; −1: none.
 std::vector<int> groups_of(const SceneDef& scene, const std::vector<std::vector<std::size_t>>& groups) {
@@ -103,10 +103,7 @@ class LeastMassProgramme {
   /// Of each group, how many times its drawn depth.
   std::vector<double> solve(double collapse) {
     for (const Case& each : cases_) add_equilibrium(each, collapse);
-    glp_smcp settings;
-    glp_init_smcp(&settings);
-    settings.tol_bnd = settings.tol_dj = 1e-9;
-    settings.tm_lim = most_milliseconds;
+    const glp_smcp settings = simplex_settings();
     glp_adv_basis(problem_.get(), 0);
     if (glp_simplex(problem_.get(), &settings) != 0 ||
         (glp_get_status(problem_.get()) != GLP_OPT && glp_get_status(problem_.get()) != GLP_NOFEAS))

@@ -17,6 +17,7 @@
 #include "deformed.h"
 #include "ductile/design.h"
 #include "equilibrium.h"
+#include "simplex.h"
 #include "units.h"
 #include "yield.h"
 
@@ -28,7 +29,6 @@ using Eigen::VectorXd;
 
 constexpr double on_surface = 1e-8;        // a joint may use so much more than all of its surface
 constexpr double share_of_a_hinge = 1e-6;  // of the power that the mechanism dissipates
-constexpr int most_milliseconds = 600'000;
 
 [[noreturn]] void refuse(const char* what, const char* remedy) {
   throw InvalidInput({{"loads", what, remedy}});
@@ -50,10 +50,7 @@ class Programme {
   }
 
   LimitAnalysis solve() {
-    glp_smcp settings;
-    glp_init_smcp(&settings);
-    settings.tol_bnd = settings.tol_dj = 1e-9;
-    settings.tm_lim = most_milliseconds;
+    glp_smcp settings = simplex_settings();
     settings.presolve = GLP_OFF;
     glp_adv_basis(problem_.get(), 0);
     do {

@@ -24,7 +24,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int most_events_per_joint = 20;
-constexpr double on_surface = 1e-9;
+constexpr double surface_tolerance = 1e-9;
 constexpr double spent = 1000;  // times as far as the last hinge: a support that is displaced meets no more
 
 class Pushing {
@@ -84,7 +84,7 @@ class Pushing {
     // Joints that have just unloaded are on their planes, and go back.
     std::vector<Flow::Most> leave;
     Flow::Most most = flow_.most_used(state_.forces);
-    for (; most.usage > 1 - on_surface; most = flow_.most_used(state_.forces, leave)) {
+    for (; most.usage > 1 - surface_tolerance; most = flow_.most_used(state_.forces, leave)) {
       if (most.plane.normal.dot(rates.segment<3>(Eigen::Index{3} * most.joint)) > 0)
         return hinge(state_, most);
       leave.push_back(most);
@@ -102,7 +102,7 @@ class Pushing {
     while (high == unlimited || high - low > 1e-11 * high) {
       const std::optional<Deformed> there = deformed(plan_, statics_, growth, state_, factor);
       if (there) most = flow_.most_used(there->forces, leave);
-      if (there && std::abs(most.usage - 1) <= on_surface)
+      if (there && std::abs(most.usage - 1) <= surface_tolerance)
         return buckled(growth, *there) ? buckle(growth, factor) : hinge(*there, most);
       if (there && most.usage < 1 && factor == last) {
         if (buckled(growth, *there)) return buckle(growth, factor);

@@ -136,13 +136,15 @@ Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, d
 }
 
 Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target) {
-  std::vector<double> mass;
+  std::vector<double> mass(candidates.size());
+  std::transform(candidates.begin(), candidates.end(), mass.begin(),
+                 [](const SceneDef& scene) { return mass_of(calibrate(scene)); });
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (const SceneDef& scene : candidates) mass.push_back(mass_of(calibrate(scene)));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return mass[a] < mass[b]; });
   std::vector<SceneDef> by_mass;
+  by_mass.reserve(order.size());
   for (const std::size_t i : order) by_mass.push_back(candidates[i]);
   Reach reach = first_to_reach(by_mass, measure, target);
   reach.value = static_cast<double>(order[static_cast<std::size_t>(reach.value)]);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "built_plan.h"
+#include "ductile/box2d.h"
 #include "ductile/definitions.h"
 #include "json.h"
 
@@ -211,7 +212,7 @@ Json wheel(const b2WheelJoint& joint, const Plan& plan, const Plan::Wheel& wheel
 
 std::string box2d_text(const Plan& plan) {
   const BuiltPlan built(plan);
-  Json object{{"gravity", json({static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)})},
+  Json object{{"gravity", json(to_box2d(plan.gravity))},
               {"bodies", Json::array()},
               {"joints", Json::array()},
               {"wheels", Json::array()},

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "built_plan.h"
+#include "ductile/box2d.h"
 #include "ductile/definitions.h"
 
 namespace ductile {
@@ -220,8 +221,7 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
   for (const std::string& lost : lost_in_definitions(plan)) text += comment("Not in it: " + lost).substr(2);
   text += "inline auto " + function + "(b2World& world) {";
   text += tools;
-  text += "\n  world.SetGravity(" +
-          literal(b2Vec2{static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)}) + ");\n";
+  text += "\n  world.SetGravity(" + literal(to_box2d(plan.gravity)) + ");\n";
   if (!bodies.empty()) text += "  b2Body* const bodies[] = {\n" + bodies + "  };\n";
   if (!names.empty()) fixtures = "  level.bodies = {\n" + names + "  };\n" + fixtures;
   return text + fixtures + wheels + joint_tool + joints + "  return level;\n}\n";

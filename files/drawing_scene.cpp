@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ductile/files.h"
+#include "ductile/plane.h"
 
 namespace ductile {
 namespace {
@@ -25,19 +26,16 @@ std::string body_name(std::string name, std::set<std::string>& taken) {
   return one;
 }
 
-struct Frame {
-  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  double size() const { return std::max(high.x - low.x, high.y - low.y); }
-};
-Frame around(const DrawnShapes& drawn) {
-  Frame frame;
+Bounds around(const DrawnShapes& drawn) {
+  Bounds bounds;
   for (const auto& shape : drawn.shapes) {
-    for (const Point& p : shape.outline.outer) {
-      frame.low = {std::min(frame.low.x, p.x), std::min(frame.low.y, p.y)};
-      frame.high = {std::max(frame.high.x, p.x), std::max(frame.high.y, p.y)};
-    }
+    for (const Point& p : shape.outline.outer) bounds.add(p);
   }
-  return frame;
+  return bounds;
+}
+/// The longer side; 0 where nothing is drawn.
+double size_of(const Bounds& bounds) {
+  return bounds.empty() ? 0 : std::max(bounds.size().x, bounds.size().y);
 }
 
 /// Where a ring stands on the floor: the middles of its edges there, else its lowest vertex.
@@ -73,8 +71,8 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
   if (metres_per_unit > 0 || drawing.sized()) {
     drawn = drawing.shapes({.metres_per_unit = metres_per_unit});
   } else {
-    const Frame units = around(drawing.shapes({.metres_per_unit = 1}));
-    result.scale = units.size() > 0 ? size_without_scale / units.size() : 1;
+    const double units = size_of(around(drawing.shapes({.metres_per_unit = 1})));
+    result.scale = units > 0 ? size_without_scale / units : 1;
     drawn = drawing.shapes({.metres_per_unit = result.scale});
   }
   result.left_out = std::move(drawn.left_out);
@@ -83,8 +81,8 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
     problems.push_back({drawing.name(), "shows no shape", "draw one with a fill or a stroke"});
     throw InvalidInput(std::move(problems));
   }
-  const Frame frame = around(drawn);
-  const double size = frame.size();
+  const Bounds frame = around(drawn);
+  const double size = size_of(frame);
   BodyDef floor;
   floor.name = "floor";
   floor.type = BodyType::static_body;

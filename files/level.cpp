@@ -17,7 +17,7 @@ namespace {
 Level level_of_plan(b2World& world, Plan plan, const StructureDef& def) {
   Built built;
   Structure structure = build(world, plan, def, &built);
-  world.SetGravity({static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)});
+  world.SetGravity(to_box2d(plan.gravity));
   Level level{std::move(plan), std::move(built), {}, {}, std::move(structure)};
   for (std::size_t i = 0; i < level.plan.pieces.size(); ++i)
     level.bodies.emplace(level.plan.pieces[i].name, level.built.bodies[i]);

@@ -18,11 +18,11 @@ namespace ductile::svg {
 namespace {
 
 /// A point of the grid. Differences stay within 2^30 and cross products within 2^61, so they are exact.
-struct Node {
+struct GridPoint {
   std::int32_t x, y;
-  auto operator<=>(const Node&) const = default;  // NOLINT(modernize-use-nullptr): the check misreads it
+  auto operator<=>(const GridPoint&) const = default;  // NOLINT(modernize-use-nullptr): the check misreads it
 };
-std::int64_t cross(Node o, Node p, Node q) {
+std::int64_t cross(GridPoint o, GridPoint p, GridPoint q) {
   return (std::int64_t{p.x} - o.x) * (std::int64_t{q.y} - o.y) -
          (std::int64_t{p.y} - o.y) * (std::int64_t{q.x} - o.x);
 }
@@ -31,33 +31,34 @@ std::int64_t cross(Node o, Node p, Node q) {
 class Grid {
  public:
   explicit Grid(const std::vector<Layer>& layers) {
-    Box box;
+    Bounds box;
     for (const Layer& layer : layers) {
       for (const Ring& ring : layer.rings) {
         for (const Point& p : ring) box.add(p);
       }
     }
-    const Point size = box.high - box.low;
+    const Point size = box.size();
     middle_ = 0.5 * (box.low + box.high);
     // A power of two, so that going to the grid and back rounds once.
     const int exponent = std::ilogb(std::max({size.x, size.y, 1e-300})) + 1;
     scale_ = std::ldexp(1, 29 - exponent);
   }
-  Node node(const Point& p) {
+  GridPoint node(const Point& p) {
     const Point q = scale_ * (p - middle_);
-    const Node node{static_cast<std::int32_t>(std::lround(q.x)), static_cast<std::int32_t>(std::lround(q.y))};
+    const GridPoint node{static_cast<std::int32_t>(std::lround(q.x)),
+                         static_cast<std::int32_t>(std::lround(q.y))};
     given_.emplace(key(node), p);
     return node;
   }
-  bool given(Node node) const { return given_.contains(key(node)); }
-  Point point(Node node) const {
+  bool given(GridPoint node) const { return given_.contains(key(node)); }
+  Point point(GridPoint node) const {
     const auto found = given_.find(key(node));
     return found != given_.end() ? found->second
                                  : middle_ + 1 / scale_ * Point{double(node.x), double(node.y)};
   }
 
  private:
-  static std::uint64_t key(Node n) {
+  static std::uint64_t key(GridPoint n) {
     return std::uint64_t{static_cast<std::uint32_t>(n.x)} << 32 | static_cast<std::uint32_t>(n.y);
   }
   Point middle_;
@@ -96,11 +97,11 @@ class Arrangement {
   Winding outside_of(int vertex, int component) const;
   const Winding& change(int edge) const { return changes_[static_cast<std::size_t>(edge / 2)]; }
   const HalfEdge& edge(int e) const { return edges_[static_cast<std::size_t>(e)]; }
-  Node node(int vertex) const { return nodes_[static_cast<std::size_t>(vertex)]; }
+  GridPoint node(int vertex) const { return nodes_[static_cast<std::size_t>(vertex)]; }
 
   const std::vector<Layer>& layers_;
   Grid& grid_;
-  std::vector<Node> nodes_;
+  std::vector<GridPoint> nodes_;
   std::vector<HalfEdge> edges_;
   std::vector<Winding>
       changes_;  // by pairs of edges: winding number left of the even one, less that on its right
@@ -142,7 +143,7 @@ void Arrangement::divide() {
   for (std::size_t l = 0; l < layers_.size(); ++l) {
     for (const Ring& ring : layers_[l].rings) {
       for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-        const Node a = grid_.node(ring[j]), b = grid_.node(ring[i]);
+        const GridPoint a = grid_.node(ring[j]), b = grid_.node(ring[i]);
         if (a == b) continue;
         segments.emplace_back(boost::polygon::point_data<int>(a.x, a.y),
                               boost::polygon::point_data<int>(b.x, b.y));
@@ -154,9 +155,9 @@ void Arrangement::divide() {
   std::vector<std::pair<std::size_t, Segment>> parts;
   boost::polygon::intersect_segments(parts, segments.begin(), segments.end());
 
-  std::map<std::pair<Node, Node>, Winding> found;
+  std::map<std::pair<GridPoint, GridPoint>, Winding> found;
   for (const auto& [index, part] : parts) {
-    Node a{part.low().x(), part.low().y()}, b{part.high().x(), part.high().y()};
+    GridPoint a{part.low().x(), part.low().y()}, b{part.high().x(), part.high().y()};
     if (a == b) continue;
     if (b < a) std::swap(a, b);
     auto& change = found[{a, b}];
@@ -168,8 +169,8 @@ void Arrangement::divide() {
                               along(a.y, b.y) * along(whole.low().y(), whole.high().y());
     change[layer_of[index]] += same > 0 ? 1 : -1;
   }
-  std::map<Node, int> vertices;
-  const auto vertex = [&](Node n) {
+  std::map<GridPoint, int> vertices;
+  const auto vertex = [&](GridPoint n) {
     const auto [at, fresh] = vertices.emplace(n, static_cast<int>(nodes_.size()));
     if (fresh) nodes_.push_back(n);
     return at->second;
@@ -246,9 +247,9 @@ void Arrangement::wind() {
     const int top = fans_[static_cast<std::size_t>(v)].back();
     Winding around(layers_.size());
     if (c > 0) {
-      const Node p = node(v);
+      const GridPoint p = node(v);
       for (std::size_t e = 0; e < edges_.size(); e += 2) {
-        const Node a = node(edges_[e].from), b = node(edges_[e].to);
+        const GridPoint a = node(edges_[e].from), b = node(edges_[e].to);
         if (component[static_cast<std::size_t>(edges_[e].from)] == static_cast<int>(c)) continue;
         if (a.x <= p.x && p.x < b.x && cross(a, b, p) > 0) {
           for (std::size_t l = 0; l < around.size(); ++l) around[l] += changes_[e / 2][l];
@@ -301,8 +302,8 @@ std::vector<Ring> Arrangement::boundary(const Inside& inside) const {
       Ring ring;
       const std::size_t n = open.size() - from;
       for (std::size_t i = 0; i < n; ++i) {
-        const Node p = node(open[from + (i + n - 1) % n]), q = node(open[from + i]),
-                   r = node(open[from + (i + 1) % n]);
+        const GridPoint p = node(open[from + (i + n - 1) % n]), q = node(open[from + i]),
+                        r = node(open[from + (i + 1) % n]);
         // Crossings that nothing is left of lie on a straight line, but for the grid's rounding.
         const bool straight = std::abs(static_cast<double>(cross(p, q, r))) <=
                               2 * std::hypot(double(r.x) - p.x, double(r.y) - p.y);
@@ -327,8 +328,7 @@ std::vector<Ring> Arrangement::boundary(const Inside& inside) const {
 double doubled_area_of(const Ring& ring) {
   double sum = 0;
   for (std::size_t i = 2; i < ring.size(); ++i) {
-    const Point p = ring[i - 1] - ring[0], q = ring[i] - ring[0];
-    sum += p.x * q.y - p.y * q.x;
+    sum += cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
   }
   return sum;
 }
@@ -357,7 +357,7 @@ std::vector<Ring> overlay(const std::vector<Layer>& layers, Overlay how) {
 
 std::vector<Outline> outlines(std::vector<Ring> rings) {
   std::vector<Outline> areas;
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   std::sort(rings.begin(), rings.end(),
             [](const Ring& a, const Ring& b) { return doubled_area_of(a) > doubled_area_of(b); });
   const auto around = [](const Ring& ring, const Point& p) {
@@ -371,9 +371,7 @@ std::vector<Outline> outlines(std::vector<Ring> rings) {
   };
   for (Ring& ring : rings) {
     if (doubled_area_of(ring) > 0) {
-      Box box;
-      for (const Point& p : ring) box.add(p);
-      boxes.push_back(box);
+      boxes.push_back(bounds_of(ring));
       areas.push_back({std::move(ring), {}});
       continue;
     }
@@ -381,9 +379,7 @@ std::vector<Outline> outlines(std::vector<Ring> rings) {
     // around it is the hole's.
     const Point p = 0.5 * (ring[0] + ring[1]);
     for (std::size_t i = areas.size(); i-- > 0;) {
-      const Box& box = boxes[i];
-      if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
-      if (!around(areas[i].outer, p)) continue;
+      if (!boxes[i].contains(p) || !around(areas[i].outer, p)) continue;
       areas[i].holes.push_back(std::move(ring));
       break;
     }

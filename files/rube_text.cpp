@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "built_plan.h"
+#include "ductile/box2d.h"
 #include "ductile/definitions.h"
 #include "rube.h"
 #include "scene_text.h"
@@ -21,10 +22,7 @@ Json vector(const b2Vec2& v) {
 }
 
 Json json(const b2Fixture& fixture, const Frame& piece, const Frame& body) {
-  const auto local = [&](const b2Vec2& p) {
-    const Point q = body.local(piece.world({p.x, p.y}));
-    return b2Vec2{static_cast<float>(q.x), static_cast<float>(q.y)};
-  };
+  const auto local = [&](const b2Vec2& p) { return to_box2d(body.local(piece.world({p.x, p.y}))); };
   Json item{{"density", number(fixture.GetDensity())},
             {"friction", number(fixture.GetFriction())},
             {"restitution", number(fixture.GetRestitution())}};
@@ -78,7 +76,7 @@ void write_material(Json& item, const Material& material) {
 
 }  // namespace
 
-Json vector(Point p) { return vector(b2Vec2{static_cast<float>(p.x), static_cast<float>(p.y)}); }
+Json vector(Point p) { return vector(to_box2d(p)); }
 
 void write_mass(Json& item, const b2Body& built, const Frame& frame) {
   const Point centre = frame.local({built.GetPosition().x, built.GetPosition().y});
@@ -266,26 +264,26 @@ namespace ductile {
 std::string rube_text(const Plan& plan, StockJoint as) {
   using namespace rube;
   const BuiltPlan built(plan);
-  Json scene{{"gravity", vector(plan.gravity)},
-             {"allowSleep", true},
-             {"autoClearForces", true},
-             {"warmStarting", true},
-             {"continuousPhysics", true},
-             {"subStepping", false},
-             {"stepsPerSecond", 60},
-             {"velocityIterations", 8},
-             {"positionIterations", 3},
-             {"body", Json::array()},
-             {"joint", Json::array()}};
+  rube::Json scene{{"gravity", vector(plan.gravity)},
+                   {"allowSleep", true},
+                   {"autoClearForces", true},
+                   {"warmStarting", true},
+                   {"continuousPhysics", true},
+                   {"subStepping", false},
+                   {"stepsPerSecond", 60},
+                   {"velocityIterations", 8},
+                   {"positionIterations", 3},
+                   {"body", rube::Json::array()},
+                   {"joint", rube::Json::array()}};
   if (plan.interaction) set_custom(scene, "ductile.interaction", "bool", true);
   if (plan.gravity_ramp > 0) set_custom(scene, "ductile.gravity_ramp", plan.gravity_ramp);
-  const auto add_body = [&](const b2Body& body, const std::string& name) -> Json& {
+  const auto add_body = [&](const b2Body& body, const std::string& name) -> rube::Json& {
     return scene["body"].emplace_back(body_json(body, name));
   };
   for (const int piece : built.carriers) {
     const auto i = static_cast<std::size_t>(piece);
     const BodyDef& body = plan.bodies[static_cast<std::size_t>(plan.pieces[i].body)];
-    Json& item = add_body(*built.built.bodies[i], plan.pieces[i].name);
+    rube::Json& item = add_body(*built.built.bodies[i], plan.pieces[i].name);
     const b2Vec2 at = built.built.bodies[i]->GetPosition();
     write_piece(item, plan, piece, *built.built.bodies[i], {{at.x, at.y}});
     write_loads(item, plan, piece, {{at.x, at.y}});
@@ -301,7 +299,7 @@ std::string rube_text(const Plan& plan, StockJoint as) {
     scene["joint"].push_back(wheel_json(plan.wheels[i], *built.built.wheels[i], plan, built));
   for (const PlannedJoint& j : plan.joints) {
     const auto frame = [&](int piece) { return piece < 0 ? Frame{} : Frame{plan.carrier(piece).center}; };
-    Json item;
+    rube::Json item;
     write_joint(item, plan, j, as, built.body(j.a), built.body(j.b), frame(j.a), frame(j.b));
     scene["joint"].push_back(std::move(item));
   }

@@ -12,11 +12,9 @@
 namespace ductile::svg {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// The largest half diameter of an ellipse with conjugate half diameters u and v.
 double half_diameter(const Point& u, const Point& v) {
-  const double uu = u.x * u.x + u.y * u.y, vv = v.x * v.x + v.y * v.y, uv = u.x * v.x + u.y * v.y;
+  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
   return std::sqrt((uu + vv + length({uu - vv, 2 * uv})) / 2);
 }
 
@@ -24,8 +22,8 @@ double half_diameter(const Point& u, const Point& v) {
 
 double stretch(const Affine& to) { return half_diameter({to.a, to.b}, {to.c, to.d}); }
 
-Box box_around(const std::vector<Subpath>& path) {
-  Box box;
+Bounds box_around(const std::vector<Subpath>& path) {
+  Bounds box;
   for (const Subpath& subpath : path) {
     box.add(subpath.start);
     for (const Curve& curve : subpath.curves) {

@@ -12,7 +12,6 @@
 namespace ductile::svg {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
@@ -21,9 +20,9 @@ bool is_letter(char c) { return is_lower(c) || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Draws subpaths in local coordinates, and keeps them as `to` shows them.
-class Pen {
+class Tracer {
  public:
-  explicit Pen(const Affine& to) : to_(to) {}
+  explicit Tracer(const Affine& to) : to_(to) {}
 
   std::vector<Subpath> path;
   Point here;  ///< local
@@ -65,7 +64,7 @@ class Pen {
   bool open_ = false;
 };
 
-void Pen::arc_to(double rx, double ry, double rotation, bool large, bool positive, const Point& p) {
+void Tracer::arc_to(double rx, double ry, double rotation, bool large, bool positive, const Point& p) {
   rx = std::abs(rx);
   ry = std::abs(ry);
   if (p == here) return;
@@ -151,7 +150,7 @@ std::string_view Numbers::name() {
 // ---- shapes
 
 std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
-  Pen pen(to);
+  Tracer tracer(to);
   Numbers in(data);
   char command = 0, before = 0;  // `before` is the last curve's letter, in upper case
   Point control;                 // of the last curve, for S and T
@@ -167,7 +166,7 @@ std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
         throw std::invalid_argument(std::string("has '") + in.peek() + "' where a command should stand");
       }
       const bool relative = is_lower(command);
-      const Point base = relative ? pen.here : Point{};
+      const Point base = relative ? tracer.here : Point{};
       const auto point = [&] {
         const double x = in.number();
         return base + Point{x, in.number()};
@@ -175,46 +174,46 @@ std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
       const char letter = static_cast<char>(relative ? command - 'a' + 'A' : command);
       switch (letter) {
         case 'M':
-          pen.move(point());
+          tracer.move(point());
           command = relative ? 'l' : 'L';  // further pairs are lines
           break;
         case 'L':
-          pen.line(point());
+          tracer.line(point());
           break;
         case 'H':
-          pen.line({base.x + in.number(), pen.here.y});
+          tracer.line({base.x + in.number(), tracer.here.y});
           break;
         case 'V':
-          pen.line({pen.here.x, base.y + in.number()});
+          tracer.line({tracer.here.x, base.y + in.number()});
           break;
         case 'C': {
           const Point first = point();
           control = point();
-          pen.cubic(first, control, point());
+          tracer.cubic(first, control, point());
           break;
         }
         case 'S': {
-          const Point first = before == 'C' || before == 'S' ? 2 * pen.here - control : pen.here;
+          const Point first = before == 'C' || before == 'S' ? 2 * tracer.here - control : tracer.here;
           control = point();
-          pen.cubic(first, control, point());
+          tracer.cubic(first, control, point());
           break;
         }
         case 'Q':
           control = point();
-          pen.quadratic(control, point());
+          tracer.quadratic(control, point());
           break;
         case 'T':
-          control = before == 'Q' || before == 'T' ? 2 * pen.here - control : pen.here;
-          pen.quadratic(control, point());
+          control = before == 'Q' || before == 'T' ? 2 * tracer.here - control : tracer.here;
+          tracer.quadratic(control, point());
           break;
         case 'A': {
           const double rx = in.number(), ry = in.number(), rotation = in.number() * degree;
           const bool large = in.flag(), positive = in.flag();
-          pen.arc_to(rx, ry, rotation, large, positive, point());
+          tracer.arc_to(rx, ry, rotation, large, positive, point());
           break;
         }
         case 'Z':
-          pen.close();
+          tracer.close();
           break;
         default:
           throw std::invalid_argument(std::string("has '") + command + "', which is no path command");
@@ -225,58 +224,58 @@ std::vector<Subpath> parse_path(std::string_view data, const Affine& to) {
     throw ShapeError(count == 0 ? "path data" : "path command " + std::to_string(count), error.what(),
                      "write path data as SVG 1.1 §8.3 has it");
   }
-  return std::move(pen.path);
+  return std::move(tracer.path);
 }
 
 std::vector<Subpath> polygon(std::string_view points, bool closed, const Affine& to) {
-  Pen pen(to);
+  Tracer tracer(to);
   Numbers in(points);
   int count = 0;
   try {
     while (!in.end()) {
       const double x = in.number();
       const Point p{x, in.number()};
-      count == 0 ? pen.move(p) : pen.line(p);
+      count == 0 ? tracer.move(p) : tracer.line(p);
       ++count;
     }
   } catch (const std::invalid_argument& error) {
     throw ShapeError("point " + std::to_string(count), error.what(), "write x,y x,y ...");
   }
-  if (closed) pen.close();
-  return std::move(pen.path);
+  if (closed) tracer.close();
+  return std::move(tracer.path);
 }
 
 std::vector<Subpath> ellipse(Point center, double rx, double ry, const Affine& to) {
-  Pen pen(to);
+  Tracer tracer(to);
   const Point right = center + Point{rx, 0}, left = center - Point{rx, 0};
-  pen.move(right);
-  pen.arc(center, {rx, 0}, {0, ry}, 0, pi, left);
-  pen.arc(center, {rx, 0}, {0, ry}, pi, pi, right);
-  pen.close();
-  return std::move(pen.path);
+  tracer.move(right);
+  tracer.arc(center, {rx, 0}, {0, ry}, 0, pi, left);
+  tracer.arc(center, {rx, 0}, {0, ry}, pi, pi, right);
+  tracer.close();
+  return std::move(tracer.path);
 }
 
 std::vector<Subpath> rectangle(Point corner, double width, double height, double rx, double ry,
                                const Affine& to) {
-  Pen pen(to);
+  Tracer tracer(to);
   rx = std::min(rx, width / 2);
   ry = std::min(ry, height / 2);
   if (rx == 0 || ry == 0) rx = ry = 0;
   const Point far = corner + Point{width, height}, x{rx, 0}, y{0, ry};
   const auto round = [&](double turn, const Point& center, const Point& end) {
-    if (rx > 0) pen.arc(center, x, y, turn * pi / 2, pi / 2, end);
+    if (rx > 0) tracer.arc(center, x, y, turn * pi / 2, pi / 2, end);
   };
-  pen.move({corner.x + rx, corner.y});
-  pen.line({far.x - rx, corner.y});
+  tracer.move({corner.x + rx, corner.y});
+  tracer.line({far.x - rx, corner.y});
   round(3, {far.x - rx, corner.y + ry}, {far.x, corner.y + ry});
-  pen.line({far.x, far.y - ry});
+  tracer.line({far.x, far.y - ry});
   round(0, {far.x - rx, far.y - ry}, {far.x - rx, far.y});
-  pen.line({corner.x + rx, far.y});
+  tracer.line({corner.x + rx, far.y});
   round(1, {corner.x + rx, far.y - ry}, {corner.x, far.y - ry});
-  pen.line({corner.x, corner.y + ry});
+  tracer.line({corner.x, corner.y + ry});
   round(2, {corner.x + rx, corner.y + ry}, {corner.x + rx, corner.y});
-  pen.close();
-  return std::move(pen.path);
+  tracer.close();
+  return std::move(tracer.path);
 }
 
 Affine parse_transform(std::string_view text) {

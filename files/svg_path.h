@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,14 +11,12 @@
 #include <variant>
 #include <vector>
 
+#include "ductile/plane.h"
 #include "ductile/section.h"
 
 namespace ductile::svg {
 
-inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
-inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
-inline Point operator*(double s, const Point& p) { return {s * p.x, s * p.y}; }
-inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
+using std::numbers::pi;
 
 /// (x, y) → (a x + c y + e, b x + d y + f), as SVG's matrix(a b c d e f).
 struct Affine {
@@ -92,16 +91,8 @@ Affine parse_transform(std::string_view text);
 /// The largest length of a direction of length 1 after the map.
 double stretch(const Affine& to);
 
-/// A box with sides along the axes; empty where low is not <= high.
-struct Box {
-  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  void add(const Point& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-};
 /// A box around the curves: of their ends, control points and whole ellipses.
-Box box_around(const std::vector<Subpath>& path);
+Bounds box_around(const std::vector<Subpath>& path);
 
 struct Polyline {
   std::vector<Point> points;  ///< a closed one does not repeat its first point

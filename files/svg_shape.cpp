@@ -137,7 +137,7 @@ std::vector<Ring> without_slivers(std::vector<Ring> rings, double tolerance) {
   return rings;
 }
 
-bool finite(const Box& box) {
+bool finite(const Bounds& box) {
   return std::isfinite(length(box.low)) && std::isfinite(length(box.high)) &&
          std::isfinite(length(box.high - box.low));
 }
@@ -167,7 +167,7 @@ bool Document::paints(const Style& style, const char* property, std::string_view
 double Document::extent(const Painted& shape) const {
   const auto path = curves(shape.node, shape.view, shape.to);
   if (path.empty()) return 0;
-  Box box = box_around(path);
+  Bounds box = box_around(path);
   if (paints(shape.style, "stroke", "none")) {
     const double half = stretch(shape.to) * pen_of(shape.style, shape.view).width / 2;
     box = {box.low - Point{half, half}, box.high + Point{half, half}};
@@ -223,7 +223,7 @@ std::vector<Ring> Document::clip_area(const Clip& clip, const Painted& of, doubl
     if (clip.to.a != of.to.a || clip.to.e != of.to.e || clip.to.f != of.to.f) {
       throw ShapeError("clip-path", "is in units of a group's box", "give it userSpaceOnUse");
     }
-    const Box box = box_around(curves(of.node, of.view, {}));
+    const Bounds box = box_around(curves(of.node, of.view, {}));
     around.to = clip.to * Affine{box.high.x - box.low.x, 0, 0, box.high.y - box.low.y, box.low.x, box.low.y};
   }
   std::vector<Ring> area;

@@ -11,14 +11,9 @@
 namespace ductile::svg {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
-Point left_of(const Point& d) { return {-d.y, d.x}; }
 Point turned(const Point& d, double angle) {
   const Turn turn = turn_of(angle);
-  return turn.c * d + turn.s * left_of(d);
+  return turn.c * d + turn.s * left(d);
 }
 
 /// Draws the outline of one line. The rectangles over its segments all run counter-clockwise; strung together
@@ -59,7 +54,7 @@ class Outliner {
     const std::size_t n = points.size(), segments = closed ? n : n - 1;
     const auto direction = [&](std::size_t i) { return points[(i + 1) % n] - points[i % n]; };
     for (std::size_t i = 0; i < segments; ++i) {
-      const Point d = direction(i), right = -1 * left_of(unit(d));
+      const Point d = direction(i), right = -1 * left(unit(d));
       const Point& end = points[(i + 1) % n];
       if (i == 0 && !closed) ring.push_back(points[0] + half_ * right);
       if (i + 1 < segments || closed) {
@@ -73,7 +68,7 @@ class Outliner {
 
   /// The right side's corner at p from direction d to e.
   void corner(Ring& ring, const Point& p, const Point& d, const Point& e) const {
-    const Point u = unit(d), v = unit(e), m = -1 * left_of(u), n = -1 * left_of(v);
+    const Point u = unit(d), v = unit(e), m = -1 * left(u), n = -1 * left(v);
     const double sine = cross(u, v), cosine = dot(u, v);
     const Point from = p + half_ * m, to = p + half_ * n;
     const double reach = half_ * std::abs(sine) / (1 + cosine);  // half tan θ/2
@@ -105,7 +100,7 @@ class Outliner {
 
   /// From the right of the line's end to its left; d is the way on.
   void cap(Ring& ring, const Point& p, const Point& d) const {
-    const Point right = -1 * left_of(d);
+    const Point right = -1 * left(d);
     if (pen_.cap == Pen::round_cap) fan(ring, p, right, pi);
     if (pen_.cap == Pen::square) {
       ring.push_back(p + half_ * (right + d));
@@ -118,7 +113,7 @@ class Outliner {
     if (pen_.cap == Pen::butt) return;
     Ring ring;
     for (const Point& d : {Point{1, 0}, Point{-1, 0}}) {
-      ring.push_back(p + half_ * (-1 * left_of(d)));
+      ring.push_back(p + half_ * (-1 * left(d)));
       cap(ring, p, d);
     }
     rings.push_back(std::move(ring));

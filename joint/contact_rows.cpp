@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace ductile::dynamics {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double effective_mass(const System& system, const Joint& j, double arm_a, double arm_b) {
   const auto add = [&](int body, double arm) {
@@ -58,7 +55,7 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
     const bool slid = r.law.G[1] > 0;
     r.law.h = h;
     r.law.G[0] = j.G[0] = contact_ratio * r.m_eff[0];
-    r.law.cap_reverse[0] = infinity;
+    r.law.cap_reverse[0] = unlimited;
     set_friction(j, r, c.friction * c.normal);
     same &= slid == (j.G[1] > 0);
   }

@@ -59,7 +59,7 @@ std::vector<std::string> wrong_in(const RowDef& row) {
   return wrong;
 }
 
-bool is_free(const RowDef& row) { return row.cap == 0 && row.cap_reverse == 0; }
+bool carries_nothing(const RowDef& row) { return row.cap == 0 && row.cap_reverse == 0; }
 constexpr const char* line_rule =
     "a line carries along its axis only; set the shear and rotation rows free()";
 constexpr const char* surface_rule = "an interaction curve takes no drive and does not slacken";
@@ -82,7 +82,7 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
     for (const std::string& text : wrong_in(def.rows[i]))
       require(false, std::string(row_names[i]) + " row: " + text);
   }
-  require(!def.line || (is_free(def.rows[shear]) && is_free(def.rows[rotation])), line_rule);
+  require(!def.line || (carries_nothing(def.rows[shear]) && carries_nothing(def.rows[rotation])), line_rule);
   require(!std::isnan(def.length) && !std::isinf(def.length), "length must be finite (below 0: as it is)");
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
@@ -188,7 +188,7 @@ void ElasticPlasticJoint::require(Row row, const RowDef& to) const {
   };
   if (const auto wrong = wrong_in(to); !wrong.empty())
     refuse(std::string(row_names[row]) + " row: " + wrong.front());
-  if (row_state().frame.line && row != axial && !is_free(to)) refuse(line_rule);
+  if (row_state().frame.line && row != axial && !carries_nothing(to)) refuse(line_rule);
   if (record().material.surface != nullptr && to.drive) refuse(surface_rule);
 }
 

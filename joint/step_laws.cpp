@@ -15,7 +15,7 @@ namespace {
 constexpr double turn_guard = 10;   // δ per rad that a body turns in a step
 constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
-constexpr double hold_time = 0.5;  // s that δ is kept beyond its need
+constexpr double delta_time = 0.5;  // s that δ is kept beyond its need
 
 // What a row is strained beyond what its force tells, m or rad.
 double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
@@ -108,7 +108,7 @@ double StepLaws::delta_for(const System& system, double h) {
   delta = std::min(delta, 1.0);
   if (h == h_ && delta <= delta_ && delta_ > least_delta) {
     unneeded_ = delta > delta_ / 3 ? 0 : unneeded_ + h;
-    if (unneeded_ < hold_time) return delta_;
+    if (unneeded_ < delta_time) return delta_;
   }
   unneeded_ = 0;
   return delta;

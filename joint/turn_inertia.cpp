@@ -8,7 +8,7 @@ namespace ductile::dynamics {
 namespace {
 
 constexpr double safety = 2;       // s
-constexpr double hold_time = 0.5;  // s that inertia is kept beyond its need
+constexpr double kept_time = 0.5;  // s that inertia is kept beyond its need
 
 // C of the joint for its last impulses.
 double needed(const System& system, const Joint& j, double h) {
@@ -56,7 +56,7 @@ bool follow_tension(System& system, double h) {
     }
     t.highest = std::max(t.highest, need);
     t.unneeded += h;
-    if (t.unneeded < hold_time) continue;
+    if (t.unneeded < kept_time) continue;
     if (t.highest < t.inertia / 2) {
       t.inertia = t.highest;
       changed = true;

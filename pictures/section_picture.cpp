@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ductile/picture.h"
+#include "ductile/plane.h"
 #include "svg.h"
 
 namespace ductile {
@@ -14,9 +15,7 @@ namespace {
 using namespace picture;
 
 constexpr Colour tension{0x2b, 0x7b, 0xba}, compression{0xe0, 0x8a, 0x1e};
-constexpr double footer = 52, side = 420;  // px, of both squares
-
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+constexpr double legend_height = 52, side = 420;  // px, of both squares
 
 /// Towards white, as the stress is below the greatest one in the section.
 std::string shade(Colour c, double stress, double greatest) {
@@ -177,7 +176,7 @@ void draw_interaction(Node to, const Section& section, Point direction, Point co
 std::string section_svg(const Section& section, Point direction, const std::string& title) {
   const double length = std::hypot(direction.x, direction.y);
   const Point d{direction.x / length, direction.y / length};
-  const double width = 2 * margin + 2 * side + 20, height = header + side + footer;
+  const double width = 2 * margin + 2 * side + 20, height = header + side + legend_height;
   const Elastic elastic = section.elastic(d);
   const std::string words = fmt::format("{} region{}, {:.4g} m²{}", section.regions().size(),
                                         section.regions().size() == 1 ? "" : "s", section.area(),

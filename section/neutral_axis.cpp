@@ -12,7 +12,7 @@
 
 namespace ductile {
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double eps = std::numeric_limits<double>::epsilon();
 
 template <class Real>
 struct Root {
@@ -24,10 +24,10 @@ struct Root {
 template <class Real>
 Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start) {
   constexpr bool is_double = std::is_same_v<Real, double>;
-  const double ulp = (is_double ? epsilon : epsilon * epsilon) * boundary.radius;
+  const double ulp = (is_double ? eps : eps * eps) * boundary.radius;
   // N: what rounding of the coordinates as given may do to G. Two parts of equal strength with a gap between
   // them are meant to be equal when they differ by no more.
-  const double rounding = 2 * epsilon * boundary.reach * boundary.magnitude;
+  const double rounding = 2 * eps * boundary.reach * boundary.magnitude;
   const auto is_gap = [&](const Cut<Real>& cut) {
     return !cut.inside && std::isfinite(cut.below) && std::isfinite(cut.above) &&
            std::abs(to_double(cut.difference - target)) <= rounding;
@@ -61,7 +61,7 @@ Root<Real> search(const Boundary& boundary, Vec<Real> d, Real target, Real start
       const Real s = s0 + Real(t);
       const Real F = here.moment - (here.difference - Real((c + here.chord_slope * t / 3) * t)) * Real(t);
       // Near a vertex the root may be the rim of a gap.
-      const double near = std::min(rounding / (2 * c), boundary.radius) + 4 * epsilon * boundary.radius;
+      const double near = std::min(rounding / (2 * c), boundary.radius) + 4 * eps * boundary.radius;
       if (here.above - t <= near || here.below + t <= near) {
         for (const double side : {4 * near, -4 * near}) {
           const Cut<Real> probe = cut<Real>(boundary, d, s + Real(side));

@@ -23,7 +23,7 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with, bool
     : stepping(with),
       plan_(std::move(plan)),
       solver_(solver),
-      world_({static_cast<float>(plan_.gravity.x), static_cast<float>(plan_.gravity.y)}),
+      world_(to_box2d(plan_.gravity)),
       goodbye_(*this) {
   world_.SetAllowSleeping(plan_.sleep);
   world_.SetDestructionListener(&goodbye_);

@@ -65,7 +65,6 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
   const char* what = options.fixed_gravity ? "the loads, gravity as it is" : "the loads and gravity";
   std::string text;
   if (is_displaced_only(plan, options)) {
-    what = "the displacements";
     text = options.scene.name + ": nothing but supports moves\n";
   } else if (found.limit.load_factor == unlimited) {
     text = fmt::format("{}: no multiple of {} collapses it\n", options.scene.name, what);

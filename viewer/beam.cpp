@@ -22,7 +22,7 @@ std::optional<Axis> axis_of(const BodyDef& body) {
   const Ring beam{{0, -half}, {span, -half}, {span, half}, {0, half}};
   if (!(half > 0 && span > 0) || !std::equal(ring.begin(), ring.end(), beam.begin(), is_same))
     return std::nullopt;
-  return Axis{body.at, body.at + Turn(body.angle) * Point{span, 0}};
+  return Axis{body.at, body.at + Rotation(body.angle) * Point{span, 0}};
 }
 
 namespace {
@@ -78,7 +78,7 @@ bool passes(const BodyDef& body, Point at) {
 }
 
 bool covers(const BodyDef& body, Point at) {
-  const Point local = Turn(body.angle).back(at - body.at);
+  const Point local = Rotation(body.angle).inverse(at - body.at);
   if (body.circle > 0) return length(local) <= body.circle + node_size;
   bool inside = false;  // an odd number of edges is above the point
   const auto cross = [&](const Ring& ring) {

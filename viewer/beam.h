@@ -16,10 +16,10 @@ inline bool is_same(Point a, Point b) { return length(a - b) < node_size; }
 /// A straight line, as of the middles of a bar's ends, m.
 struct Axis {
   Point from, to;
-  double length() const { return viewer::length(to - from); }
+  double length() const { return ductile::length(to - from); }
   /// The point of it that is nearest to another.
   Point nearest(Point p) const;
-  double distance(Point p) const { return viewer::length(p - nearest(p)); }
+  double distance(Point p) const { return ductile::length(p - nearest(p)); }
   bool ends_at(Point p) const { return is_same(from, p) || is_same(to, p); }
 };
 

@@ -15,8 +15,6 @@
 namespace ductile::viewer {
 namespace {
 
-float f(double value) { return static_cast<float>(value); }
-
 /// What all but a fiftieth of the values keep below: the largest ones are impacts.
 double usual(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -100,7 +98,7 @@ void Canvas::pieces() {
     // Black outlines would be all that is seen of what is only a few pixels high.
     const double dark = std::clamp(skin.thickness * camera_.scale / (8 * ui_), 0.25, 1.);
     const ImU32 edge = IM_COL32(0x1b, 0x20, 0x27, static_cast<int>(255 * dark));
-    const Turn turn(now.angle);
+    const Rotation turn(now.angle);
     const Point centre = camera_.to_screen(now.position);
     if (const double radius = bench_->plan().pieces[i].circle * camera_.scale; radius > 0) {
       const Point rim = turn * Point{radius, 0};
@@ -135,7 +133,7 @@ void Canvas::thrown() {
   const std::vector<act::Throw> list = bench_->run().thrown();
   const Frame& frame = bench_->frame();
   for (std::size_t i = 0; i < frame.thrown.size(); ++i) {
-    const Turn turn(frame.thrown[i].angle);
+    const Rotation turn(frame.thrown[i].angle);
     const Point centre = frame.thrown[i].position;
     const double half = list[i].size / 2;
     constexpr ImU32 fill = IM_COL32(0x4d, 0x56, 0x61, 255);
@@ -228,7 +226,7 @@ void Canvas::forces() {
       to_->PathStroke(ink::moment, 0, f(1.5 * ui_));
       // Counter-clockwise for M > 0: on a screen whose y runs down towards smaller angles.
       const double sense = joint.M > 0 ? -1 : 1;
-      const Point end = at + radius * (Turn(along + sense * quarter) * Point{1, 0});
+      const Point end = at + radius * (Rotation(along + sense * quarter) * Point{1, 0});
       const Point tangent = sense * left(1 / radius * (end - at));
       arrow(*to_, end - 2 * ui_ * tangent, end + 5 * ui_ * tangent, ink::moment, 1.5 * ui_);
     }

@@ -35,9 +35,13 @@ void Desk::draw_grid(ImDrawList& to) const {
               high = camera_.to_world({camera_.screen.high.x, camera_.screen.low.y});
   const double grid = maker_.grid;
   if (grid * camera_.scale < 8 * ui_) return;
-  for (double x = grid * std::ceil(low.x / grid); x <= high.x; x += grid) {
-    for (double y = grid * std::ceil(low.y / grid); y <= high.y; y += grid) {
-      to.AddCircleFilled(px(camera_.to_screen({x, y})), static_cast<float>(ui_), ink::line, 4);
+  const Point first{grid * std::ceil(low.x / grid), grid * std::ceil(low.y / grid)};
+  const int columns = static_cast<int>((high.x - first.x) / grid) + 1,
+            rows = static_cast<int>((high.y - first.y) / grid) + 1;
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const Point node = first + grid * Point{static_cast<double>(i), static_cast<double>(j)};
+      to.AddCircleFilled(px(camera_.to_screen(node)), f(ui_), ink::line, 4);
     }
   }
 }
@@ -51,7 +55,7 @@ void Desk::draw_chosen(ImDrawList& to) const {
                    ink::accent, 0, width);
     }
     for (const Point p : body.outline.outer)
-      to.PathLineTo(px(camera_.to_screen(body.at + Turn(body.angle) * p)));
+      to.PathLineTo(px(camera_.to_screen(body.at + Rotation(body.angle) * p)));
     to.PathStroke(ink::accent, ImDrawFlags_Closed, width);
   }
   const Point cursor = camera_.to_screen(maker_.cursor());

@@ -37,7 +37,7 @@ Frame see(Simulation& simulation) {
 Point carried(const Plan& plan, int piece, Point at, const Frame& frame) {
   if (piece < 0) return at;
   const auto i = static_cast<std::size_t>(piece);
-  return frame.pieces[i].position + Turn(frame.pieces[i].angle) * (at - plan.pieces[i].center);
+  return frame.pieces[i].position + Rotation(frame.pieces[i].angle) * (at - plan.pieces[i].center);
 }
 
 Placed place(const Plan& plan, std::size_t joint, const Frame& frame) {
@@ -60,7 +60,7 @@ Placed place(const Plan& plan, std::size_t joint, const Frame& frame) {
   const Point b = carried(plan, planned.b, planned.far_anchor(), frame);
   const double apart = length(b - a);
   if (planned.end && apart > 0) return {0.5 * (a + b), (1 / apart) * (b - a)};
-  return {0.5 * (a + b), Turn(turn) * planned.axis};
+  return {0.5 * (a + b), Rotation(turn) * planned.axis};
 }
 
 }  // namespace ductile::viewer

@@ -36,7 +36,7 @@ Hand::Throwing Hand::suited(const Plan& plan) {
   const Point box = extent(plan).size();
   const double length = std::max(box.x, box.y);
   // Twice what a fall over the whole scene ends with, on earth where there is no gravity.
-  const double g = viewer::length(plan.gravity);
+  const double g = ductile::length(plan.gravity);
   return {.mass = round_number(0.1 * moving),
           .size = round_number(0.05 * length),
           .speed = round_number(2 * std::sqrt(2 * (g > 0 ? g : 9.81) * length))};

@@ -10,6 +10,7 @@
 
 namespace ductile::viewer {
 
+inline float f(double value) { return static_cast<float>(value); }
 inline ImVec2 px(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 inline Point point(ImVec2 p) { return {p.x, p.y}; }
 constexpr ImU32 rgb(Colour c, std::uint8_t alpha = 255) { return IM_COL32(c.red, c.green, c.blue, alpha); }

@@ -19,7 +19,7 @@ Box box_of(const BodyDef& body) {
     box.add(body.at - Point{body.circle, body.circle});
     box.add(body.at + Point{body.circle, body.circle});
   } else {
-    for (const Point p : body.outline.outer) box.add(body.at + Turn(body.angle) * p);
+    for (const Point p : body.outline.outer) box.add(body.at + Rotation(body.angle) * p);
   }
   return box;
 }
@@ -69,7 +69,7 @@ void begin_at_end(BodyDef& beam, double length) {
   std::rotate(beam.outline.outer.begin(), beam.outline.outer.begin() + 2, beam.outline.outer.end());
   if (beam.along[0] != beam.along[1]) std::for_each(beam.along.begin(), beam.along.end(), shift);
   for (auto& cut : beam.cuts) std::for_each(cut.begin(), cut.end(), shift);
-  beam.at = beam.at + Turn(beam.angle) * Point{-length, 0};
+  beam.at = beam.at + Rotation(beam.angle) * Point{-length, 0};
 }
 
 /// Positive M turns b counter-clockwise against a: in a mirror, clockwise.

@@ -59,7 +59,8 @@ std::vector<std::size_t> joints_from(const Frame& frame, double least) {
 std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point at) {
   for (std::size_t i = plan.pieces.size(); i-- > 0;) {
     const PieceReading& now = frame.pieces[i];
-    if (covers(plan.pieces[i], plan.pieces[i].center + Turn(now.angle).back(at - now.position))) return i;
+    if (covers(plan.pieces[i], plan.pieces[i].center + Rotation(now.angle).inverse(at - now.position)))
+      return i;
   }
   return std::nullopt;
 }
@@ -68,7 +69,7 @@ std::optional<std::size_t> thrown_at(const Timeline& run, Point at) {
   const std::vector<act::Throw> thrown = run.thrown();
   for (std::size_t i = run.frame().thrown.size(); i-- > 0;) {
     const Pose& pose = run.frame().thrown[i];
-    const Point p = Turn(pose.angle).back(at - pose.position);
+    const Point p = Rotation(pose.angle).inverse(at - pose.position);
     const double half = thrown[i].size / 2;
     if (thrown[i].square ? std::max(std::abs(p.x), std::abs(p.y)) <= half : length(p) <= half) return i;
   }

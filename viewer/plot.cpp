@@ -8,8 +8,6 @@
 namespace ductile::viewer {
 namespace {
 
-float f(double value) { return static_cast<float>(value); }
-
 /// Takes its place among the controls; the box, px.
 Box place_for(const char* id, ImVec2 size) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();

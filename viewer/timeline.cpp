@@ -15,8 +15,6 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;  // which Clang 14 does not find by itself
 
-b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
 }  // namespace
 
 Timeline::Timeline(Plan plan, JointSolver solver, std::vector<Entry> acts, std::size_t memory)
@@ -164,21 +162,21 @@ void Timeline::apply(const Act& what) {
             b2MouseJointDef def;
             def.bodyA = hand_;
             def.bodyB = body;
-            def.target = vector(grab.at);
+            def.target = to_box2d(grab.at);
             def.maxForce = static_cast<float>(grab.strength) * body->GetMass();
             b2LinearStiffness(def.stiffness, def.damping, 5, 0.7f, hand_, body);  // as Box2D's testbed
             grip_ = world.CreateJoint(&def);
             body->SetAwake(true);
           },
           [&](const act::Pull& pull) {
-            if (grip_) static_cast<b2MouseJoint*>(grip_)->SetTarget(vector(pull.to));
+            if (grip_) static_cast<b2MouseJoint*>(grip_)->SetTarget(to_box2d(pull.to));
           },
           [&](const act::Release&) { release(); },
           [&](const act::Throw& thrown) {
             b2BodyDef def;
             def.type = b2_dynamicBody;
-            def.position = vector(thrown.at);
-            def.linearVelocity = vector(thrown.velocity);
+            def.position = to_box2d(thrown.at);
+            def.linearVelocity = to_box2d(thrown.velocity);
             def.bullet = true;
             def.allowSleep = plan().sleep;
             const auto half = static_cast<float>(thrown.size / 2);

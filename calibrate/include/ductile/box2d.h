@@ -19,6 +19,9 @@
 
 namespace ductile {
 
+/// The same in Box2D's floats, m.
+inline b2Vec2 to_box2d(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
 // --- definitions; bodyA and bodyB are the caller's to set ---
 
 /// All that the plan knows of the joint; with Plan::interaction, its N–M polygon too.

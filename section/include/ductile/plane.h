@@ -36,7 +36,11 @@ struct Bounds {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  double diagonal() const { return length(high - low); }
+  bool empty() const { return low.x > high.x; }
+  bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+  Point size() const { return high - low; }
+  Point middle() const { return 0.5 * (low + high); }
+  double diagonal() const { return length(size()); }
 };
 inline Bounds bounds_of(std::span<const Point> points) {
   Bounds bounds;
