@@ -714,8 +714,11 @@ class Planner {
     }
     const JointOverrides& own = def.overrides;
     const bool bends = own.moment.value_or(0) > 0 && !own.stiffness_moment && !own.elastic;
-    std::vector<double> gives;
-    for (const int piece : pieces) gives.push_back(bends ? end_gives(piece, *def.at) : 0);
+    std::vector<double> gives(pieces.size());
+    if (bends) {
+      std::transform(pieces.begin(), pieces.end(), gives.begin(),
+                     [&](int piece) { return end_gives(piece, *def.at); });
+    }
     if (pieces.size() > 2 && gives[0] > 0) {
       // What the hub's end bends all others turn by. No joint of theirs can stand for it, but the hub's next
       // can.

@@ -64,6 +64,7 @@ void clear_all(Joint& j, Tag... tag) {
   ((of(j, tag) = 0), ...);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): names of types
 #define DUCTILE_HOLD_STILL(Class)                                                                   \
   void hold_still(Class& j) {                                                                       \
     clear_all(j, Class##_m_invMassA{}, Class##_m_invMassB{}, Class##_m_invIA{}, Class##_m_invIB{}); \
@@ -75,6 +76,7 @@ DUCTILE_HOLD_STILL(b2WheelJoint)
 DUCTILE_HOLD_STILL(b2WeldJoint)
 DUCTILE_HOLD_STILL(b2PulleyJoint)
 #undef DUCTILE_HOLD_STILL
+// NOLINTEND(bugprone-macro-parentheses)
 void hold_still(b2MouseJoint& j) { clear_all(j, b2MouseJoint_m_invMassB{}, b2MouseJoint_m_invIB{}); }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::vector<Point> nodes(const SceneDef& scene) {
 std::string unused_name(const SceneDef& scene, std::string stem) {
   while (!stem.empty() && stem.back() >= '0' && stem.back() <= '9') stem.pop_back();
   for (int number = 1;; ++number) {
-    const std::string name = stem + std::to_string(number);
+    std::string name = stem + std::to_string(number);
     if (!body_named(scene, name)) return name;
   }
 }
