@@ -78,10 +78,10 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
   } else {
     const Pushover& pushover = found.pushover;
     text += buckling_line(true, found.critical.factor);
-    text += pushover.load_factor < unlimited
-                ? fmt::format(", collapses at {:.6g} times, after\n", pushover.load_factor)
-            : pushover.hinges.empty() ? ", does not collapse\n"
-                                      : ", does not collapse, after\n";
+    const bool collapses = pushover.load_factor < unlimited;
+    text += collapses ? fmt::format(", collapses at {:.6g} times", pushover.load_factor)
+                      : std::string(", does not collapse");
+    text += !pushover.hinges.empty() ? ", after\n" : collapses ? ", before any hinge\n" : "\n";
     for (const Reached& hinge : pushover.hinges)
       text += fmt::format("  {} at {:.6g}\n", joint_name(plan, hinge.joint), hinge.factor);
     for (const std::size_t i : moved_supports(plan)) {
