@@ -89,7 +89,8 @@ void hand_back(StockJoint& stock, std::span<const Link> links) {
   const StockRows& rows = stock.rows;
   for (std::size_t k = 0; k < rows.channel_count; ++k) {
     const Channel& c = rows.channels[k];
-    const double impulse = c.sense * links[c.link].impulse[c.row];
+    const Rows& from = links[c.link].impulse;
+    const double impulse = c.sense[0] * from[0] + c.sense[1] * from[1] + c.sense[2] * from[2];
     *c.impulse = static_cast<float>(c.one_sided ? std::max(0.0, impulse) : impulse);
   }
   as_it_is(*stock.joint, [&](auto& j) {

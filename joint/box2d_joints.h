@@ -23,11 +23,11 @@
 
 namespace ductile::dynamics {
 
-/// An impulse that Box2D keeps of a joint, and the row whose impulse is `sense` times it.
+/// An impulse that Box2D keeps of a joint: the sum of `sense` times the impulses of a link's rows.
 struct Channel {
   float* impulse = nullptr;
-  unsigned link = 0, row = 0;
-  int sense = 1;
+  unsigned link = 0;
+  Rows sense{};
   bool one_sided = false;  // Box2D's is ≥ 0
 };
 

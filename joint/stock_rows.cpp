@@ -116,12 +116,19 @@ class Draft {
     }
     tell(upper_impulse, row, 1, true);
   }
-  /// The impulse that Box2D keeps of the last link's row.
+  /// The impulse that Box2D keeps of the last link's row, or of some of them.
   void tell(float& impulse, unsigned row, int sense, bool one_sided = false) {
-    const auto link = static_cast<unsigned>(rows.count - 1);
-    rows.channels[rows.channel_count++] = {&impulse, link, row, sense, one_sided};
-    rows.links[link].impulse[row] += sense * double{impulse};
+    Rows of_row{};
+    of_row[row] = sense;
+    tell(impulse, of_row, one_sided);
   }
+  void tell(float& impulse, const Rows& sense, bool one_sided = false) {
+    const auto link = static_cast<unsigned>(rows.count - 1);
+    rows.channels[rows.channel_count++] = {&impulse, link, sense, one_sided};
+    for (unsigned i = 0; i < 3; ++i) rows.links[link].impulse[i] += sense[i] * double{impulse};
+  }
+
+  double h() const { return h_; }
 
   StockRows rows;
   Rows gap{};
@@ -230,18 +237,33 @@ void draft(b2WeldJoint& j, const Places& at, Draft& d) {
   d.tell(impulse.z, rotation, -1);
 }
 
-// From target to anchor, in world axes. A is not pulled.
+// Along and across what the spring asks for, in which direction the force is that Box2D limits. A is not
+// pulled.
 void draft(b2MouseJoint& j, const Places& at, Draft& d) {
   Place target;
   put(target, {double{j.GetTarget().x} - at.origin.x, double{j.GetTarget().y} - at.origin.y, 0});
-  d.locate(target, at.b, {}, arm(j.GetBodyB(), of(j, b2MouseJoint_m_localAnchorB{})), {});
+  const Arm held = arm(j.GetBodyB(), of(j, b2MouseJoint_m_localAnchorB{}));
+  d.locate(target, at.b, {}, held, {});
+  const b2Vec2 moves = j.GetBodyB()->GetLinearVelocityFromWorldPoint(j.GetAnchorB());
+  const double k = j.GetStiffness(), c = j.GetDamping();
+  const double x = k * d.gap[axial] + c * moves.x, y = k * d.gap[shear] + c * moves.y;
+  const double length = std::sqrt(x * x + y * y);
+  const Turn pull = length > 0 ? Turn{x / length, y / length} : Turn{};
+  d.rows.count = 0;
+  d.locate(target, at.b, {}, held, pull);
   Jacobian& J = d.rows.links[0].J;
   J.axis_a = {0, 0};
   J.au = J.av = 0;
-  for (const unsigned row : {axial, shear})
-    d.spring(row, d.gap[row], j.GetStiffness(), j.GetDamping(), j.GetMaxForce());
-  d.tell(of(j, b2MouseJoint_m_impulse{}).x, axial, -1);
-  d.tell(of(j, b2MouseJoint_m_impulse{}).y, shear, -1);
+  // The caps of both rows together are the force's. Where that may be all that is allowed, it is along the
+  // pull but for what the step changes in that.
+  b2Vec2& impulse = of(j, b2MouseJoint_m_impulse{});
+  const double most = j.GetMaxForce(), half = std::sqrt(0.5);
+  const bool at_most = std::max(length, impulse.Length() / d.h()) > half * most;
+  const double across = at_most ? 0.04 : half;
+  d.spring(axial, d.gap[axial], k, c, std::sqrt(1 - across * across) * most);
+  d.spring(shear, d.gap[shear], k, c, across * most);
+  d.tell(impulse.x, Rows{-pull.c, pull.s, 0});
+  d.tell(impulse.y, Rows{-pull.s, -pull.c, 0});
 }
 
 // The way from the ground's anchors over both bodies, length A + ratio · length B, is one row.

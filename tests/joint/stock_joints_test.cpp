@@ -308,6 +308,32 @@ TEST(StockMice, LiftWithNoMoreThanTheirForce) {
   }
 }
 
+// In all directions: momentum is force times time.
+TEST(StockMice, PullAlike) {
+  for (const double angle : {0.0, 0.3, 0.785, 1.2, 2.5, -2.0}) {
+    Deck deck;
+    deck.world.SetGravity({0, 0});
+    const double most = 1000;
+    b2MouseJointDef def;
+    def.bodyA = deck.ground;
+    def.bodyB = deck.pieces[6];
+    def.target = vec(Deck::length / 2, 0);
+    def.maxForce = static_cast<float>(most);
+    b2LinearStiffness(def.stiffness, def.damping, 5, 0.7f, def.bodyA, def.bodyB);
+    auto* mouse = static_cast<b2MouseJoint*>(deck.hold(def));
+    mouse->SetTarget(vec(Deck::length / 2 + 90 * std::cos(angle), 90 * std::sin(angle)));
+    deck.run(1);
+    double x = 0, y = 0;
+    for (const b2Body* piece : deck.pieces) {
+      x += piece->GetMass() * double{piece->GetLinearVelocity().x};
+      y += piece->GetMass() * double{piece->GetLinearVelocity().y};
+    }
+    EXPECT_NEAR(x, most * std::cos(angle), 0.01 * most) << angle;
+    EXPECT_NEAR(y, most * std::sin(angle), 0.01 * most) << angle;
+    EXPECT_NEAR(mouse->GetReactionForce(60).Length(), most, 1e-3 * most);
+  }
+}
+
 // A table that a stock slider with a motor lifts: held at its own end.
 TEST(StockSliders, LiftADeck) {
   Deck deck;
