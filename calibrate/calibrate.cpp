@@ -74,8 +74,7 @@ class Check {
     for (std::size_t i = 0; i < s.joints.size(); ++i) {
       const JointBetweenDef& j = s.joints[i];
       const std::string place = "joint " + std::to_string(i);
-      std::vector<std::string> all{j.a, j.b};
-      all.insert(all.end(), j.others.begin(), j.others.end());
+      const std::vector<std::string> all = j.bodies();
       for (const std::string& name : all) known(name, place);
       for (std::size_t k = 1; k < all.size(); ++k)
         if (std::find(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k), all[k]) - all.begin() <
@@ -706,9 +705,7 @@ class Planner {
   // The first body's piece is the hub.
   void join_at(const JointBetweenDef& def, int node) {
     std::vector<int> pieces;
-    std::vector<std::string> names{def.a, def.b};
-    names.insert(names.end(), def.others.begin(), def.others.end());
-    for (const std::string& name : names) {
+    for (const std::string& name : def.bodies()) {
       const int piece = pieces.emplace_back(nearest_piece(name, *def.at));
       require_near(piece, *def.at, node - 1);
     }

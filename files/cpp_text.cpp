@@ -149,6 +149,15 @@ constexpr const char* joint_tool = R"(
 
 }  // namespace
 
+std::string function_name(const std::string& scene) {
+  std::string name = "build_" + scene;
+  const auto in_no_name = [](char c) {
+    return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'));
+  };
+  std::replace_if(name.begin(), name.end(), in_no_name, '_');
+  return name;
+}
+
 std::string cpp_text(const Plan& plan, const std::string& function) {
   BuiltPlan built(plan);
   constexpr const char* types[] = {"b2_staticBody", "b2_kinematicBody", "b2_dynamicBody"};

@@ -360,15 +360,6 @@ std::vector<Outline> outlines(std::vector<Ring> rings) {
   std::vector<Bounds> boxes;
   std::sort(rings.begin(), rings.end(),
             [](const Ring& a, const Ring& b) { return doubled_area_of(a) > doubled_area_of(b); });
-  const auto around = [](const Ring& ring, const Point& p) {
-    bool inside = false;
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const Point &a = ring[j], &b = ring[i];
-      if ((a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)))
-        inside = !inside;
-    }
-    return inside;
-  };
   for (Ring& ring : rings) {
     if (doubled_area_of(ring) > 0) {
       boxes.push_back(bounds_of(ring));
@@ -379,7 +370,7 @@ std::vector<Outline> outlines(std::vector<Ring> rings) {
     // around it is the hole's.
     const Point p = 0.5 * (ring[0] + ring[1]);
     for (std::size_t i = areas.size(); i-- > 0;) {
-      if (!boxes[i].contains(p) || !around(areas[i].outer, p)) continue;
+      if (!boxes[i].contains(p) || !contains(areas[i].outer, p)) continue;
       areas[i].holes.push_back(std::move(ring));
       break;
     }

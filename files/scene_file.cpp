@@ -395,6 +395,11 @@ SceneDef parse_scene(std::string_view text, const std::string& name, const fs::p
   return scene;
 }
 
+std::string scene_name(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  return name.substr(0, name.find('.'));
+}
+
 SceneDef read_scene(const fs::path& file) {
   return parse_scene(read_text(file), file.string(), file.parent_path());
 }

@@ -67,14 +67,16 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
   }
 }
 
+std::size_t IslandContacts::place_of(const b2Body& body) {
+  return static_cast<std::size_t>(of(body, b2Body_m_islandIndex{}));
+}
+
 void IslandContacts::begin(const b2World& world) {
   marks_.assign(static_cast<std::size_t>(world.GetBodyCount()), unknown);
   front_.clear();
 }
 
-IslandContacts::Mark& IslandContacts::mark(const b2Body& body) {
-  return marks_[static_cast<std::size_t>(of(body, b2Body_m_islandIndex{}))];
-}
+IslandContacts::Mark& IslandContacts::mark(const b2Body& body) { return marks_[place_of(body)]; }
 
 void IslandContacts::reach(b2Body& body) {
   if (body.GetType() != b2_dynamicBody || mark(body) != unknown) return;
@@ -83,7 +85,7 @@ void IslandContacts::reach(b2Body& body) {
 }
 
 bool IslandContacts::is_followed(const b2Body& body) const {
-  return body.GetType() == b2_dynamicBody && const_cast<IslandContacts*>(this)->mark(body) == followed;
+  return body.GetType() == b2_dynamicBody && marks_[place_of(body)] == followed;
 }
 
 bool share_a_neighbour(const b2Body& a, const b2Body& b) {

@@ -79,6 +79,7 @@ class IslandContacts {
   static constexpr std::size_t few = 40;  // points
 
   enum Mark : char { unknown, reached, followed };
+  static std::size_t place_of(const b2Body& body);
   Mark& mark(const b2Body& body);
   template <class Follow>
   void follow_front(const Follow& follow);

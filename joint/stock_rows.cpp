@@ -1,7 +1,6 @@
 // Box2D's joints as rows, each as its own source has them.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "box2d_joints.h"
 #include "kinematics.h"
@@ -33,8 +32,6 @@ DUCTILE_REVEAL(b2PulleyJoint, m_localAnchorA, b2Vec2);
 DUCTILE_REVEAL(b2PulleyJoint, m_localAnchorB, b2Vec2);
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Gaps up to this, m and rad, are closed by the rows; wider ones by Box2D's iterations of positions. In long
 /// steps a rope that is wound up lags behind by more.
@@ -87,15 +84,15 @@ class Draft {
   /// Keeps a gap C at 0.
   void hold(unsigned row, double C) {
     rows.near = rows.near && std::abs(C) <= closable(row, h_);
-    set(row, infinity, closing(row, C) / h_, infinity, infinity);
+    set(row, unlimited, closing(row, C) / h_, unlimited, unlimited);
   }
   /// With no more than so much force or moment.
   void drive(unsigned row, double speed, double most) {
-    set(row, infinity, -speed, h_ * most, h_ * most);
+    set(row, unlimited, -speed, h_ * most, h_ * most);
     rows.links[0].goes_on |= 1u << row;
   }
   /// Box2D's soft constraint: spring and damper at the end of the step.
-  void spring(unsigned row, double C, double stiffness, double damping, double most = infinity) {
+  void spring(unsigned row, double C, double stiffness, double damping, double most = unlimited) {
     const double G = h_ * (damping + h_ * stiffness);
     set(row, G, G > 0 ? C * h_ * stiffness / G : 0, h_ * most, h_ * most);
   }
@@ -110,9 +107,9 @@ class Draft {
     if (upper - lower < 2 * slop[row]) {
       hold(row, (over - under) / 2);
     } else {
-      if (over < out_of_reach[row]) set(row, infinity, way(row, over), 0, infinity);
+      if (over < out_of_reach[row]) set(row, unlimited, way(row, over), 0, unlimited);
       open(J);
-      if (under < out_of_reach[row]) set(row, infinity, -way(row, under), infinity, 0);
+      if (under < out_of_reach[row]) set(row, unlimited, -way(row, under), unlimited, 0);
     }
     tell(upper_impulse, row, 1, true);
   }
@@ -160,40 +157,46 @@ struct Places {
   b2Vec2 origin;
 };
 
+template <class Stock>
+void locate(Draft& d, Stock& j, const Places& at, const Turn& axis, double reference = 0, bool line = false) {
+  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()), axis,
+           reference, line);
+}
+template <class Stock>
+Turn axis_of(const Stock& j) {
+  return {j.GetLocalAxisA().x, j.GetLocalAxisA().y};
+}
+template <class Stock, class Lower, class Upper>
+void limit(Draft& d, Stock& j, unsigned row, Lower lower, Upper upper) {
+  if (j.IsLimitEnabled()) d.limit(row, j.GetLowerLimit(), j.GetUpperLimit(), of(j, lower), of(j, upper));
+}
+
 // World axes.
 void draft(b2RevoluteJoint& j, const Places& at, Draft& d) {
-  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
-           inverse(at.a.turn), j.GetReferenceAngle());
+  locate(d, j, at, inverse(at.a.turn), j.GetReferenceAngle());
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);
   d.tell(of(j, b2RevoluteJoint_m_impulse{}).x, axial, -1);
   d.tell(of(j, b2RevoluteJoint_m_impulse{}).y, shear, -1);
   if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
   d.tell(of(j, b2RevoluteJoint_m_motorImpulse{}), rotation, -1);
-  if (!j.IsLimitEnabled()) return;
-  d.limit(rotation, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2RevoluteJoint_m_lowerImpulse{}),
-          of(j, b2RevoluteJoint_m_upperImpulse{}));
+  limit(d, j, rotation, b2RevoluteJoint_m_lowerImpulse{}, b2RevoluteJoint_m_upperImpulse{});
 }
 
 void draft(b2PrismaticJoint& j, const Places& at, Draft& d) {
-  const b2Vec2 axis = j.GetLocalAxisA();
-  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
-           {axis.x, axis.y}, j.GetReferenceAngle());
+  locate(d, j, at, axis_of(j), j.GetReferenceAngle());
   d.hold(shear, d.gap[shear]);
   d.hold(rotation, d.gap[rotation]);
   d.tell(of(j, b2PrismaticJoint_m_impulse{}).x, shear, -1);
   d.tell(of(j, b2PrismaticJoint_m_impulse{}).y, rotation, -1);
   if (j.IsMotorEnabled()) d.drive(axial, j.GetMotorSpeed(), j.GetMaxMotorForce());
   d.tell(of(j, b2PrismaticJoint_m_motorImpulse{}), axial, -1);
-  if (!j.IsLimitEnabled()) return;
-  d.limit(axial, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2PrismaticJoint_m_lowerImpulse{}),
-          of(j, b2PrismaticJoint_m_upperImpulse{}));
+  limit(d, j, axial, b2PrismaticJoint_m_lowerImpulse{}, b2PrismaticJoint_m_upperImpulse{});
 }
 
 // A rod where its limits are equal; otherwise a spring, if any, within them: a rope.
 void draft(b2DistanceJoint& j, const Places& at, Draft& d) {
-  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()), {}, 0,
-           true);
+  locate(d, j, at, {}, 0, true);
   if (!(d.gap[axial] > 2 * b2_linearSlop)) {  // it has no direction
     d.rows.count = 0;
     return;
@@ -207,23 +210,18 @@ void draft(b2DistanceJoint& j, const Places& at, Draft& d) {
 }
 
 void draft(b2WheelJoint& j, const Places& at, Draft& d) {
-  const b2Vec2 axis = j.GetLocalAxisA();
-  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
-           {axis.x, axis.y});
+  locate(d, j, at, axis_of(j));
   if (j.GetStiffness() > 0) d.spring(axial, d.gap[axial], j.GetStiffness(), j.GetDamping());
   d.tell(of(j, b2WheelJoint_m_springImpulse{}), axial, -1);
   d.hold(shear, d.gap[shear]);
   d.tell(of(j, b2WheelJoint_m_impulse{}), shear, -1);
   if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
   d.tell(of(j, b2WheelJoint_m_motorImpulse{}), rotation, -1);
-  if (!j.IsLimitEnabled()) return;
-  d.limit(axial, j.GetLowerLimit(), j.GetUpperLimit(), of(j, b2WheelJoint_m_lowerImpulse{}),
-          of(j, b2WheelJoint_m_upperImpulse{}));
+  limit(d, j, axial, b2WheelJoint_m_lowerImpulse{}, b2WheelJoint_m_upperImpulse{});
 }
 
 void draft(b2WeldJoint& j, const Places& at, Draft& d) {
-  d.locate(at.a, at.b, arm(j.GetBodyA(), j.GetLocalAnchorA()), arm(j.GetBodyB(), j.GetLocalAnchorB()),
-           inverse(at.a.turn), j.GetReferenceAngle());
+  locate(d, j, at, inverse(at.a.turn), j.GetReferenceAngle());
   b2Vec3& impulse = of(j, b2WeldJoint_m_impulse{});
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);
@@ -303,8 +301,8 @@ StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& 
   for (std::size_t k = 0; k < d.rows.count && !d.rows.near; ++k) {
     Link& link = d.rows.links[k];
     for (unsigned i = 0; i < 3; ++i) {
-      if (link.G[i] != infinity) continue;
-      const bool pulls = link.cap[i] == infinity, pushes = link.cap_reverse[i] == infinity;
+      if (link.G[i] != unlimited) continue;
+      const bool pulls = link.cap[i] == unlimited, pushes = link.cap_reverse[i] == unlimited;
       if (pulls && pushes) link.bias[i] = 0;
       if (pulls != pushes) link.bias[i] = pulls ? std::min(link.bias[i], 0.0) : std::max(link.bias[i], 0.0);
     }

@@ -152,22 +152,11 @@ std::string table(const Plan& plan, const std::string& scene) {
   return text;
 }
 
-/// "scenes/B1-1.scene.json" is made by build_B1_1().
-std::string function_of(const std::string& scene_file) {
-  std::string name = "build_" + std::filesystem::path(scene_file).filename().string();
-  name = name.substr(0, name.find('.'));
-  const auto in_a_name = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  std::replace_if(
-      name.begin(), name.end(), [&](char c) { return !in_a_name(c); }, '_');
-  return name;
-}
-
 std::string definitions_of(const Plan& plan, const Options& options) {
   if (options.to == "box2d") return in_file(options.scene, [&] { return box2d_text(plan); });
   if (options.to == "cpp")
-    return in_file(options.scene, [&] { return cpp_text(plan, function_of(options.scene)); });
+    return in_file(options.scene,
+                   [&] { return cpp_text(plan, function_name(scene_name(options.scene.name))); });
   if (options.to == "rube") {  // a scene of its own keeps what no plan holds
     const std::string text = read_text(options.scene.name);
     const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;

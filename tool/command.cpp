@@ -154,8 +154,7 @@ double ductility(const Material& material) {
 }
 
 std::string title_of(const std::string& scene_file) {
-  std::string name = std::filesystem::path(scene_file).filename().string();
-  name = name.substr(0, name.find('.'));
+  std::string name = scene_name(scene_file);
   std::replace(name.begin(), name.end(), '_', ' ');
   if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return name;

@@ -80,19 +80,14 @@ bool passes(const BodyDef& body, Point at) {
 bool covers(const BodyDef& body, Point at) {
   const Point local = Rotation(body.angle).inverse(at - body.at);
   if (body.circle > 0) return length(local) <= body.circle + node_size;
-  bool inside = false;  // an odd number of edges is above the point
-  const auto cross = [&](const Ring& ring) {
+  const auto is_on = [&](const Ring& ring) {
     for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
-      const Point a = ring[last], b = ring[i];
-      if (Axis{a, b}.distance(local) < node_size) return true;
-      if ((a.y > local.y) != (b.y > local.y) && local.x < a.x + (local.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-        inside = !inside;
-      }
+      if (distance(local, ring[last], ring[i]) < node_size) return true;
     }
     return false;
   };
-  return cross(body.outline.outer) ||
-         std::any_of(body.outline.holes.begin(), body.outline.holes.end(), cross) || inside;
+  const auto& [outer, holes] = body.outline;
+  return is_on(outer) || std::any_of(holes.begin(), holes.end(), is_on) || contains(body.outline, local);
 }
 
 const BodyDef* body_at(const SceneDef& scene, Point at) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "ductile/calibrate.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 
@@ -19,7 +19,7 @@ struct Axis {
   double length() const { return ductile::length(to - from); }
   /// The point of it that is nearest to another.
   Point nearest(Point p) const;
-  double distance(Point p) const { return ductile::length(p - nearest(p)); }
+  double distance(Point p) const { return ductile::distance(p, from, to); }
   bool ends_at(Point p) const { return is_same(from, p) || is_same(to, p); }
 };
 

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 
 struct Camera {
-  Box screen{{0, 0}, {1, 1}};  ///< px, y down: the part of the window that shows the world
-  Point centre;                ///< m: what is in the middle of it
-  double scale = 50;           ///< px per m
+  Bounds screen{{0, 0}, {1, 1}};  ///< px, y down: the part of the window that shows the world
+  Point centre;                   ///< m: what is in the middle of it
+  double scale = 50;              ///< px per m
 
   Point to_screen(Point world) const {
     const Point d = scale * (world - centre), m = screen.middle();
@@ -21,7 +21,7 @@ struct Camera {
     return centre + 1 / scale * Point{d.x, -d.y};
   }
   /// All of a box, with a margin.
-  void show(const Box& world) {
+  void show(const Bounds& world) {
     constexpr double share = 0.78;
     centre = world.middle();
     scale = share * std::min(screen.size().x / std::max(world.size().x, 1e-6),

@@ -32,7 +32,7 @@ double thickness(const Ring& ring) {
   return perimeter > 0 ? 2 * std::abs(area) / perimeter : 0;
 }
 
-bool overlap(const Box& a, const Box& b) {
+bool overlap(const Bounds& a, const Bounds& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
@@ -280,7 +280,7 @@ void Canvas::numbers() {
   std::partial_sort(order.begin(), end, order.end(),
                     [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
   order.erase(end, order.end());
-  std::vector<Box> taken;
+  std::vector<Bounds> taken;
   for (const std::size_t i : order) {
     const JointReading& joint = frame.joints[i];
     std::string text = look_.names ? bench_->plan().joints[i].name : "";
@@ -300,8 +300,8 @@ void Canvas::numbers() {
     if (text.empty()) continue;
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const Point pad{3 * ui_, 2 * ui_}, at = camera_.to_screen(placed_[i].anchor) + ui_ * Point{11, 8};
-    const Box box{at - pad, at + Point{size.x, size.y} + pad};
-    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(box, other); })) {
+    const Bounds box{at - pad, at + Point{size.x, size.y} + pad};
+    if (std::any_of(taken.begin(), taken.end(), [&](const Bounds& other) { return overlap(box, other); })) {
       continue;
     }
     taken.push_back(box);

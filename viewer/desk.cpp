@@ -21,7 +21,7 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_No
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-void place_window(const Box& box) {
+void place_window(const Bounds& box) {
   ImGui::SetNextWindowPos(px(box.low));
   ImGui::SetNextWindowSize(px(box.size()));
 }
@@ -44,9 +44,9 @@ void Desk::draw(Point size, double ui) {
   if (!ImGui::GetIO().WantTextInput) keys();
   centre(camera_.screen);
   time({{0, top}, {size.x, bottom}});
-  const Box below{{0, bottom}, size};
-  if (!narrow_ || !details_) scene(narrow_ ? below : Box{{0, 0}, {left, top}});
-  if (!narrow_ || details_) details(narrow_ ? below : Box{{right, 0}, {size.x, top}});
+  const Bounds below{{0, bottom}, size};
+  if (!narrow_ || !details_) scene(narrow_ ? below : Bounds{{0, 0}, {left, top}});
+  if (!narrow_ || details_) details(narrow_ ? below : Bounds{{right, 0}, {size.x, top}});
   if (!bench_.message.empty()) message();
   if (helping_) help();
 }
@@ -119,7 +119,7 @@ void Desk::save() {
 }
 
 // The scene, and what the pointer does to it.
-void Desk::centre(const Box& box) {
+void Desk::centre(const Bounds& box) {
   place_window(box);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ink::ground);
   ImGui::Begin("scene view", nullptr,
@@ -208,7 +208,7 @@ void Desk::message() {
   if (!open) bench_.message.clear();
 }
 
-void Desk::time(const Box& box) {
+void Desk::time(const Bounds& box) {
   place_window(box);
   ImGui::Begin("time", nullptr, fixed | ImGuiWindowFlags_NoScrollbar);
   const auto gap = static_cast<float>(16 * ui_);

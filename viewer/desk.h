@@ -36,20 +36,20 @@ class Desk {
   const Camera& camera() const { return camera_; }
   const Maker& maker() const { return maker_; }
   /// The box of every control of the last frame, px, by name.
-  const std::map<std::string, Box>& controls() const { return controls_; }
+  const std::map<std::string, Bounds>& controls() const { return controls_; }
 
  private:
   void adopt();  // another scene or plan has come
   void keys();
-  void centre(const Box& box);
-  void scene(const Box& box);
+  void centre(const Bounds& box);
+  void scene(const Bounds& box);
   void run();
   void show();
   void throwing();
-  void time(const Box& box);
+  void time(const Bounds& box);
   void time_slider();
   void panel_buttons();
-  void details(const Box& box);
+  void details(const Bounds& box);
   void joint();
   void joints();
   void edit();
@@ -105,7 +105,7 @@ class Desk {
   std::filesystem::path file_;   // of the scene that is shown
   std::string save_as_, scene_;  // what is typed; what was opened
   std::string profile_filter_;   // what is typed to find one
-  std::map<std::string, Box> controls_;
+  std::map<std::string, Bounds> controls_;
   std::optional<Diagram> diagram_;  // of the joint in focus
   std::size_t diagram_of_ = 0;
   bool edited_ = false;  // by the control that is being dragged

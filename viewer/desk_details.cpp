@@ -59,7 +59,7 @@ std::string cap_of(double positive, double negative, const char* unit) {
 
 }  // namespace
 
-void Desk::details(const Box& box) {
+void Desk::details(const Bounds& box) {
   ImGui::SetNextWindowPos(px(box.low));
   ImGui::SetNextWindowSize(px(box.size()));
   ImGui::Begin("details", nullptr,

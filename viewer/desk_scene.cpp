@@ -14,16 +14,9 @@
 #include <imgui_stdlib.h>  // after imgui.h
 
 namespace ductile::viewer {
-namespace {
+namespace {}  // namespace
 
-std::string scene_name(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  return name.substr(0, name.find('.'));
-}
-
-}  // namespace
-
-void Desk::scene(const Box& box) {
+void Desk::scene(const Bounds& box) {
   ImGui::SetNextWindowPos(px(box.low));
   ImGui::SetNextWindowSize(px(box.size()));
   ImGui::Begin("scene", nullptr,

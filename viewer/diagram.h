@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 

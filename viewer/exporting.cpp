@@ -1,29 +1,19 @@
 #include "exporting.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include "ductile/definitions.h"
+#include "ductile/files.h"
 #include "ductile/picture.h"
 #include "ductile/replay.h"
 
 namespace ductile::viewer {
 namespace {
 
-std::string title(const Workbench& bench) {
-  const std::string name = bench.file().filename().string();
-  return name.substr(0, name.find('.'));
-}
+std::string title(const Workbench& bench) { return scene_name(bench.file()); }
 
-std::string cpp(const Workbench& bench) {
-  std::string function = "build_" + title(bench);
-  const auto in_no_name = [](char c) {
-    return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'));
-  };
-  std::replace_if(function.begin(), function.end(), in_no_name, '_');
-  return cpp_text(bench.plan(), function);
-}
+std::string cpp(const Workbench& bench) { return cpp_text(bench.plan(), function_name(title(bench))); }
 
 std::string picture(const Workbench& bench) {
   Panel panel{.time = bench.frame().time};

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "ductile/ledger.h"
+#include "ductile/plane.h"
 #include "ductile/simulation.h"
-#include "geometry.h"
 
 namespace ductile::viewer {
 

@@ -93,7 +93,7 @@ void Hand::release(Workbench& bench, const Camera& camera, Point px) {
       bench.act(act::Release{});
       break;
     case Doing::boxing: {
-      Box box;
+      Bounds box;
       box.add(from_);
       box.add(now_);
       bench.select(joints_in(bench.plan(), bench.frame(), box), keys_.shift);

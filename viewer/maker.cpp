@@ -189,7 +189,7 @@ void Maker::choose_between(const Workbench& bench, bool add) {
     if (!body) body = body_at(bench.scene(), cursor_);
     if (body) found = {body->name};
   } else {
-    Box box;
+    Bounds box;
     for (const Point p : {*start_, cursor_})
       for (const double margin : {-node_size, node_size}) box.add(p + Point{margin, margin});
     found = bodies_in(bench.scene(), box);

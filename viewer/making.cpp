@@ -154,7 +154,7 @@ SceneDef without_body(SceneDef scene, const std::string& name) {
   std::erase_if(scene.loads, gone);
   std::erase_if(scene.wheels, [&](const WheelDef& w) { return w.chassis == name || w.wheel == name; });
   std::erase_if(scene.joints, [&](JointBetweenDef& joint) {
-    std::vector<std::string> left = bodies_of(joint);
+    std::vector<std::string> left = joint.bodies();
     if (std::erase(left, name) == 0) return false;
     if (joint.line) {
       const bool first = joint.a == name;

@@ -7,7 +7,7 @@
 
 #include "beam.h"
 #include "ductile/calibrate.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 

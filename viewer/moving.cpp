@@ -20,7 +20,7 @@ struct Shift {
 
 template <class F>
 bool any_body(const JointBetweenDef& joint, const F& is) {
-  const std::vector<std::string> names = bodies_of(joint);
+  const std::vector<std::string> names = joint.bodies();
   return std::any_of(names.begin(), names.end(), is);
 }
 

@@ -6,7 +6,7 @@
 #include <imgui.h>
 
 #include "ductile/colours.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 

@@ -10,8 +10,8 @@
 namespace ductile::viewer {
 namespace {
 
-Box box_of(const BodyDef& body) {
-  Box box;
+Bounds box_of(const BodyDef& body) {
+  Bounds box;
   if (const auto axis = axis_of(body)) {
     box.add(axis->from);
     box.add(axis->to);
@@ -84,10 +84,10 @@ void mirror(JointBetweenDef& joint) {
 
 }  // namespace
 
-std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box) {
+std::vector<std::string> bodies_in(const SceneDef& scene, const Bounds& box) {
   std::vector<std::string> names;
   for (const BodyDef& body : scene.bodies) {
-    const Box own = box_of(body);
+    const Bounds own = box_of(body);
     if (box.contains(own.low) && box.contains(own.high)) names.push_back(body.name);
   }
   return names;
@@ -103,7 +103,7 @@ SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names) {
   std::erase_if(part.loads, [&](const LoadDef& l) { return !chosen(l.body); });
   std::erase_if(part.wheels, [&](const WheelDef& w) { return !chosen(w.chassis) || !chosen(w.wheel); });
   std::erase_if(part.joints, [&](JointBetweenDef& joint) {
-    std::vector<std::string> left = bodies_of(joint);
+    std::vector<std::string> left = joint.bodies();
     const auto gone = std::erase_if(left, [&](const std::string& name) { return !chosen(name); });
     if (left.size() < 2 || (gone > 0 && !joint.at)) return true;
     if (gone > 0) set_bodies(joint, left);
@@ -115,9 +115,9 @@ SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names) {
 Point grip_of(const SceneDef& part) {
   std::vector<Point> all = nodes(part);
   if (all.empty()) {
-    Box box;
+    Bounds box;
     for (const BodyDef& body : part.bodies) {
-      const Box own = box_of(body);
+      const Bounds own = box_of(body);
       box.add(own.low);
       box.add(own.high);
     }
@@ -192,7 +192,7 @@ Joined with_part(SceneDef scene, SceneDef part) {
     scene.wheels.push_back(wheel);
   }
   for (JointBetweenDef& joint : part.joints) {
-    std::vector<std::string> held = bodies_of(joint);
+    std::vector<std::string> held = joint.bodies();
     std::for_each(held.begin(), held.end(), rename);
     set_bodies(joint, held);
     const auto same_line = [&](const JointBetweenDef& other) {

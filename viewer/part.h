@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 
 /// The bodies, beams and others, that lie in a box wholly.
-std::vector<std::string> bodies_in(const SceneDef& scene, const Box& box);
+std::vector<std::string> bodies_in(const SceneDef& scene, const Bounds& box);
 
 /// Bodies of those names, with what holds and loads them and what joins them to each other.
 SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names);

@@ -8,22 +8,9 @@
 namespace ductile::viewer {
 namespace {
 
-/// Whether a ray to the right crosses the ring an odd number of times.
-bool inside(const Ring& ring, Point p) {
-  bool odd = false;
-  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
-    const Point a = ring[last], b = ring[i];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-  }
-  return odd;
-}
-
 /// Of a point as it was at t = 0.
 bool covers(const Piece& piece, Point p) {
-  if (piece.circle > 0) return length(p - piece.center) <= piece.circle;
-  return inside(piece.outline.outer, p) &&
-         std::none_of(piece.outline.holes.begin(), piece.outline.holes.end(),
-                      [&](const Ring& hole) { return inside(hole, p); });
+  return piece.circle > 0 ? length(p - piece.center) <= piece.circle : contains(piece.outline, p);
 }
 
 }  // namespace
@@ -40,7 +27,7 @@ std::optional<std::size_t> joint_at(const Plan& plan, const Frame& frame, Point 
   return best;
 }
 
-std::vector<std::size_t> joints_in(const Plan& plan, const Frame& frame, const Box& box) {
+std::vector<std::size_t> joints_in(const Plan& plan, const Frame& frame, const Bounds& box) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     if (box.contains(place(plan, i, frame).anchor)) found.push_back(i);
@@ -76,8 +63,8 @@ std::optional<std::size_t> thrown_at(const Timeline& run, Point at) {
   return std::nullopt;
 }
 
-Box extent(const Plan& plan) {
-  Box moving, all;
+Bounds extent(const Plan& plan) {
+  Bounds moving, all;
   for (const Piece& piece : plan.pieces) {
     const bool moves = plan.bodies[static_cast<std::size_t>(piece.body)].type == BodyType::dynamic_body;
     const auto add = [&](Point p) {

@@ -12,7 +12,7 @@ namespace ductile::viewer {
 std::optional<std::size_t> joint_at(const Plan& plan, const Frame& frame, Point at, double reach);
 
 /// The joints, broken ones too, whose anchors are in a box.
-std::vector<std::size_t> joints_in(const Plan& plan, const Frame& frame, const Box& box);
+std::vector<std::size_t> joints_in(const Plan& plan, const Frame& frame, const Bounds& box);
 
 /// The joints of at least that stage (colours.h).
 std::vector<std::size_t> joints_from(const Frame& frame, double stage);
@@ -24,6 +24,6 @@ std::optional<std::size_t> piece_at(const Plan& plan, const Frame& frame, Point 
 std::optional<std::size_t> thrown_at(const Timeline& run, Point at);
 
 /// The bodies that can move, as they are at t = 0, in a box; where there are none, all of them.
-Box extent(const Plan& plan);
+Bounds extent(const Plan& plan);
 
 }  // namespace ductile::viewer

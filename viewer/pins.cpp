@@ -8,12 +8,6 @@
 
 namespace ductile::viewer {
 
-std::vector<std::string> bodies_of(const JointBetweenDef& joint) {
-  std::vector<std::string> names{joint.a, joint.b};
-  names.insert(names.end(), joint.others.begin(), joint.others.end());
-  return names;
-}
-
 void set_bodies(JointBetweenDef& joint, const std::vector<std::string>& names) {
   joint.a = names[0];
   joint.b = names[1];
@@ -26,7 +20,7 @@ void pin(SceneDef& scene, Point at) {
   std::erase_if(scene.joints, [&](const JointBetweenDef& old) {
     if (!old.at || !is_same(*old.at, at)) return false;
     if (held.empty()) joint = old;
-    for (const std::string& name : bodies_of(old)) held.push_back(name);
+    for (const std::string& name : old.bodies()) held.push_back(name);
     return true;
   });
   std::vector<std::string> names;

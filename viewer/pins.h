@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
-#include "geometry.h"
+#include "ductile/plane.h"
 
 namespace ductile::viewer {
 
-std::vector<std::string> bodies_of(const JointBetweenDef& joint);
-/// `names`: two or more.
+/// Joins these instead: two or more.
 void set_bodies(JointBetweenDef& joint, const std::vector<std::string>& names);
 
 /// The node at a point as it is to be: of the static bodies and the beams there, and of what else it held

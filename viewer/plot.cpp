@@ -9,13 +9,13 @@ namespace ductile::viewer {
 namespace {
 
 /// Takes its place among the controls; the box, px.
-Box place_for(const char* id, ImVec2 size) {
+Bounds place_for(const char* id, ImVec2 size) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, size);
   return {point(corner), point(corner) + point(size)};
 }
 
-void frame_of(const Box& box) {
+void frame_of(const Bounds& box) {
   ImDrawList& to = *ImGui::GetWindowDrawList();
   to.AddRectFilled(px(box.low), px(box.high), ink::ground);
   to.AddRect(px(box.low), px(box.high), ink::line);
@@ -57,7 +57,7 @@ std::optional<long> plot(const char* title, const Timeline& run, const std::vect
     ImGui::PopStyleColor();
   }
   const double used = ImGui::GetItemRectMax().x + 8 * ui;
-  const Box box = place_for(title, size);
+  const Bounds box = place_for(title, size);
   frame_of(box);
   const double start = run.kept(run.first_kept())->time, end = run.kept(run.last_kept())->time;
   const auto width = static_cast<std::size_t>(std::max(1., box.size().x / ui));
@@ -70,7 +70,7 @@ std::optional<long> plot(const char* title, const Timeline& run, const std::vect
       span.add(c.high);
     }
   }
-  const Box inner{box.low + ui * Point{0, 3}, box.high - ui * Point{0, 3}};
+  const Bounds inner{box.low + ui * Point{0, 3}, box.high - ui * Point{0, 3}};
   const auto y = [&](double value) { return inner.high.y - span.share(value) * inner.size().y; };
   const double step = box.size().x / static_cast<double>(width);
   ImDrawList& to = *ImGui::GetWindowDrawList();
@@ -119,7 +119,7 @@ std::optional<long> plot(const char* title, const Timeline& run, const std::vect
 }
 
 void plot_limits(const Diagram& diagram, const Timeline& run, std::size_t joint, ImVec2 size, double ui) {
-  const Box box = place_for("N-M", size);
+  const Bounds box = place_for("N-M", size);
   frame_of(box);
   const JointReading& now = run.frame().joints[joint];
   Span N, M;
@@ -136,7 +136,7 @@ void plot_limits(const Diagram& diagram, const Timeline& run, std::size_t joint,
     }
   }
   const double text = ImGui::GetTextLineHeight();
-  const Box inner{box.low + Point{8 * ui, text + 5 * ui}, box.high - Point{8 * ui, text + 5 * ui}};
+  const Bounds inner{box.low + Point{8 * ui, text + 5 * ui}, box.high - Point{8 * ui, text + 5 * ui}};
   const auto at = [&](double n, double m) {
     return Point{inner.low.x + N.share(n) * inner.size().x, inner.high.y - M.share(m) * inner.size().y};
   };
@@ -170,18 +170,18 @@ void plot_limits(const Diagram& diagram, const Timeline& run, std::size_t joint,
 }
 
 void plot_section(const Diagram& diagram, const JointReading& joint, ImVec2 size, double ui) {
-  const Box box = place_for("section", size);
+  const Bounds box = place_for("section", size);
   frame_of(box);
   const double text = ImGui::GetTextLineHeight();
   if (!diagram.section) {
     write(box.low + ui * Point{4, 2}, ink::faint, "no section");
     return;
   }
-  Box shape;
+  Bounds shape;
   for (const Region& region : diagram.section->regions()) {
     for (const Point& p : region.outline.outer) shape.add(p);
   }
-  const Box inner{box.low + Point{10 * ui, text + 6 * ui}, box.high - Point{10 * ui, text + 6 * ui}};
+  const Bounds inner{box.low + Point{10 * ui, text + 6 * ui}, box.high - Point{10 * ui, text + 6 * ui}};
   // Both directions in one scale, unless that would make a hair of it.
   const Point fit{inner.size().x / shape.size().x, inner.size().y / shape.size().y};
   const double scale = std::min(fit.x, fit.y), thinnest = 12 * ui;

@@ -146,9 +146,9 @@ std::string packed(const std::vector<float>& numbers) {
 }
 
 // What the page shows at first: where things were at the start, and where they went within half of that size.
-viewer::Box seen(const Plan& plan, const std::vector<std::vector<float>>& frames) {
-  const viewer::Box start = viewer::extent(plan);
-  viewer::Box box = start;
+Bounds seen(const Plan& plan, const std::vector<std::vector<float>>& frames) {
+  const Bounds start = viewer::extent(plan);
+  Bounds box = start;
   const double reach = 0.5 * std::max(start.size().x, start.size().y);
   for (const auto& frame : frames) {
     for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
@@ -237,7 +237,7 @@ std::string Replay::page(const std::string& title, const Simulation& simulation)
       moments.push_back(std::abs(double{frame[i + 2]}));
     }
   }
-  const viewer::Box box = seen(plan, frames_);
+  const Bounds box = seen(plan, frames_);
   constexpr std::array solvers{"direct solver", "iterative solver", "stock joints"};
   const Json meta{{"title", title},
                   {"solver", solvers[static_cast<std::size_t>(simulation.solver())]},

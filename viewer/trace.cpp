@@ -30,7 +30,7 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
     broken += joint.broken;
   }
   for (const std::size_t i : bench.selected) selected.push_back(bench.plan().joints[i].name);
-  const Box& view = desk.camera().screen;
+  const Bounds& view = desk.camera().screen;
   const Json state{{"file", bench.file().string()},
                    {"step", bench.run().cursor()},
                    {"last", bench.run().last()},

@@ -16,6 +16,14 @@ namespace {
 
 using Tool = Maker::Tool;
 
+void drag(Maker& maker, Workbench& bench, Tool tool, Point from, Point to) {
+  maker.choose(bench, tool);
+  maker.point(bench, from, 0.1);
+  maker.press(bench);
+  maker.point(bench, to, 0.1);
+  maker.release(bench);
+}
+
 TEST(Maker, DrawsOnTheGridAndFromNodeToNodeInOneEdit) {
   Workbench bench;
   Maker maker;
@@ -81,11 +89,7 @@ TEST(Maker, GivesUpWithoutATrace) {
 TEST(Maker, SaysWhatTheStaticCheckSays) {
   Workbench bench;
   Maker maker;
-  maker.choose(bench, Tool::beam);
-  maker.point(bench, {-2, 3}, 0.1);
-  maker.press(bench);
-  maker.point(bench, {2, 3}, 0.1);
-  maker.release(bench);
+  drag(maker, bench, Tool::beam, {-2, 3}, {2, 3});
   const std::string falls = bench.verdict();
   EXPECT_FALSE(falls.empty());
   maker.choose(bench, Tool::support);
@@ -128,20 +132,13 @@ TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
   Workbench bench;
   Maker maker;
   bench.edit(gate());
-  const auto drag = [&](Tool tool, Point from, Point to) {
-    maker.choose(bench, tool);
-    maker.point(bench, from, 0.1);
-    maker.press(bench);
-    maker.point(bench, to, 0.1);
-    maker.release(bench);
-  };
   maker.choose(bench, Tool::paste);
   maker.press(bench);
   EXPECT_NE(bench.message.find("Nothing is chosen"), std::string::npos);
-  drag(Tool::choose, {-2.5, -0.5}, {2.5, 3.5});
+  drag(maker, bench, Tool::choose, {-2.5, -0.5}, {2.5, 3.5});
   EXPECT_EQ(maker.chosen(bench).size(), 3u);
   EXPECT_TRUE(maker.copy(bench));
-  drag(Tool::paste, {4, 0}, {5, 0});
+  drag(maker, bench, Tool::paste, {4, 0}, {5, 0});
   EXPECT_EQ(bench.scene().bodies.size(), 7u);
   EXPECT_EQ(axis_of(bench.scene().bodies[4])->from.x, 5);
   EXPECT_EQ(maker.chosen(bench).size(), 3u);
@@ -149,11 +146,11 @@ TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
   bench.undo();
   EXPECT_EQ(bench.scene().bodies.size(), 4u);
   bench.redo();
-  drag(Tool::mirror, {5, 0}, {5, 0});  // in its own left post: two more
+  drag(maker, bench, Tool::mirror, {5, 0}, {5, 0});  // in its own left post: two more
   EXPECT_EQ(bench.scene().bodies.size(), 9u);
   bench.undo();
   // All that is chosen goes with the one that is dragged.
-  drag(Tool::move, {7, 3}, {7, 4});  // by a beam, not by a node
+  drag(maker, bench, Tool::move, {7, 3}, {7, 4});  // by a beam, not by a node
   EXPECT_EQ(axis_of(bench.scene().bodies[4])->from.y, 1);
   EXPECT_EQ(axis_of(bench.scene().bodies[6])->to.y, 4);
   bench.undo();
@@ -182,11 +179,7 @@ TEST(Maker, MovesABodyByThePointWhereItIsHeld) {
 TEST(Maker, SnapsToABeamThatTheGridMisses) {
   Workbench bench;
   Maker maker;
-  maker.choose(bench, Tool::beam);
-  maker.point(bench, {-1, 1}, 0.1);
-  maker.press(bench);
-  maker.point(bench, {2, 2}, 0.1);
-  maker.release(bench);
+  drag(maker, bench, Tool::beam, {-1, 1}, {2, 2});
   maker.choose(bench, Tool::load);
   maker.point(bench, {0.25, 1.45}, 0.2);
   EXPECT_NEAR(axis_of(bench.scene().bodies[1])->distance(maker.cursor()), 0, 1e-12);

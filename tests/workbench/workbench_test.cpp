@@ -133,7 +133,7 @@ TEST(Workbench, ADrawingBecomesBodies) {
   ASSERT_EQ(bench.scene().bodies.size(), 3u);
   EXPECT_EQ(bench.scene().bodies[1].name, "a_b") << "names of bodies have no dash";
   EXPECT_EQ(bench.plan().bodies[1].pieces, 8);
-  Box bar;  // 100 of 100 units are 2 m
+  Bounds bar;  // 100 of 100 units are 2 m
   for (const Point& p : bench.scene().bodies[1].outline.outer) bar.add(p);
   EXPECT_NEAR(bar.size().x, 2, 1e-12);
   EXPECT_NEAR(bar.size().y, 0.2, 1e-12);
@@ -143,7 +143,7 @@ TEST(Workbench, ADrawingBecomesBodies) {
   EXPECT_NEAR(bench.frame().pieces.back().position.y, disc, 0.02) << "the lower one rests on the floor";
 
   bench.open(folder.write("e.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" )" + shapes));
-  Box all;
+  Bounds all;
   for (const BodyDef& body : bench.scene().bodies) {
     if (body.type == BodyType::dynamic_body) {
       for (const Point& p : body.outline.outer) all.add(p);
@@ -358,7 +358,7 @@ TEST(Pick, JointsAndPiecesAreFoundWhereTheyAre) {
   EXPECT_EQ(piece_at(plan, run.frame(), {-0.5, 0.5}), 0u);
   EXPECT_EQ(piece_at(plan, run.frame(), {9, 0.9}), 4u);
   EXPECT_FALSE(piece_at(plan, run.frame(), {9, 1.1}));
-  const Box box = extent(plan);
+  const Bounds box = extent(plan);
   EXPECT_NEAR(box.low.x, 0, 1e-9);
   EXPECT_NEAR(box.high.x, 10, 1e-9);
 

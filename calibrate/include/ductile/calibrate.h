@@ -134,6 +134,12 @@ struct JointBetweenDef {
   std::optional<DriveDef> drive;  ///< the row's cap is then that of the drive
 
   bool is_line() const { return line || carries != Carries::both; }
+  /// All that it joins, a first.
+  std::vector<std::string> bodies() const {
+    std::vector<std::string> all{a, b};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 /// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free. Fixed and sprung

@@ -19,6 +19,9 @@ std::string box2d_text(const Plan& plan);
 /// Structure. It needs ductile::joint and no other room.
 std::string cpp_text(const Plan& plan, const std::string& function);
 
+/// What such a function may be called: "build_B1_1" of a scene "B1-1".
+std::string function_name(const std::string& scene);
+
 /// The stock joint that stands for one that yields in bending.
 enum class StockJoint {
   hinge,  ///< revolute, its motor at speed 0 the plastic moment (hinge_def())

@@ -29,6 +29,9 @@ SceneDef read_scene(const std::filesystem::path& file);
 SceneDef parse_scene(std::string_view text, const std::string& name = "scene",
                      const std::filesystem::path& folder = ".");
 
+/// A scene file's name without folder and endings: "B1-1" of scenes/B1-1.scene.json.
+std::string scene_name(const std::filesystem::path& file);
+
 /// The text of a scene file that reads back as `scene`. Drawn outlines become rings, profiles are written in
 /// place.
 std::string scene_text(const SceneDef& scene);

@@ -85,6 +85,11 @@ inline bool contains(const Ring& ring, Point p) {
   }
   return inside;
 }
+/// In the outer ring and in no hole?
+inline bool contains(const Outline& outline, Point p) {
+  return contains(outline.outer, p) && std::none_of(outline.holes.begin(), outline.holes.end(),
+                                                    [p](const Ring& hole) { return contains(hole, p); });
+}
 
 /// For messages: "1.25" and "(1.25, -3)".
 inline std::string to_string(double number) {
