@@ -9,12 +9,12 @@
 // that N and M may take, and q = s_Q / hQ_max. docs/theory/interior_point.md derives the rounds.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "hessian.h"
+#include "interior_caps.h"
+#include "interior_surface.h"
 #include "objective.h"
-#include "weighted_rows.h"
 
 namespace ductile::dynamics {
 
@@ -70,60 +70,33 @@ class InteriorPoint {
   std::size_t bytes() const;
 
  private:
-  /// An inequality p ≥ 0 of a joint, its multiplier z ≥ 0, and what a round changes them by.
-  struct Bound {
-    Row4 a{};              // −∂p/∂(s, t)
-    double hardening = 0;  // η = ∂p/∂z
-    double p = 0, z = 0, dp = 0, dz = 0;
-    double missing = 0;  // what p is short of the function that it stands for: that of a cone is curved
-    double weight = 0;   // √(z / (p + ηz))
-    double aim = 0;      // √(…) times what p is to fall by, for z p to become μ
-    Row4 q{};            // its row of Q: see eliminate()
-  };
-
-  /// The unknowns of one joint.
-  struct Local {
-    Row4 x{}, dx{};                   // (s, t)
-    Row4 lack{};                      // J v + b − s/G − Σ z a, which is to vanish; and −Σ z a on t
-    Row4 root{};                      // roots of the curvature without bounds: 1/√G
-    std::array<Row4, 4> q{};          // its rows of Q
-    double shear = 0;                 // h Q_max; 0: no cone
-    bool on_surface = false;          // bounds are facets, not caps
-    std::size_t first = 0, last = 0;  // of its bounds; a cone is the last
-
-    Rows impulse() const { return {x[0], x[1], x[2]}; }
-  };
-
-  /// How far an iterate is from the minimum, J.
-  struct Distance {
-    double products = 0;  // Σ z p
-    double lack = 0;      // what all that is to vanish adds to the gap
-    double scale = 0;     // |v − v*|²_M + |v|²_M
-    double rounding = 0;  // what the last bits of s make of the gap
-    double gap() const { return products + lack; }
-  };
-
   void start(const System& system);
   void open_friction(System& system);
   bool follow_friction(System& system, double energy, double mu);
-  void enter_caps(const Joint& joint, const JointRecord& record, double energy, Local& local);
-  void enter_surface(const Joint& joint, const RowLaw& law, Local& local);
-  template <class Impulse>
-  double balance(System& system, const Impulse& impulse);
+  double balance(System& system);
   Distance measure(const System& system);
-  double cone_lack(const Joint& joint, const Rows& m_eff, const Local& local) const;
   void factor(System& system, Hessian& hessian);
-  void eliminate(const Joint& joint, Local& local);
-  void eliminate_caps(Local& local);
-  Row4 project(const Local& local, const Row4& y) const;
-  void find_direction(const System& system, const Hessian& hessian, double mu, double second_order);
-  double step_within(double reach) const;
+  Direction find_direction(const System& system, const Hessian& hessian, double mu, double second_order);
   void move(double step);
   double share_without_gain(System& system);
   void finish(System& system, bool reached, Evaluation& at);
 
-  std::vector<Local> locals_;
-  std::vector<Bound> bounds_;
+  template <class Do>
+  void each(const Do& act) {
+    for (std::size_t k = 0; k < caps_.size(); ++k) {
+      if (surface_of_[k] < 0) {
+        act(k, caps_[k]);
+      } else {
+        act(k, surfaces_[z(surface_of_[k])]);
+      }
+    }
+  }
+
+  std::vector<CappedRows> caps_;  // of all joints
+  std::vector<int> surface_of_;   // a joint's, instead of its caps; or -1
+  std::vector<SurfaceRows> surfaces_;
+  std::vector<SurfaceRows::Bound> bounds_;  // of the surfaces
+  std::vector<Rows> impulses_;              // of the joints
   std::vector<Rows> best_;  // from start_from() on where to start, from then on the best so far
   bool start_known_ = false;
   std::vector<Vec3> d_;

@@ -71,6 +71,13 @@ bool Newton::worth_refactoring(const System& system, const Hessian& hessian, con
          hessian.factor_work(system.joints.size());
 }
 
+// What changed its regime in the last round asks for a round of its own: where there are more such rows than
+// rounds left, these would be lost. The first two tell little, as they start from the last step's regimes.
+bool Newton::hands_over(const System& system, const Evaluation& at, const Round& round) const {
+  const int bound = system.contacts.empty() ? tunables.flow_rounds : tunables.contact_rounds;
+  return round.number >= bound || (round.number >= 2 && at.changed > bound - round.number);
+}
+
 // d_ ← −H⁻¹∇f, made conjugate to the last direction: Polak and Ribière's β, not below 0.
 void Newton::preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
                                      Round& round) {
@@ -208,9 +215,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
          round.number < tunables.round_bound;
        ++round.number) {
-    if (round.number >= (system.contacts.empty() ? tunables.flow_rounds : tunables.contact_rounds) &&
-        (at.flows || round.crossed))
-      break;
+    if ((at.flows || round.crossed) && hands_over(system, at, round)) break;
     bool refactor = worth_refactoring(system, hessian, at, round);
     refactor |= hessian.factored() == Factored::nothing || hessian.factored() == Factored::holding ||
                 round.crossed || at.curved;

@@ -71,6 +71,7 @@ class Newton {
   double target(const Evaluation& at) const;
   bool worth_refactoring(const System& system, const Hessian& hessian, const Evaluation& at,
                          const Round& round) const;
+  bool hands_over(const System& system, const Evaluation& at, const Round& round) const;
   void preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
                                Round& round);
   bool search(System& system, const Evaluation& at_one, double slope0, double slope1, bool& short_step);

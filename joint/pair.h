@@ -18,6 +18,7 @@ struct Pair {
 inline Pair operator+(const Pair& a, const Pair& b) { return {{a[0] + b[0], a[1] + b[1]}}; }
 inline Pair operator-(const Pair& a, const Pair& b) { return {{a[0] - b[0], a[1] - b[1]}}; }
 inline Pair operator*(const Pair& a, const Pair& b) { return {{a[0] * b[0], a[1] * b[1]}}; }
+inline Pair operator/(const Pair& a, const Pair& b) { return {{a[0] / b[0], a[1] / b[1]}}; }
 inline Pair operator*(double a, const Pair& b) { return {{a * b[0], a * b[1]}}; }
 #endif
 

@@ -1,0 +1,159 @@
+// The caps of a joint's rows in a round of the interior point method: p = c ∓ s + ηz ≥ 0, z p = μ.
+//
+// Caps couple no rows: what the two of a row make of a change of its impulse is one number,
+//   Δs = D (lack + J Δv + τ⁺ − τ⁻)      1/D = 1/G + z⁺/(p⁺ + ηz⁺) + z⁻/(p⁻ + ηz⁻)      τ = (z p − μ)/(p + ηz)
+//   Δz = ± z/(p + ηz) Δs − τ            Δp = ∓ Δs + η Δz
+// Both caps of a row are one Pair. A cap that is infinite has z = 0, p = `far` and no μ: it takes part in
+// nothing, without being asked for.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "interior_round.h"
+#include "pair.h"
+
+namespace ductile::dynamics {
+
+class CappedRows {
+ public:
+  /// From the impulses s that are drawn within their caps; `inside` and `energy` as in InteriorPoint.
+  void enter(const Joint& joint, const JointRecord& record, const Rows& s, double inside, double energy) {
+    count_ = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      Row& r = rows_[i];
+      r = {};
+      if (!(joint.G[i] > 0)) continue;
+      const double G = joint.G[i], m = record.m_eff[i];
+      const std::array<double, 2> cap{record.law.cap[i], record.law.cap_reverse[i]};
+      // A row that takes one sign only starts with an impulse of the size that may be asked for.
+      const double size = std::min(cap[0] + cap[1], std::abs(s[i]) + std::sqrt(m * energy));
+      const auto margin = [&](double c) { return (1 - inside) * std::max(std::min(c, size), size / 2); };
+      r.s = std::max(std::min(s[i], cap[0] - margin(cap[0])), margin(cap[1]) - cap[1]);
+      r.G = G;
+      r.compliance = 1 / G;
+      r.last_bits = m > 0 ? last_bits(G, m) : 0;
+      // s = F + ηz is the law's share α of G beyond the cap where α G = η/(1 + η/G).
+      const double alpha = record.law.after_yield[i];
+      r.hardening = alpha * G / (1 - alpha);
+      for (int side : {0, 1}) {
+        const double c = cap[static_cast<std::size_t>(side)];
+        if (std::isinf(c)) continue;
+        r.p[side] = side == 0 ? c - r.s : c + r.s;
+        r.counts[side] = 1;
+        ++count_;
+      }
+    }
+  }
+
+  /// z p = μ with p = p₀ + ηz.
+  void centre(double mu) {
+    for (Row& r : rows_) {
+      for (int side : {0, 1}) {
+        if (r.counts[side] == 0) continue;
+        const double p = r.p[side];
+        r.z[side] = 2 * mu / (p + std::sqrt(p * p + 4 * r.hardening * mu));
+        r.p[side] += r.hardening * r.z[side];
+      }
+    }
+  }
+
+  Rows impulse() const { return {rows_[0].s, rows_[1].s, rows_[2].s}; }
+  std::size_t count() const { return count_; }
+  /// What is left to the first cap of the axial row: of a contact, its normal impulse.
+  double left() const { return rows_[0].p[0]; }
+
+  /// The caps of row 1 times `share`, and what it carries. z p does not fall below μ by it.
+  void scale_friction(double share, double mu) {
+    Row& r = rows_[1];
+    r.s *= share;
+    r.p = share * r.p;
+    for (int side : {0, 1}) {
+      const double p = r.p[side], z = r.z[side];
+      if (z * p < mu) r.z[side] = std::max(z, std::min(z / share, mu / p));
+    }
+  }
+
+  /// At x = J v + b.
+  void measure(const Rows& x, Distance& d) {
+    for (unsigned i = 0; i < 3; ++i) {
+      Row& r = rows_[i];
+      const Pair products = r.z * r.p;
+      d.products += products[0] + products[1];
+      if (r.G == 0) continue;
+      r.lack = x[i] - r.s * r.compliance - (r.z[0] - r.z[1]);
+      d.lack += r.G * r.lack * r.lack / 2;
+      d.rounding += r.last_bits * r.s * r.s;
+    }
+  }
+
+  /// D
+  Coupling eliminate() {
+    for (Row& r : rows_) {
+      if (r.G == 0) continue;
+      r.weight = r.z / (r.p + r.hardening * r.z);
+      r.D = 1 / (r.compliance + (r.weight[0] + r.weight[1]));
+    }
+    return {.nn = rows_[0].D, .qq = rows_[1].D, .mm = rows_[2].D};
+  }
+
+  /// Δs where no velocity changes, for z p = μ, with so much of the second-order term Δz Δp of the last
+  /// direction.
+  Rows aim(double mu, double second_order) {
+    Rows ds;
+    for (unsigned i = 0; i < 3; ++i) {
+      Row& r = rows_[i];
+      r.aim = (r.z * r.p + second_order * (r.dz * r.dp) - mu * r.counts) / (r.p + r.hardening * r.z);
+      ds[i] = r.D * (r.lack + (r.aim[0] - r.aim[1]));
+    }
+    return ds;
+  }
+
+  /// The direction, where the rows' velocities change by so much.
+  void direct(const Rows& change, Direction& told) {
+    for (unsigned i = 0; i < 3; ++i) {
+      Row& r = rows_[i];
+      r.ds = r.D * (r.lack + change[i] + (r.aim[0] - r.aim[1]));
+      const Pair along{r.ds, -r.ds};
+      r.dz = r.weight * along - r.aim;
+      r.dp = r.hardening * r.dz - along;
+      for (int side : {0, 1}) told.see(r.p[side], r.z[side], r.dp[side], r.dz[side]);
+    }
+  }
+
+  void move(double step) {
+    for (Row& r : rows_) {
+      r.s += step * r.ds;
+      r.p = r.p + step * r.dp;
+      r.z = r.z + step * r.dz;
+    }
+  }
+
+  /// A row flows where its slip is more than what is left to the cap would strain it.
+  unsigned regime() const {
+    unsigned regime = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      const Row& r = rows_[i];
+      if (r.z[0] * r.G > r.p[0]) regime |= 1u << i;
+      if (r.z[1] * r.G > r.p[1]) regime |= 8u << i;
+    }
+    return regime;
+  }
+
+ private:
+  static constexpr double far = 1e300;
+  struct Row {
+    Pair p{far, far}, z{}, dp{}, dz{};
+    Pair weight{}, aim{};  // z/(p + ηz) and τ
+    Pair counts{};         // 1: there is this cap
+    double s = 0, ds = 0, lack = 0;
+    double D = 0;
+    double G = 0, compliance = 0, hardening = 0;
+    double last_bits = 0;  // times s²: what rounding of s makes of the gap
+  };
+  std::array<Row, 3> rows_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace ductile::dynamics

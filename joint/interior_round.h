@@ -1,0 +1,43 @@
+// What the rows of all joints tell a round of the interior point method: how far it is, and how far it may
+// go.
+#pragma once
+
+#include <limits>
+
+#include "system.h"
+
+namespace ductile::dynamics {
+
+/// How far an iterate is from the minimum, J.
+struct Distance {
+  double products = 0;  // Σ z p
+  double lack = 0;      // what all that is to vanish adds to the gap
+  double rounding = 0;  // what the last bits of s make of the gap
+  double gap() const { return products + lack; }
+};
+
+/// The last bits of s move its row by ε s/m_eff, which the row answers by G: what s² is to be multiplied with
+/// for that to be a gap.
+inline double last_bits(double G, double m_eff) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return 16 * (G > m_eff ? G : m_eff) * (epsilon / m_eff) * (epsilon / m_eff);
+}
+
+/// A direction, bound by bound.
+struct Direction {
+  double nearest = 0;            // 1/step to the first p or z that it brings to 0
+  double change = 0, bends = 0;  // Σ z Δp + p Δz and Σ Δz Δp
+
+  void see(double p, double z, double dp, double dz) {
+    if (-dp > nearest * p) nearest = -dp / p;
+    if (-dz > nearest * z) nearest = -dz / z;
+    change += z * dp + p * dz;
+    bends += dz * dp;
+  }
+  /// The largest step, up to 1, that goes no more than `reach` of the way to a bound.
+  double step_within(double reach) const { return nearest > reach ? reach / nearest : 1; }
+  /// Σ z p after a step.
+  double products(double now, double step) const { return now + step * (change + step * bends); }
+};
+
+}  // namespace ductile::dynamics
