@@ -139,7 +139,7 @@ TEST(Calibrate, AnchorAndAxis) {
   scene.bodies[1].angle = std::numbers::pi / 2;
   scene.bodies[1].at = {5, 3};
   scene.joints.clear();
-  const PlannedJoint& j = calibrate(scene).joints[0];
+  const PlannedJoint j = calibrate(scene).joints[0];
   EXPECT_NEAR(j.anchor.x, 4.5, 1e-14);
   EXPECT_NEAR(j.anchor.y, 13, 1e-14);
   EXPECT_NEAR(j.axis.x, 0, 1e-15);

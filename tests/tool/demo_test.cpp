@@ -71,7 +71,8 @@ TEST(Demo, TheFirstSwellBendsTheJibAndTheSecondBreaksIt) {
 
   const Ran broken = run("simulate " + crane + " --time 6 --json");
   ASSERT_EQ(broken.exit, 0) << broken.err;
-  for (const json& joint : broken.json()["joints"]) {
+  const json after_second = broken.json()["joints"];
+  for (const json& joint : after_second) {
     const bool at_the_hole = joint["name"].get<std::string>().starts_with("jib/6-jib/7");
     EXPECT_EQ(joint["broken"], at_the_hole) << joint["name"];
     if (at_the_hole) {
