@@ -4,6 +4,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "pair.h"
 
@@ -38,40 +40,50 @@ std::vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>
 }
 
 void BlockLdlt::analyse(int n, std::span<const std::pair<int, int>> edges) {
-  // Symbolic elimination: the pattern of column j is its own, and that of all its children in the elimination
-  // tree.
-  std::vector<std::vector<int>> rows(z(n)), children(z(n));
-  for (const auto& [i, j] : edges) rows[z(std::min(i, j))].push_back(std::max(i, j));
-  for (int j = 0; j < n; ++j) {
-    auto& column = rows[z(j)];
-    for (const int child : children[z(j)]) {
-      const auto& below = rows[z(child)];
-      column.insert(column.end(), below.begin() + 1, below.end());
-    }
-    std::sort(column.begin(), column.end());
-    column.erase(std::unique(column.begin(), column.end()), column.end());
-    if (!column.empty()) children[z(column.front())].push_back(j);
-  }
+  // Edges by their lower end, one list after the other.
+  std::vector<int> first(z(n) + 1), above(edges.size());
+  for (const auto& [i, j] : edges) ++first[z(std::min(i, j)) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (const auto& [i, j] : edges) above[z(next[z(std::min(i, j))]++)] = std::max(i, j);
 
+  // Symbolic elimination: the pattern of column j is its own, and that of all its children in the elimination
+  // tree, which are lists, too: the youngest child, and the next older sibling of each column.
+  constexpr int none = -1;
+  std::vector<int> youngest(z(n), none), older(z(n), none), seen(z(n), none);
   column_.assign(z(n) + 1, 0);
   row_.clear();
+  row_.reserve(4 * edges.size());
   for (int j = 0; j < n; ++j) {
-    row_.insert(row_.end(), rows[z(j)].begin(), rows[z(j)].end());
+    const auto take = [&](int row) {
+      if (std::exchange(seen[z(row)], j) != j) row_.push_back(row);
+    };
+    for (int k = first[z(j)]; k < first[z(j) + 1]; ++k) take(above[z(k)]);
+    for (int child = youngest[z(j)]; child != none; child = older[z(child)]) {
+      for (int k = column_[z(child)] + 1; k < column_[z(child) + 1]; ++k) take(row_[z(k)]);
+    }
+    const auto begin = row_.begin() + column_[z(j)];
+    std::sort(begin, row_.end());
     column_[z(j) + 1] = static_cast<int>(row_.size());
+    if (begin != row_.end()) older[z(j)] = std::exchange(youngest[z(*begin)], j);
   }
   lower_.resize(row_.size());
   diagonal_.resize(z(n));
 
-  targets_.clear();
-  std::size_t longest = 0;
+  std::size_t longest = 0, products = 0;
   for (int j = 0; j < n; ++j) {
-    const auto& column = rows[z(j)];
-    longest = std::max(longest, column.size());
-    for (std::size_t p = 0; p < column.size(); ++p) {
-      for (std::size_t q = 0; q < p; ++q) targets_.push_back(slot(column[p], column[q]));
-    }
+    const std::size_t length = z(column_[z(j) + 1] - column_[z(j)]);
+    longest = std::max(longest, length);
+    products += length * (length - std::min<std::size_t>(length, 1)) / 2;
   }
   unscaled_.resize(longest);
+  targets_.clear();
+  targets_.reserve(products);
+  for (int j = 0; j < n; ++j) {
+    for (int p = column_[z(j)]; p < column_[z(j) + 1]; ++p) {
+      for (int q = column_[z(j)]; q < p; ++q) targets_.push_back(slot(row_[z(p)], row_[z(q)]));
+    }
+  }
 }
 
 int BlockLdlt::slot(int i, int j) const {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
 #include <utility>
 
 #include "frames.h"
@@ -17,30 +17,49 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       members(std::move(enlisted_members)),
       met(std::move(touching)),
       kind(solver_kind) {
+  constexpr int unnumbered = std::numeric_limits<int>::max();
+  by_address_.reserve(2 * (members.size() + met.size()));
+  for (const Member* m : members) {
+    by_address_.emplace_back(m->joint->GetBodyA(), unnumbered);
+    by_address_.emplace_back(m->joint->GetBodyB(), unnumbered);
+  }
+  for (const BodyPair& pair : met) {
+    by_address_.emplace_back(pair.a, unnumbered);
+    by_address_.emplace_back(pair.b, unnumbered);
+  }
+  std::sort(by_address_.begin(), by_address_.end());
+  by_address_.erase(std::unique(by_address_.begin(), by_address_.end()), by_address_.end());
+  const auto place = [this](const b2Body* body) {
+    return std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
+  };
+  const auto number = [&](const b2Body* body) -> int& { return place(body)->second; };
+
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
-  std::unordered_map<b2Body*, int> number, degree;
   std::vector<b2Body*> bodies, others;
+  bodies.reserve(by_address_.size());
+  std::vector<int> degree(by_address_.size());
+  const auto count_in = [&](b2Body* body) {
+    if (number(body) != unnumbered) return;
+    std::vector<b2Body*>& where = is_free(body) ? bodies : others;
+    number(body) = static_cast<int>(where.size());
+    where.push_back(body);
+  };
   for (const Member* m : members) {
     for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
-      ++degree[body];
-      if (!number.try_emplace(body, 0).second) continue;
-      (is_free(body) ? bodies : others).push_back(body);
+      ++degree[static_cast<std::size_t>(place(body) - by_address_.begin())];
+      count_in(body);
     }
   }
-  for (const BodyPair& pair : met) {
-    for (b2Body* body : {pair.a, pair.b}) {
-      if (number.try_emplace(body, 0).second) (is_free(body) ? bodies : others).push_back(body);
-    }
-  }
+  for (const BodyPair& pair : met) count_in(pair.a), count_in(pair.b);
   const std::size_t free_bodies = bodies.size();
-  for (std::size_t i = 0; i < free_bodies; ++i) number[bodies[i]] = static_cast<int>(i);
   std::vector<std::pair<int, int>> edges;
+  edges.reserve(members.size() + met.size());
   for (const Member* m : members) {
     b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
-    if (is_free(a) && is_free(b)) edges.emplace_back(number[a], number[b]);
+    if (is_free(a) && is_free(b)) edges.emplace_back(number(a), number(b));
   }
   for (const BodyPair& pair : met) {
-    if (is_free(pair.a) && is_free(pair.b)) edges.emplace_back(number[pair.a], number[pair.b]);
+    if (is_free(pair.a) && is_free(pair.b)) edges.emplace_back(number(pair.a), number(pair.b));
   }
   const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
   std::vector<b2Body*> ordered;
@@ -59,24 +78,22 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   accounts.resize(ordered.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
-    number[body] = static_cast<int>(i);
+    number(body) = static_cast<int>(i);
     Mirror& mirror = mirrors[i];
     mirror.body = body;
     mirror.left = {body->GetWorldCenter(), body->GetAngle()};
     mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
     mirror.exact = in_doubles(mirror.given);
     mirror.type = body->GetType();
-    const auto joined = degree.find(body);
-    mirror.guest = joined == degree.end();
+    const int joined = degree[static_cast<std::size_t>(place(body) - by_address_.begin())];
+    mirror.guest = joined == 0;
     read_mass(i);
     int edges = 0;
     for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
-    mirror.joints = !mirror.guest && edges == joined->second ? body->GetJointList() : nullptr;
+    mirror.joints = !mirror.guest && edges == joined ? body->GetJointList() : nullptr;
     put(solver.places[i], relative(mirror.left));
-    by_address_.emplace_back(body, static_cast<int>(i));
   }
 
-  std::sort(by_address_.begin(), by_address_.end());
   bool held_anew = false;
   const auto remember = [&](std::size_t i, const KnownPose& known) {
     held_anew |= freedom(i, free_bodies) < known.freedom;
@@ -100,8 +117,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     solver.drift_time() = std::max(solver.drift_time(), m.drift_time);
     m.belong_to(this);
     m.index = i;
-    j.a = number[m.joint->GetBodyA()];
-    j.b = number[m.joint->GetBodyB()];
+    j.a = number(m.joint->GetBodyA());
+    j.b = number(m.joint->GetBodyB());
     anchored_ |= z(j.a) >= free_bodies || z(j.b) >= free_bodies;
     if (!m.fresh) {
       remember(z(j.a), m.known[0]);
@@ -114,7 +131,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     j.frame.bx = double{b.x} - from_b.x, j.frame.by = double{b.y} - from_b.y;
   }
   for (const BodyPair& pair : met) {
-    const int a = number[pair.a], b = number[pair.b];
+    const int a = number(pair.a), b = number(pair.b);
     if (z(a) < free_bodies && z(b) < free_bodies) solver.pairs.emplace_back(std::min(a, b), std::max(a, b));
   }
   std::sort(solver.pairs.begin(), solver.pairs.end());

@@ -1,9 +1,9 @@
 // The phases of an island in b2World::Step, and the components that its joints form.
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -96,7 +96,11 @@ void Structure::Impl::form() {
   // Contacts change the order of joints between steps; elimination must not depend on it.
   std::vector<Member*> all = enlisted_;
   std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
-  std::unordered_map<const b2Body*, std::size_t> first_joint;
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> first_joint(static_cast<std::size_t>(world->GetBodyCount()), none);
+  const auto first = [&](const b2Body& body) -> std::size_t& {
+    return first_joint[static_cast<std::size_t>(dynamics::of(body, b2Body_m_islandIndex{}))];
+  };
   std::vector<std::size_t> root(all.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&](std::size_t i) {
@@ -106,7 +110,8 @@ void Structure::Impl::form() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const b2Body* body : {all[i]->joint->GetBodyA(), all[i]->joint->GetBodyB()}) {
       if (!is_free(body)) continue;
-      const std::size_t other = find(first_joint.try_emplace(body, i).first->second), mine = find(i);
+      if (first(*body) == none) first(*body) = i;
+      const std::size_t other = find(first(*body)), mine = find(i);
       root[std::max(other, mine)] = std::min(other, mine);
     }
   }
@@ -117,16 +122,13 @@ void Structure::Impl::form() {
   for (bool again = true; std::exchange(again, false);) {
     for (const BodyPair& pair : pairs) {
       if (!is_free(pair.a) || !is_free(pair.b)) continue;
-      const auto a = first_joint.find(pair.a), b = first_joint.find(pair.b);
-      if (a == first_joint.end() && b == first_joint.end()) continue;
-      if (a == first_joint.end()) {
-        first_joint.emplace(pair.a, b->second);
-        again = true;
-      } else if (b == first_joint.end()) {
-        first_joint.emplace(pair.b, a->second);
+      std::size_t &a = first(*pair.a), &b = first(*pair.b);
+      if (a == none && b == none) continue;
+      if (a == none || b == none) {
+        a = b = std::min(a, b);
         again = true;
       } else {
-        const std::size_t one = find(a->second), other = find(b->second);
+        const std::size_t one = find(a), other = find(b);
         root[std::max(one, other)] = std::min(one, other);
       }
     }
@@ -135,8 +137,9 @@ void Structure::Impl::form() {
   std::vector<std::vector<BodyPair>> touched(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
   for (const BodyPair& pair : pairs) {
-    const auto joint = first_joint.find(is_free(pair.a) ? pair.a : pair.b);
-    if (joint != first_joint.end()) touched[find(joint->second)].push_back(pair);
+    if (!is_free(pair.a) && !is_free(pair.b)) continue;
+    const std::size_t joint = first(is_free(pair.a) ? *pair.a : *pair.b);
+    if (joint != none) touched[find(joint)].push_back(pair);
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
     auto& group = groups[k];

@@ -23,12 +23,14 @@ void Desk::keys() {
       if (key(GLFW_KEY_X)) cut();
       if (key(GLFW_KEY_V)) take(Maker::Tool::paste);
       if (key(GLFW_KEY_M)) take(Maker::Tool::mirror);
+      if (key(GLFW_KEY_T)) take(Maker::Tool::turn);
     }
     if (key(GLFW_KEY_O)) open_named();
     return;
   }
-  if (io.KeyAlt) {  // ctrl + N is a browser's own
+  if (io.KeyAlt) {  // ctrl + N and T are a browser's own
     if (key(GLFW_KEY_N)) start_new();
+    if (bench_.editable() && key(GLFW_KEY_T)) take(Maker::Tool::turn);
     return;
   }
   const bool made = make_keys();
@@ -94,7 +96,7 @@ void Desk::help() {
       Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
       Row{"Enter", "with a tool: what a press and a release do"},
       Row{"Delete", "delete what is chosen or at the cursor, or the body"},
-      Row{"ctrl+C  X  V  M", "copy, cut, paste, mirror what is chosen"},
+      Row{"ctrl+C  X  V  M  T", "copy, cut, paste, mirror, turn what is chosen (alt+T too)"},
       Row{"click", "select a joint (shift: one more), or a body"},
       Row{"drag", "drag a body; from empty ground: select in a box"},
       Row{"ctrl+drag", "select in a box anywhere"},

@@ -35,9 +35,9 @@ constexpr std::array tools{
     ToolButton{Tool::line, "7 line", "tool line",
                "Drag a rope, a strut or a jack from one body to another (7)."},
     ToolButton{Tool::node, "8 weld", "tool node", "On a node: its beams are welded; once more: pinned (8)."},
-    ToolButton{
-        Tool::choose, "9 choose", "tool choose",
-        "Drag a box around bodies, or click on one, to copy, mirror, move or delete them; shift: more (9)."}};
+    ToolButton{Tool::choose, "9 choose", "tool choose",
+               "Drag a box around bodies, or click on one, to copy, mirror, turn, move or delete them; "
+               "shift: more (9)."}};
 
 }  // namespace
 
@@ -57,6 +57,7 @@ void Desk::make() {
                                 [this](const ToolButton& t) { return t.tool == maker_.tool(); });
   ImGui::TextWrapped("%s", now != tools.end()              ? now->text
                            : maker_.tool() == Tool::mirror ? "Click where the mirror stands."
+                           : maker_.tool() == Tool::turn   ? "Click on the point about which it turns."
                                                            : "Click where its lowest node goes.");
   ImGui::Separator();
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52f);
@@ -91,8 +92,12 @@ void Desk::with_chosen() {
   if (button("Mirror", "mirror",
              "Then click where the mirror stands: what is chosen is there twice (ctrl+M)."))
     take(Tool::mirror);
-  ImGui::EndDisabled();
   ImGui::SameLine();
+  if (button("Turn", "turn",
+             "Then click on the point about which it turns, by a quarter each time (ctrl+T; alt+T in a "
+             "browser)."))
+    take(Tool::turn);
+  ImGui::EndDisabled();
   ImGui::BeginDisabled(!maker_.can_paste());
   if (button("Paste", "paste", "Then click where its lowest node goes (ctrl+V).")) take(Tool::paste);
   ImGui::EndDisabled();

@@ -90,6 +90,7 @@ void Maker::press(Workbench& bench) {
       return begin(bench);
     case Tool::paste:
     case Tool::mirror:
+    case Tool::turn:
       if ((tool_ == Tool::paste ? copied_.bodies : part_of(bench.scene(), chosen_).bodies).empty()) {
         bench.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
         return;
@@ -130,8 +131,8 @@ bool Maker::interrupted(const Workbench& bench) {
 }
 
 SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
-  const auto joined = [&](SceneDef part) {
-    Joined result = with_part(before_, std::move(part));
+  const auto joined = [&](SceneDef scene, SceneDef part) {
+    Joined result = with_part(std::move(scene), std::move(part));
     chosen = std::move(result.added);
     return std::move(result.scene);
   };
@@ -141,9 +142,11 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
     case Tool::line:
       return with_line(before_, {*start_, cursor_}, line);
     case Tool::paste:
-      return joined(shifted(copied_, cursor_ - grip_of(copied_)));
+      return joined(before_, shifted(copied_, cursor_ - grip_of(copied_)));
     case Tool::mirror:
-      return joined(mirrored(part_of(before_, chosen_), cursor_.x));
+      return joined(before_, mirrored(part_of(before_, chosen_), cursor_.x));
+    case Tool::turn:
+      return joined(without_chosen(before_), turned(part_of(before_, chosen_), cursor_));
     default:
       break;
   }
@@ -161,7 +164,7 @@ void Maker::draw(Workbench& bench) {
   try {
     std::vector<std::string> added;
     bench.draw(drawn(added), drawn_);
-    if (tool_ == Tool::paste) chosen_ = std::move(added);
+    if (tool_ == Tool::paste || tool_ == Tool::turn) chosen_ = std::move(added);
     drawn_ = true;
     edition_ = bench.edition();
     problem_.clear();
@@ -173,7 +176,8 @@ void Maker::draw(Workbench& bench) {
 void Maker::release(Workbench& bench, bool add) {
   if (!start_ || interrupted(bench)) return;
   if (tool_ == Tool::choose) return choose_between(bench, add);
-  const bool moved = !is_same(cursor_, *start_) || tool_ == Tool::paste || tool_ == Tool::mirror;
+  const bool at_once = tool_ == Tool::paste || tool_ == Tool::mirror || tool_ == Tool::turn;
+  const bool moved = at_once || !is_same(cursor_, *start_);
   if (moved && !problem_.empty()) bench.message = "This cannot be.\n" + problem_;
   if (!moved || !problem_.empty()) return cancel(bench);
   bench.settle();
@@ -220,12 +224,16 @@ bool Maker::copy(const Workbench& bench) {
   return true;
 }
 
+SceneDef Maker::without_chosen(SceneDef scene) const {
+  for (const std::string& name : chosen_) {
+    if (body_named(scene, name)) scene = without_body(std::move(scene), name);
+  }
+  return scene;
+}
+
 bool Maker::remove_chosen(Workbench& bench) {
-  const std::vector<std::string> names = chosen(bench);
-  if (names.empty()) return false;
-  SceneDef scene = bench.scene();
-  for (const std::string& name : names) scene = without_body(std::move(scene), name);
-  attempt(bench, [&] { bench.edit(std::move(scene)); });
+  if (chosen(bench).empty()) return false;
+  attempt(bench, [&] { bench.edit(without_chosen(bench.scene())); });
   return true;
 }
 

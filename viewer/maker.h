@@ -14,7 +14,7 @@ namespace ductile::viewer {
 
 class Maker {
  public:
-  enum class Tool { none, beam, support, load, move, remove, line, node, choose, paste, mirror };
+  enum class Tool { none, beam, support, load, move, remove, line, node, choose, paste, mirror, turn };
 
   BeamStyle style;
   LineStyle line;
@@ -63,6 +63,7 @@ class Maker {
   void draw(Workbench& bench);
   /// The scene with what is being drawn as far as the cursor.
   SceneDef drawn(std::vector<std::string>& chosen) const;
+  SceneDef without_chosen(SceneDef scene) const;
   void click(Workbench& bench) const;
   void choose_between(const Workbench& bench, bool add);
   /// Another scene, an undo or a restart has come between: what was being drawn is no more.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "making.h"
@@ -156,6 +157,29 @@ SceneDef mirrored(SceneDef part, double x) {
   return part;
 }
 
+SceneDef turned(SceneDef part, Point about) {
+  const auto turn = [](Point& p) { p = {-p.y, p.x}; };
+  each_point(part, [&](Point& p) {
+    p = p - about;
+    turn(p);
+    p = p + about;
+  });
+  for (BodyDef& body : part.bodies) {
+    body.angle += std::numbers::pi / 2;
+    turn(body.velocity);
+    std::for_each(body.velocities.begin(), body.velocities.end(), turn);
+  }
+  for (SupportDef& support : part.supports) {
+    std::swap(support.fix_x, support.fix_y);
+    std::swap(support.stiffness_x, support.stiffness_y);
+    double &x = support.displacement[0], &y = support.displacement[1];
+    x = -std::exchange(y, x);
+  }
+  for (LoadDef& load : part.loads) turn(load.force);
+  for (WheelDef& wheel : part.wheels) turn(wheel.axis);
+  return part;
+}
+
 Joined with_part(SceneDef scene, SceneDef part) {
   Joined result;
   std::map<std::string, std::string> names;
@@ -172,7 +196,8 @@ Joined with_part(SceneDef scene, SceneDef part) {
       names[body.name] = there->name;
       continue;
     }
-    const std::string name = names[body.name] = unused_name(scene, body.name);
+    const std::string name = names[body.name] =
+        body_named(scene, body.name) ? unused_name(scene, body.name) : body.name;
     body.name = name;
     result.added.push_back(name);
     scene.bodies.push_back(body);

@@ -1,5 +1,5 @@
-// A part of a scene that is put elsewhere once more: copied, pasted, mirrored. Knows neither window nor
-// pointer.
+// A part of a scene that is put elsewhere or once more: copied, pasted, mirrored, turned. Knows neither
+// window nor pointer.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,11 @@ Point grip_of(const SceneDef& part);
 SceneDef shifted(SceneDef part, Point by);
 /// The part as a mirror upright at x shows it.
 SceneDef mirrored(SceneDef part, double x);
+/// The part turned by a quarter, counter-clockwise, with what holds and loads it.
+SceneDef turned(SceneDef part, Point about);
 
-/// A scene with a part more, pinned where its beams meet others; the names of what has been added. A beam, a
+/// A scene with a part more, pinned where its beams meet others; the names of what has been added, which are
+/// its own where nothing else has them. A beam, a
 /// support, a load or a line that would lie on one that is there, as in the midst of a mirror, is that one.
 struct Joined {
   SceneDef scene;

@@ -128,7 +128,7 @@ TEST(Maker, FindsNodesByKeys) {
   EXPECT_NEAR(length(maker.cursor() - Point{2, 3}), 0, node_size);
 }
 
-TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
+TEST(Maker, CopiesMirrorsTurnsAndMovesWhatIsChosen) {
   Workbench bench;
   Maker maker;
   bench.edit(gate());
@@ -148,6 +148,12 @@ TEST(Maker, CopiesMirrorsAndMovesWhatIsChosen) {
   bench.redo();
   drag(maker, bench, Tool::mirror, {5, 0}, {5, 0});  // in its own left post: two more
   EXPECT_EQ(bench.scene().bodies.size(), 9u);
+  bench.undo();
+  drag(maker, bench, Tool::turn, {7, 3}, {7, 3});
+  EXPECT_EQ(bench.scene().bodies.size(), 7u);
+  EXPECT_EQ(maker.chosen(bench)[0], "beam4");
+  EXPECT_NEAR(length(axis_of(bench.scene().bodies[4])->from - Point{10, 1}), 0, 1e-12);
+  EXPECT_NEAR(length(axis_of(bench.scene().bodies[4])->to - Point{7, 1}), 0, 1e-12);
   bench.undo();
   // All that is chosen goes with the one that is dragged.
   drag(maker, bench, Tool::move, {7, 3}, {7, 4});  // by a beam, not by a node

@@ -1,4 +1,4 @@
-// Parts of scenes: copied, pasted, mirrored.
+// Parts of scenes: copied, pasted, mirrored, turned.
 #include "part.h"
 
 #include <gtest/gtest.h>
@@ -78,6 +78,35 @@ TEST(Part, AMirrorShowsTheSameStructure) {
     }
   }
   EXPECT_GE(compared, 15);
+}
+
+// What is turned with its loads, supports and gravity carries what it carried.
+TEST(Part, TurnedWithAllThatLoadsItCarriesTheSame) {
+  SceneDef scene = with_beam(empty_scene(), {{-4, 1}, {0, 1}}, {});
+  scene = with_beam(scene, {{-4, 1}, {-2, 3}}, {});
+  scene = with_beam(scene, {{-2, 3}, {0, 1}}, {});
+  scene = with_next_support(scene, {-4, 1}, 0);
+  scene = with_next_support(with_next_support(scene, {0, 1}, 0), {0, 1}, 0);  // a roller
+  scene = with_load(scene, {-2, 3}, {3e3, -20e3});
+  scene.bodies.erase(scene.bodies.begin());  // the floor
+  std::erase_if(scene.joints, [](const JointBetweenDef& j) { return j.a == "floor" || j.b == "floor"; });
+  SceneDef quarter = turned(scene, {1, 2});
+  EXPECT_NEAR(length(axis_of(quarter.bodies[0])->from - Point{2, -3}), 0, 1e-14);
+  EXPECT_NEAR(length(axis_of(quarter.bodies[0])->to - Point{2, 1}), 0, 1e-14);
+  quarter.gravity = {-scene.gravity.y, scene.gravity.x};
+  const Plan plan = calibrate(scene);
+  const StaticCheck was = static_check(plan), is = static_check(calibrate(quarter));
+  ASSERT_EQ(was.joints.size(), is.joints.size());
+  for (std::size_t i = 0; i < was.joints.size(); ++i) {
+    // A support's rows are along the world's axes, and did not turn.
+    const bool support = plan.joints[i].a < 0 || plan.joints[i].b < 0;
+    EXPECT_NEAR(is.joints[i].N, support ? -was.joints[i].Q : was.joints[i].N, 1e-6 * 20e3) << i;
+    EXPECT_NEAR(std::abs(is.joints[i].M), std::abs(was.joints[i].M), 1e-6 * 20e3) << i;
+  }
+  const SceneDef round = turned(turned(turned(turned(scene, {1, 2}), {1, 2}), {1, 2}), {1, 2});
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    EXPECT_NEAR(length(axis_of(round.bodies[i])->to - axis_of(scene.bodies[i])->to), 0, 1e-14);
+  EXPECT_EQ(round.supports[1].fix_x, scene.supports[1].fix_x);
 }
 
 TEST(Part, OtherBodiesAreMirroredWithTheirCuts) {
