@@ -74,7 +74,7 @@ void BlockLdlt::analyse(int n, std::span<const std::pair<int, int>> edges) {
   for (int j = 0; j < n; ++j) {
     const std::size_t length = z(column_[z(j) + 1] - column_[z(j)]);
     longest = std::max(longest, length);
-    products += length * (length - std::min<std::size_t>(length, 1)) / 2;
+    products += (length * length - length) / 2;
   }
   unscaled_.resize(longest);
   targets_.clear();

@@ -70,6 +70,8 @@ class IslandContacts {
   void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
+  /// Where the island at hand has a body that can move.
+  static std::size_t place_of(const b2Body& body);
   /// Whether what holds the body was looked for: `follow` was called.
   bool is_followed(const b2Body& body) const;
   std::span<const Touch> touches() const { return touches_; }
@@ -79,7 +81,6 @@ class IslandContacts {
   static constexpr std::size_t few = 40;  // points
 
   enum Mark : char { unknown, reached, followed };
-  static std::size_t place_of(const b2Body& body);
   Mark& mark(const b2Body& body);
   template <class Follow>
   void follow_front(const Follow& follow);

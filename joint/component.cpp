@@ -33,11 +33,14 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     return std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
   };
   const auto number = [&](const b2Body* body) -> int& { return place(body)->second; };
+  std::vector<int> degrees(by_address_.size());
+  const auto degree = [&](const b2Body* body) -> int& {
+    return degrees[static_cast<std::size_t>(place(body) - by_address_.begin())];
+  };
 
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   std::vector<b2Body*> bodies, others;
   bodies.reserve(by_address_.size());
-  std::vector<int> degree(by_address_.size());
   const auto count_in = [&](b2Body* body) {
     if (number(body) != unnumbered) return;
     std::vector<b2Body*>& where = is_free(body) ? bodies : others;
@@ -46,7 +49,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   };
   for (const Member* m : members) {
     for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
-      ++degree[static_cast<std::size_t>(place(body) - by_address_.begin())];
+      ++degree(body);
       count_in(body);
     }
   }
@@ -85,7 +88,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
     mirror.exact = in_doubles(mirror.given);
     mirror.type = body->GetType();
-    const int joined = degree[static_cast<std::size_t>(place(body) - by_address_.begin())];
+    const int joined = degree(body);
     mirror.guest = joined == 0;
     read_mass(i);
     int edges = 0;

@@ -20,7 +20,6 @@ class CappedRows {
  public:
   /// From the impulses s that are drawn within their caps; `inside` and `energy` as in InteriorPoint.
   void enter(const Joint& joint, const JointRecord& record, const Rows& s, double inside, double energy) {
-    count_ = 0;
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r = {};
@@ -42,7 +41,6 @@ class CappedRows {
         if (std::isinf(c)) continue;
         r.p[side] = side == 0 ? c - r.s : c + r.s;
         r.counts[side] = 1;
-        ++count_;
       }
     }
   }
@@ -60,7 +58,11 @@ class CappedRows {
   }
 
   Rows impulse() const { return {rows_[0].s, rows_[1].s, rows_[2].s}; }
-  std::size_t count() const { return count_; }
+  std::size_t count() const {
+    double sum = 0;
+    for (const Row& r : rows_) sum += r.counts[0] + r.counts[1];
+    return static_cast<std::size_t>(sum);
+  }
   /// What is left to the first cap of the axial row: of a contact, its normal impulse.
   double left() const { return rows_[0].p[0]; }
 
@@ -153,7 +155,6 @@ class CappedRows {
     double last_bits = 0;  // times s²: what rounding of s makes of the gap
   };
   std::array<Row, 3> rows_;
-  std::size_t count_ = 0;
 };
 
 }  // namespace ductile::dynamics

@@ -262,7 +262,7 @@ double InteriorPoint::share_without_gain(System& system) {
 
 void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
   at = {};
-  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+  each([&](std::size_t k, const auto& rows) {
     Joint& j = system.joints[k];
     JointRecord& r = system.records[k];
     j.impulse = best_[k];
@@ -276,12 +276,11 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
           j.impulse[i] = std::clamp(j.impulse[i], -r.law.cap_reverse[i], r.law.cap[i]);
       }
     }
-    j.regime = static_cast<std::uint8_t>(surface_of_[k] < 0 ? caps_[k].regime()
-                                                            : surfaces_[z(surface_of_[k])].regime());
+    j.regime = static_cast<std::uint8_t>(rows.regime());
     j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
     at.flows |= j.regime != 0;
     at.curved |= j.regime == on_surface;
-  }
+  });
   const auto take = [&] {
     for (std::size_t k = 0; k < impulses_.size(); ++k) impulses_[k] = system.joints[k].impulse;
     balance(system);

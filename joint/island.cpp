@@ -99,7 +99,7 @@ void Structure::Impl::form() {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> first_joint(static_cast<std::size_t>(world->GetBodyCount()), none);
   const auto first = [&](const b2Body& body) -> std::size_t& {
-    return first_joint[static_cast<std::size_t>(dynamics::of(body, b2Body_m_islandIndex{}))];
+    return first_joint[IslandContacts::place_of(body)];
   };
   std::vector<std::size_t> root(all.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
