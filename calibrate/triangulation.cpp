@@ -9,6 +9,7 @@
 
 #include "ductile/moments.h"
 #include "orientation.h"
+#include "regions.h"
 
 namespace ductile::calibration {
 namespace {
@@ -114,8 +115,8 @@ class EarClipping {
     clip(outer);
   }
 
-  std::vector<Point>& points() { return points_; }
-  std::vector<HalfEdge>& triangles() { return triangles_; }  // three half-edges each
+  // Of three half-edges each.
+  Triangulation triangles() && { return {std::move(points_), std::move(triangles_)}; }
 
  private:
   struct Node {
@@ -353,36 +354,34 @@ class Delaunay {
   std::vector<HalfEdge>& edges_;
 };
 
+double area_of(const Triangulation& triangles) {
+  double area = 0;
+  for (std::size_t e = 0; e + 2 < triangles.edges.size(); e += 3) {
+    const auto corner = [&](std::size_t i) { return triangles.points[triangles.edges[e + i].from]; };
+    area += cross(corner(1) - corner(0), corner(2) - corner(0)) / 2;
+  }
+  return area;
+}
+
+void append(Triangulation& all, const Triangulation& part) {
+  const int points = static_cast<int>(all.points.size()), edges = static_cast<int>(all.edges.size());
+  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+  for (const auto& [from, next, previous, twin] : part.edges)
+    all.edges.push_back({from + points, next + edges, previous + edges, twin < 0 ? -1 : twin + edges});
+}
+
 }  // namespace
 
 Triangulation triangulate(const Outline& outline) {
-  const auto turned = [](Ring& ring) {
-    for (Point& p : ring) p = left(p);
-  };
-  const double whole = moments(outline).area;
-  Triangulation best;
-  double least = std::numeric_limits<double>::infinity();
-  // Where rings touch, the bridge of a hole may miss; of another side it does not.
-  Outline seen = outline;
-  for (int turn = 0; turn < 4; ++turn) {
-    EarClipping ears(seen);
-    Triangulation own{std::move(ears.points()), std::move(ears.triangles())};
-    double area = 0;
-    for (std::size_t e = 0; e + 2 < own.edges.size(); e += 3) {
-      const Point a = own.points[own.edges[e].from];
-      area += cross(own.points[own.edges[e + 1].from] - a, own.points[own.edges[e + 2].from] - a) / 2;
-    }
-    if (const double off = std::abs(area - whole); off < least) {
-      least = off;
-      best = std::move(own);
-      for (int back = turn; back % 4 != 0; ++back) turned(best.points);
-    }
-    if (least <= 1e-9 * whole) break;
-    turned(seen.outer);
-    for (Ring& hole : seen.holes) turned(hole);
+  Triangulation result = EarClipping(outline).triangles();
+  // Where rings touch, the bridge of a hole may miss: then they are made one first.
+  if (const double whole = moments(outline).area; std::abs(area_of(result) - whole) > 1e-9 * whole) {
+    Triangulation apart;
+    for (const Outline& region : regions(outline)) append(apart, EarClipping(region).triangles());
+    if (std::abs(area_of(apart) - whole) < std::abs(area_of(result) - whole)) result = std::move(apart);
   }
-  Delaunay(best).run();
-  return best;
+  Delaunay(result).run();
+  return result;
 }
 
 void add_feet(Triangulation& triangulation) {

@@ -102,6 +102,8 @@ Fixture read_fixture(const Value& value) {
       fixture.points = {shape.vector("vertex1"), shape.vector("vertex2")};
     } else {
       fixture.points = shape.vectors("vertices");
+      if (fixture.points.empty())
+        shape.value().wrong("has no vertices", R"(write "vertices": {"x": […], "y": […]})");
     }
     return true;
   };

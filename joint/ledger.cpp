@@ -27,7 +27,7 @@ void Ledger::form(const System& system) {
   moments_.reserve(system.joints.size());
 }
 
-void Ledger::open(System& system, std::span<const Vec3> before, double h) {
+void Ledger::open(System& system, std::span<const Vec3> before, double h, double share) {
   joints_.assign(system.own_joints().begin(), system.own_joints().end());
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
   for (std::size_t k = 0; k < system.own(); ++k) {
@@ -46,7 +46,7 @@ void Ledger::open(System& system, std::span<const Vec3> before, double h) {
   moments_.clear();
   for (const TurnInertia& t : turn_inertias_) {
     const Vec3 &a = system.bodies[z(t.a)].v, &b = system.bodies[z(t.b)].v;
-    moments_.push_back(turn_impulse(t, a, b));
+    moments_.push_back(turn_impulse(t, 1 / share * a, 1 / share * b));  // of the solution, as the rows'
     energies.numerical += moments_.back() * (b.w - a.w + before[z(t.b)].w - before[z(t.a)].w) / 2;
   }
 }

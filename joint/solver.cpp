@@ -104,7 +104,7 @@ void Solver::scale(double share) {
 
 void Solver::advance() {
   newton_.forget();
-  if (keeps_ledger) ledger_.open(*this, before, step());
+  if (keeps_ledger) ledger_.open(*this, before, step(), motion_.share);
   gaps_known = false;
   predicted_ = !motion_.swept;
   const double h = step();

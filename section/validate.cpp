@@ -528,7 +528,7 @@ bool all_holes(std::span<const Loop> loops, double tolerance) {
 }
 
 /// A thickness t in a length L costs (L/t)² of the digits of a second moment; double-double has 32.
-std::vector<Problem> thin_problems(std::span<const Loop> loops) {
+std::vector<Problem> thin_problems(std::span<const Loop> loops, const std::string& place) {
   constexpr double thinnest = 1e-9;
   double extent = 0;
   for (const Loop& loop : loops) {
@@ -539,7 +539,7 @@ std::vector<Problem> thin_problems(std::span<const Loop> loops) {
   }
   const double area = area_and_length(loops).first;
   if (area >= thinnest * extent * extent) return {};
-  return {{"regions", "have " + number(area) + " m2 in an extent of " + number(extent) + " m",
+  return {{place, number(area) + " m2 in an extent of " + number(extent) + " m",
            "too thin to compute with: the area must be at least 1e-9 of the extent's square"}};
 }
 
@@ -575,7 +575,11 @@ std::vector<Problem> validate(const Outline& outline, const Loop& like) {
 }  // namespace
 
 std::vector<Problem> validate(const Outline& outline, const std::string& place) {
-  return validate(outline, Loop{.prefix = place});
+  std::vector<Problem> problems = validate(outline, Loop{.prefix = place});
+  if (!problems.empty()) return problems;
+  std::vector<Loop> loops;
+  add_loops(loops, outline, Loop{});
+  return thin_problems(loops, place);
 }
 
 namespace {
@@ -636,7 +640,7 @@ std::vector<Problem> validate(std::span<const Region> regions) {
     std::vector<Loop> loops;
     for (std::size_t r = 0; r < regions.size(); ++r) add_loops(loops, regions[r].outline, loop_like(r));
     if (regions.size() > 1) append(problems, Sweep(loops, rounding(loops)).problems());
-    if (problems.empty()) append(problems, thin_problems(loops));
+    if (problems.empty()) append(problems, thin_problems(loops, "regions"));
   }
   return problems;
 }

@@ -1,6 +1,7 @@
 // Outlines into pieces into convex parts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "ductile/moments.h"
 #include "orientation.h"
 #include "random_outlines.h"
+#include "regions.h"
 #include "scenes.h"
 #include "split.h"
 
@@ -183,6 +185,53 @@ TEST(ConvexParts, FewForPlainShapes) {
     disc.push_back({std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32)});
   EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
 }
+
+// What touches is bounded together; the convex parts cover it and leave the holes out.
+struct TouchingCase {
+  const char* name;
+  std::vector<Ring> holes;  // in a rectangle 0 ≤ x ≤ 60, 0 ≤ y ≤ 20
+  std::vector<double> areas;
+  std::size_t holes_left;
+};
+
+class Touching : public testing::TestWithParam<TouchingCase> {};
+
+TEST_P(Touching, RegionsAndConvexParts) {
+  const TouchingCase& c = GetParam();
+  const Outline outline{rectangle(0, 0, 60, 20), c.holes};
+  std::vector<double> areas;
+  std::size_t holes = 0;
+  double sum = 0;
+  for (const Outline& region : regions(outline)) {
+    areas.push_back(moments(region).area);
+    holes += region.holes.size();
+  }
+  for (const double area : c.areas) sum += area;
+  std::sort(areas.begin(), areas.end());
+  EXPECT_EQ(areas, c.areas);
+  EXPECT_EQ(holes, c.holes_left);
+  const std::vector<Ring> parts = convex_parts(outline, 8);
+  for (const Ring& part : parts) expect_convex(part);
+  EXPECT_NEAR(area(parts), sum, 1e-12 * sum);
+}
+
+const TouchingCase touching_cases[] = {
+    {"nothing", {rectangle(10, 5, 20, 15)}, {1100}, 1},
+    {"a_corner", {{{10, 5}, {20, 0}, {20, 10}}}, {1150}, 0},
+    {"part_of_an_edge", {rectangle(10, 0, 20, 10)}, {1100}, 0},
+    {"a_whole_side", {rectangle(0, 0, 10, 20)}, {1000}, 0},
+    {"side_to_side", {rectangle(10, 0, 20, 20)}, {200, 800}, 0},
+    {"side_to_side_by_a_corner", {{{30, 0}, {0, 0}, {17, 20}}}, {170, 730}, 0},
+    {"each_other", {rectangle(10, 5, 20, 15), rectangle(20, 5, 30, 15)}, {1000}, 1},
+    {"each_other_from_side_to_side", {rectangle(10, 0, 20, 12), rectangle(10, 12, 20, 20)}, {200, 800}, 0},
+    {"around_an_island",
+     {{{10, 5}, {20, 5}, {20, 6}, {11, 6}, {11, 14}, {20, 14}, {20, 15}, {10, 15}},
+      {{20, 5}, {30, 5}, {30, 15}, {20, 15}, {20, 14}, {29, 14}, {29, 6}, {20, 6}}},
+     {144, 1000},
+     1},
+};
+INSTANTIATE_TEST_SUITE_P(Holes, Touching, testing::ValuesIn(touching_cases),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(Fuzz, AreasAddUpAndPartsAreConvex) {
   for (int seed = 0, n = rounds(3000); seed < n && !HasFailure(); ++seed) {

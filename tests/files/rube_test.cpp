@@ -452,6 +452,13 @@ INSTANTIATE_TEST_SUITE_P(
                "body[0].fixture[0].polygon.vertices"},
         Spoilt{"no_shape", [](json& s) { s["body"][0]["fixture"][0].erase("polygon"); },
                "body[0].fixture[0]"},
+        Spoilt{"chain_without_vertices",
+               [](json& s) {
+                 s["body"][0]["fixture"][0].erase("polygon");
+                 s["body"][0]["fixture"][0]["chain"] = {
+                     {"vertices", {{"x", json::array()}, {"y", json::array()}}}};
+               },
+               "body[0].fixture[0].chain: has no vertices"},
         Spoilt{"unknown_material", [](json& s) { s["body"][1]["customProperties"][0]["string"] = "cheese"; },
                "cheese"},
         Spoilt{"material_is_a_number",
@@ -485,6 +492,14 @@ INSTANTIATE_TEST_SUITE_P(
                      {{"type", "gear"}, {"bodyA", 1}, {"bodyB", 2}, {"joint1", 1}, {"joint2", 1}});
                },
                "joint[2]"},
+        Spoilt{"gear_that_turns_what_stands",  // bodyB of what is geared is what a gear of Box2D turns
+               [](json& s) {
+                 s["joint"].push_back({{"type", "revolute"}, {"bodyA", 2}, {"bodyB", 3}});
+                 s["joint"].push_back(
+                     {{"type", "gear"}, {"bodyA", 2}, {"bodyB", 2}, {"joint1", 2}, {"joint2", 2}});
+                 s["joint"][3]["bodyB"] = 1;
+               },
+               "joint[3]: gears a joint whose bodyB is not dynamic"},
         Spoilt{"inertia_below_zero",
                [](json& s) {
                  s["body"][2]["massData-center"] = {{"x", 9}, {"y", 0}};

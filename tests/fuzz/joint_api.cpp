@@ -88,7 +88,7 @@ class Game : b2DestructionListener {
     const unsigned code = in_.next();
     if (code == 240) {
       snapshot_.save(*world_);
-      saved_ = {bodies_, stock_, budget_, most_, turn_, back_, solved_};
+      saved_ = {bodies_, stock_, budget_, most_, turn_, solved_};
       return;
     }
     if (code == 243) return go_back();
@@ -409,7 +409,7 @@ class Game : b2DestructionListener {
     }
     bodies_ = saved_.bodies;
     stock_ = saved_.stock;
-    budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn, back_ = saved_.back;
+    budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn;
     solved_ = saved_.solved;
   }
 
@@ -460,7 +460,12 @@ class Game : b2DestructionListener {
       solved_ = all ? dt : std::min(solved_, static_cast<double>(dt));
     }
     drop_stock_joints([this](b2Joint& j) { return !bears(*j.GetBodyA(), *j.GetBodyB()); });
+    const JointEnergy start = structure_->energy();
+    const double moving = kinetic_of_pieces();
+    const auto awake = count_awake();
     world_->Step(dt, velocity, position);
+    const double lost = moving - kinetic_of_pieces();
+    const bool seen = velocity > 0 && count_awake() == awake;  // Box2D stops what falls asleep
     // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
     const StepReport& report = structure_->report();
     require(report.bounds_hit == report.parted || curved_ || impossible() || far(), "solves end in time");
@@ -482,50 +487,48 @@ class Game : b2DestructionListener {
     const JointEnergy e = structure_->energy();
     require_finite({e.elastic, e.dissipated, e.damping, e.numerical, e.clamped}, "ledger");
     if (!judged_) return;
-    const double now = kinetic() + e.elastic;
-    most_ = std::max(most_, budget_);
-    double mass = 0, turn = 0;
-    for (const b2Body* b : bodies_) {
-      mass += b->GetMass();
-      turn = std::max(turn, static_cast<double>(dt * std::abs(b->GetAngularVelocity())));
-    }
-    // Against each other as against the world. Where a body is light to turn on a long arm, what closes the
-    // gap turns it the more: 4 for a rod that is held at its end.
-    double lever = 4;
-    for (ElasticPlasticJoint* j : structure_->joints()) {
-      const b2Body *a = j->GetBodyA(), *b = j->GetBodyB();
-      turn = std::max(turn,
-                      static_cast<double>(dt * std::abs(b->GetAngularVelocity() - a->GetAngularVelocity())));
-      for (const auto& [body, anchor] : {std::pair{a, j->GetAnchorA()}, std::pair{b, j->GetAnchorB()}}) {
-        const double inertia = central_inertia(*body);
-        if (!(inertia > 0)) continue;
-        const float r = b2Distance(anchor, body->GetWorldCenter());
-        lever = std::max(lever, std::min(40.0, 1 + double{body->GetMass()} * r * r / inertia));
-      }
-    }
-    turn *= std::sqrt(lever / 4);
-    // What is left of the gaps after a push, 3e-7 sizes, is closed in a step, and the shortest is the
-    // fastest; and what turning bodies have parted along their tangents.
-    if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
-    const double left = 3e-7 * size_ / shortest_;
+
+    // Rounding: of all that ever was, and of the gaps that a push leaves, 3e-7 sizes, which are closed in a
+    // step, in the shortest the fastest.
+    double mass = 0;
+    for (const b2Body* b : bodies_) mass += b->GetMass();
     heaviest_ = std::max(heaviest_, mass);
-    const double rounding = 1e-7 * most_ + heaviest_ * left * left;
+    if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
+    most_ = std::max(most_, budget_);
+    const double left = 3e-7 * size_ / shortest_, rounding = 1e-7 * most_ + heaviest_ * left * left;
+
+    const double booked = (e.elastic - start.elastic) + (e.dissipated - start.dissipated) +
+                          (e.damping - start.damping) + (e.numerical - start.numerical) +
+                          (e.clamped - start.clamped) - (e.driven - start.driven);
+    require(!seen || std::abs(lost - booked) <= 1e-5 * moving + rounding, "what pieces lose is booked");
+
+    // What turning bodies part by along their tangents is taken back later: energy to second order in the
+    // angle of a step, the more so on long arms. Beyond a third of a radian it is not judged.
+    turn_ = std::max(turn_, turn_in(dt));
+    const double now = kinetic() + e.elastic;
     // Velocities are those of the step's middle, strains those of its end, where turning has stretched them
     // to second order: kinetic energy alone is held to what there was.
-    require(kinetic() <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding, "no energy from nowhere");
-    const bool above = now > budget_;
+    require(turn_ > 0.3 || kinetic() <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding,
+            "no energy from nowhere");
     // While the speed limit keeps a gap from closing, what it takes comes back with the gap.
     if (report.slowed == 0) budget_ = std::min(budget_, now);
-    // They take it back in as much time as they parted in, be it in several shorter steps; steps without
-    // velocity iterations, which the structure does not see, part them further; and the speed limit keeps
-    // them from it. What that gave is not asked back.
-    if (velocity == 0) {
-      turn_ += turn;
-      back_ += dt;
-    } else {
-      back_ = std::max(back_ - dt, static_cast<double>(dt));
-      turn_ = back_ == dt && !above && report.slowed == 0 ? turn : std::max(turn_, turn);
+  }
+
+  /// rad that a body turns by in a step, against the world or what it is joined to; as if on an arm of the
+  /// size of its radius of gyration, for a rod that is held at its end.
+  double turn_in(float dt) const {
+    double turn = 0, lever = 4;
+    for (const b2Body* b : bodies_) turn = std::max(turn, double{dt} * std::abs(b->GetAngularVelocity()));
+    for (ElasticPlasticJoint* j : structure_->joints()) {
+      const b2Body *a = j->GetBodyA(), *b = j->GetBodyB();
+      turn = std::max(turn, double{dt} * std::abs(b->GetAngularVelocity() - a->GetAngularVelocity()));
+      for (const auto& [body, anchor] : {std::pair{a, j->GetAnchorA()}, std::pair{b, j->GetAnchorB()}}) {
+        const double inertia = central_inertia(*body);
+        const float r = b2Distance(anchor, body->GetWorldCenter());
+        if (inertia > 0) lever = std::max(lever, 1 + double{body->GetMass()} * r * r / inertia);
+      }
     }
+    return turn * std::sqrt(lever / 4);
   }
 
   /// Welds of a structure that is gone are Box2D's, whose energy is not ours to judge.
@@ -585,16 +588,25 @@ class Game : b2DestructionListener {
     return double{b.GetInertia()} - double{b.GetMass()} * b.GetLocalCenter().LengthSquared();
   }
 
+  static double kinetic(const b2Body& b) {
+    if (b.GetType() != b2_dynamicBody || !b.IsEnabled()) return 0;
+    return (double{b.GetMass()} * b.GetLinearVelocity().LengthSquared() +
+            central_inertia(b) * b.GetAngularVelocity() * b.GetAngularVelocity()) /
+           2;
+  }
   double kinetic() const {
     double sum = 0;
-    for (const b2Body* b : bodies_) {
-      if (b->GetType() != b2_dynamicBody || !b->IsEnabled()) continue;
-      const double inertia = central_inertia(*b);
-      sum += (double{b->GetMass()} * b->GetLinearVelocity().LengthSquared() +
-              inertia * b->GetAngularVelocity() * b->GetAngularVelocity()) /
-             2;
-    }
+    for (const b2Body* b : bodies_) sum += kinetic(*b);
     return sum;
+  }
+  double kinetic_of_pieces() const {
+    double sum = 0;
+    for (const b2Body* b : bodies_) sum += b->GetJointList() ? kinetic(*b) : 0;
+    return sum;
+  }
+
+  std::ptrdiff_t count_awake() const {
+    return std::count_if(bodies_.begin(), bodies_.end(), [](const b2Body* b) { return b->IsAwake(); });
   }
 
   Bytes in_;
@@ -607,12 +619,12 @@ class Game : b2DestructionListener {
   double shortest_ = 1;           // s, of all steps
   double solved_ = 1;             // s, the last step of whatever has not seen one since
   double heaviest_ = 0;           // kg, all bodies together, ever
-  double turn_ = 0, back_ = 0;  // rad that bodies have turned in a step, and s to take back what that parted
+  double turn_ = 0;               // rad, the most of a step
   Snapshot snapshot_;
   struct {
     std::vector<b2Body*> bodies;
     std::vector<b2Joint*> stock;
-    double budget = 0, most = 0, turn = 0, back = 0, solved = 1;
+    double budget = 0, most = 0, turn = 0, solved = 1;
   } saved_;
   StructureDef def_;
   std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});

@@ -45,12 +45,13 @@ struct Region {
 
 /// Everything wrong with an outline; empty when it is valid. `place` prefixes every problem ("body
 /// 'girder'"). Wrong are: a ring that crosses or touches itself, repeats a point, has fewer than three points
-/// or no area; a hole outside, crossing or overlapping; a coordinate that is not finite. O(n log n).
+/// or no area; a hole outside, crossing or overlapping; a coordinate that is not finite; an area below 1e-9
+/// of the square of the extent, too thin to compute with. O(n log n).
 std::vector<Problem> validate(const Outline& outline, const std::string& place = "outline");
 
 /// The same for a section: every region's outline and material, and regions that overlap in area; Young's
-/// modulus on all regions or on none; an area below 1e-9 of the square of the extent, too thin to compute
-/// with; yield stresses more than a factor of 1e9 apart.
+/// modulus on all regions or on none; an area below 1e-9 of the square of the extent of all; yield stresses
+/// more than a factor of 1e9 apart.
 std::vector<Problem> validate(std::span<const Region> regions);
 
 /// The same for a material: stresses and moduli finite and not negative, yield stress above zero.
