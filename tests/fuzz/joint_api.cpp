@@ -599,9 +599,15 @@ class Game : b2DestructionListener {
     for (const b2Body* b : bodies_) sum += kinetic(*b);
     return sum;
   }
+  /// Does a joint hold it in this step?
+  static bool is_piece(const b2Body& b) {
+    for (const b2JointEdge* edge = b.GetJointList(); edge != nullptr; edge = edge->next)
+      if (edge->other->IsEnabled()) return true;
+    return false;
+  }
   double kinetic_of_pieces() const {
     double sum = 0;
-    for (const b2Body* b : bodies_) sum += b->GetJointList() ? kinetic(*b) : 0;
+    for (const b2Body* b : bodies_) sum += is_piece(*b) ? kinetic(*b) : 0;
     return sum;
   }
 
