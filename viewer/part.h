@@ -27,8 +27,8 @@ SceneDef mirrored(SceneDef part, double x);
 SceneDef turned(SceneDef part, Point about);
 
 /// A scene with a part more, pinned where its beams meet others; the names of what has been added, which are
-/// its own where nothing else has them. A beam, a
-/// support, a load or a line that would lie on one that is there, as in the midst of a mirror, is that one.
+/// its own where nothing else has them. A beam, a support, a load or a line that would lie on one that is
+/// there, as in the midst of a mirror, is that one.
 struct Joined {
   SceneDef scene;
   std::vector<std::string> added;

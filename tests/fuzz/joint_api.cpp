@@ -514,8 +514,9 @@ class Game : b2DestructionListener {
     if (report.slowed == 0) budget_ = std::min(budget_, now);
   }
 
-  /// rad that a body turns by in a step, against the world or what it is joined to; as if on an arm of the
-  /// size of its radius of gyration, for a rod that is held at its end.
+  /// The angle, rad, by which a body turns in a step against the world or a body that it is joined to, times
+  /// the square root of its longest lever: 1 + (arm/radius of gyration)², in units of the 4 of a rod held at
+  /// its end.
   double turn_in(float dt) const {
     double turn = 0, lever = 4;
     for (const b2Body* b : bodies_) turn = std::max(turn, double{dt} * std::abs(b->GetAngularVelocity()));
