@@ -222,7 +222,56 @@ void impact(benchmark::State& state, const Layout& layout, double bomb_mass, dou
   state.counters["bounds_hit"] = sum.bounds_hit;
 }
 
+// A block of a tonne in the middle of each bay of the roof, at rest, against the same frame without; and what
+// the blocks cost in stock Box2D.
+void loaded(benchmark::State& state, int size) {
+  const Layout layout = frame(size, size);
+  Built with(layout, Built::ours, g), without(layout, Built::ours, g), stock_with(layout, Built::stock, g),
+      stock_without(layout, Built::stock, g);
+  for (Built* b : {&with, &stock_with}) {
+    for (int i = 0; i < size; ++i) {
+      b2BodyDef def;
+      def.type = b2_dynamicBody;
+      def.position = Built::vec(2.5 * i + 1.25, 2.5 * size + 0.31);
+      b2PolygonShape box;
+      box.SetAsBox(0.25f, 0.25f);
+      b->world.CreateBody(&def)->CreateFixture(&box, 4000);
+    }
+  }
+  for (Built* b : {&with, &without, &stock_with, &stock_without}) {
+    const auto damp = [b](float by) {
+      for (b2Body* piece : b->pieces) {
+        piece->SetLinearDamping(by);
+        piece->SetAngularDamping(by);
+      }
+    };
+    // What the damping takes of gravity comes back as it goes, slowly, or the frame would sway for minutes.
+    for (const float by : {3.0f, 1.0f, 0.3f, 0.1f, 0.03f, 0.0f}) {
+      damp(by);
+      b->run(by == 3 ? 20 : 5);
+    }
+  }
+  with.sum = without.sum = {};
+  const auto run = [](Built& b) { return time_steps(b, [](Built&) {}); };
+  std::vector<double> stock;
+  alternate(
+      state, "without", [&] { return run(with); },
+      [&] {
+        stock.push_back(run(stock_with) / run(stock_without));
+        return run(without);
+      });
+  report(state, with, layout.welds.size());
+  state.counters["stock_with_vs_without"] = median(stock);
+}
+
 const bool registered = [] {
+  for (const int size : {4, 15}) {
+    benchmark::RegisterBenchmark(size == 4 ? "joint/loaded/frame/160" : "joint/loaded/frame/2000",
+                                 [size](benchmark::State& state) { loaded(state, size); })
+        ->UseManualTime()
+        ->Iterations(60)
+        ->Unit(benchmark::kMicrosecond);
+  }
   for (const Case& c : cases()) {
     benchmark::RegisterBenchmark(c.name.c_str(), [c](benchmark::State& state) { run(state, c); })
         ->UseManualTime()

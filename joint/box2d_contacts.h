@@ -52,6 +52,7 @@ struct Touch {
   VelocityConstraint* velocity;
   PositionConstraint* position;
   int in_a = -1, in_b = -1;  // its bodies in a component
+  bool at_seam = false;      // of joined pieces (seams.h): it presses nothing
 
   b2Body* a() const { return contact->GetFixtureA()->GetBody(); }
   b2Body* b() const { return contact->GetFixtureB()->GetBody(); }

@@ -85,15 +85,17 @@ struct Component {
   /// What Box2D knows of a body of the solver.
   struct Mirror {
     b2Body* body = nullptr;
-    b2Position left{};   // pose as we left it
-    b2Velocity given{};  // velocity as we left it
-    b2Velocity taken{};  // velocity as Box2D brought it at the step's start
-    Vec3 exact;          // what `given` is rounded of, world axes
+    b2Position left{};             // pose as we left it
+    b2Velocity given{};            // velocity as we left it
+    b2Velocity taken{};            // velocity as Box2D brought it at the step's start
+    b2Velocity pushed{{0, 0}, 0};  // what others have added to it since
+    Vec3 exact;                    // what `given` is rounded of, world axes
     float mass = 0, inverse_mass = 0, inertia = 0, gyration = 0;
     b2Vec2 local_center{0, 0};
     const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
     b2BodyType type = b2_staticBody;
     int32 island_index = 0;
+    float rounding = 0;   // m/s: what its velocity is brought with for the contacts' stored impulses in it
     bool guest = false;   // touches the structure or is tied to it, but no joint of it
     bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
 
@@ -123,8 +125,8 @@ struct Component {
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
-  /// Whether nothing else can touch its bodies in this step.
-  bool alone() const { return alone_; }
+  /// Whether nothing else can change its bodies' velocities in this step.
+  bool whole() const { return whole_; }
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
@@ -162,8 +164,10 @@ struct Component {
 
  private:
   bool as_before(const b2SolverData& data) const;
+  bool touched_as_before();
   float slack() const;
   static bool only_ours(const Mirror& mirror);
+  bool is_whole() const;
   void read_mass(std::size_t body);
   int freedom(std::size_t body, std::size_t free_bodies) const;
   int index_of(const b2Body* body) const;
@@ -175,6 +179,7 @@ struct Component {
   static constexpr float blow_speed = 0.1f;
   void set_warm_starts_aside();
   void set_ties_aside(const b2SolverData& data);
+  void read_touches();
   void enter_contacts();
   void enter_ties();
   void return_contacts();
@@ -193,6 +198,7 @@ struct Component {
   bool anchored_ = false;  // some joint holds to what does not give
   bool parted_ = false;    // bodies were moved apart while their joint was in no island
   bool alone_ = false;     // no body has a contact or another joint
+  bool whole_ = false;     // what touches or holds one is all solved with it
   bool struck_ = false;    // velocities were changed between the steps
   bool at_rest_ = false;   // the next step will be this one if nothing else touches the bodies
 };

@@ -1,10 +1,12 @@
 // Contacts of a step as rows of a component: read from the island's contact solver, and given back to it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "component.h"
 #include "frames.h"
+#include "seams.h"
 
 namespace ductile::dynamics {
 
@@ -12,6 +14,7 @@ bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
   if (!knows(t.in_a, t.in_b)) return false;
+  t.at_seam = is_at_seam(t);
   touches.push_back(t);
   return true;
 }
@@ -45,8 +48,50 @@ void Component::set_warm_starts_aside() {
 }
 
 void Component::enter_contacts() {
+  read_touches();
+  solver.touch(links_, rows_);
+}
+
+// Whether the contacts are those that the last step was solved with, and hold the impulses that it found.
+// Box2D added these to the velocities, in floats.
+bool Component::touched_as_before() {
+  if (touches.empty() && solver.contacts.empty()) return true;
+  if (!at_rest_) return false;
+  read_touches();
+  for (const Touch& t : touches) mirrors[z(t.in_a)].rounding = mirrors[z(t.in_b)].rounding = 0;
+  for (const Touch& t : touches) {
+    const VelocityConstraint& v = *t.velocity;
+    const auto add = [](Mirror& m, const PointConstraint& p, const b2Vec2& arm, float by_mass,
+                        float by_inertia) {
+      constexpr float last_bits = 4 * std::numeric_limits<float>::epsilon();
+      m.rounding += last_bits * (p.normal_impulse + std::abs(p.tangent_impulse)) *
+                    (by_mass + by_inertia * arm.Length() * m.gyration);
+    };
+    for (int32 k = 0; k < v.count; ++k) {
+      const PointConstraint& p = v.points[k];
+      add(mirrors[z(t.in_a)], p, p.ra, v.inverse_mass_a, v.inverse_inertia_a);
+      add(mirrors[z(t.in_b)], p, p.rb, v.inverse_mass_b, v.inverse_inertia_b);
+    }
+  }
+  const auto is_same = [](const Contact& now, const Contact& before) {
+    const auto near = [](double x, double y) {
+      return std::abs(x - y) <= 1e-6;
+    };  // in poses of the same floats
+    const auto along = [&](const Turn& m, const Turn& n) { return near(m.c, n.c) && near(m.s, n.s); };
+    return now.a == before.a && now.b == before.b && now.id == before.id && near(now.ax, before.ax) &&
+           near(now.ay, before.ay) && near(now.bx, before.bx) && near(now.by, before.by) &&
+           along(now.normal_a, before.normal_a) && along(now.normal_b, before.normal_b) &&
+           now.bounce == before.bounce && now.conveyor == before.conveyor &&
+           now.friction == before.friction && now.normal == static_cast<float>(before.normal) &&
+           now.tangent == static_cast<float>(before.tangent);
+  };
+  return std::equal(rows_.begin(), rows_.end(), solver.contacts.begin(), solver.contacts.end(), is_same);
+}
+
+void Component::read_touches() {
   rows_.clear();
   for (const Touch& t : touches) {
+    if (t.at_seam) continue;
     const VelocityConstraint& v = *t.velocity;
     Contact c;
     c.a = t.in_a;
@@ -68,20 +113,25 @@ void Component::enter_contacts() {
       rows_.push_back(c);
     }
   }
-  solver.touch(links_, rows_);
 }
 
 // Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
 // be brought back.
 void Component::return_contacts() {
+  static const Contact nothing;
   const bool anchored = is_anchored();
   auto row = solver.contacts.begin();
   for (const Touch& t : touches) {
-    for (int32 k = 0; k < t.velocity->count; ++k, ++row) {
-      t.velocity->points[k].normal_impulse = static_cast<float>(row->normal);
-      t.velocity->points[k].tangent_impulse = static_cast<float>(row->tangent);
+    for (int32 k = 0; k < t.velocity->count; ++k) {
+      const Contact& c = t.at_seam ? nothing : *row++;
+      t.velocity->points[k].normal_impulse = static_cast<float>(c.normal);
+      t.velocity->points[k].tangent_impulse = static_cast<float>(c.tangent);
     }
     settle(*t.velocity);
+    if (t.at_seam) {
+      hold_a(*t.position);
+      hold_b(*t.position);
+    }
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
     if (anchored && !a.guest && yields(b)) hold_a(*t.position);
@@ -93,6 +143,7 @@ void Component::return_contacts() {
 bool Component::is_blow() const {
   if (struck_) return true;
   for (const Touch& t : touches) {
+    if (t.at_seam) continue;
     const VelocityConstraint& v = *t.velocity;
     for (int32 k = 0; k < v.count; ++k) {
       const auto at = [](const b2Body* body, const b2Vec2& arm) {

@@ -45,6 +45,23 @@ bool Component::only_ours(const Mirror& m) {
   return m.body->GetContactList() == nullptr && m.body->GetJointList() == m.joints;
 }
 
+// Whether all that touches or holds its bodies is solved with it: then nothing changes their velocities after
+// the solve.
+bool Component::is_whole() const {
+  if (kind != SolverKind::direct || !ties.empty()) return false;
+  std::size_t sides = 0;  // of contacts, less those of the touches
+  for (const Mirror& m : mirrors) {
+    if (!m.present || m.type != b2_dynamicBody) continue;
+    if (m.body->GetJointList() != m.joints) return false;
+    for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
+      sides += e->contact->IsTouching() ? 1 : 0;
+  }
+  for (const Touch& t : touches) {
+    for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
+  }
+  return sides == 0;
+}
+
 void Component::disturb() {
   at_rest_ = resting = false;
   solver.laws_changed();
@@ -67,7 +84,7 @@ bool Component::as_before(const b2SolverData& data) const {
     const b2Velocity& v = data.velocities[m.island_index];
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
                                    m.gyration * std::abs(v.w - m.taken.w)});
-    if (!(change <= slack) || !same(data.positions[m.island_index], m.left)) return false;
+    if (!(change <= slack + m.rounding) || !same(data.positions[m.island_index], m.left)) return false;
   }
   return true;
 }
@@ -77,6 +94,7 @@ bool Component::as_before(const b2SolverData& data) const {
 // forecast.
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
+  m.pushed = {{0, 0}, 0};
   if (m.type != b2_dynamicBody || kind != SolverKind::direct) {
     m.exact = in_doubles(m.given = m.taken);
     return;
@@ -103,11 +121,13 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 }
 
 void Component::first_velocity(const b2SolverData& data) {
-  resting = touches.empty() && ties.empty() && as_before(data);
+  whole_ = alone_ || is_whole();
+  resting = ties.empty() && touched_as_before() && as_before(data);
   if (resting) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;
     }
+    return_contacts();
     open = solver.keeps_ledger;  // something may strike it before the step is over
     ++report->resting;
     return;
@@ -186,7 +206,7 @@ void Component::first_velocity(const b2SolverData& data) {
 }
 
 void Component::next_velocity(const b2SolverData& data) {
-  if (alone_) {
+  if (whole_) {
     ++report->skipped;
     return;
   }
@@ -198,6 +218,8 @@ void Component::next_velocity(const b2SolverData& data) {
     if (now.v == given.v && now.w == given.w) continue;
     touched = true;
     Body& b = solver.bodies[i];
+    mirrors[i].pushed.v += now.v - given.v;
+    mirrors[i].pushed.w += now.w - given.w;
     const Vec3 change = into_own_frame(solver.places[i].turn, double{now.v.x} - given.v.x,
                                        double{now.v.y} - given.v.y, double{now.w} - given.w);
     solver.push(i, change);
@@ -319,13 +341,10 @@ void Component::advance(const b2SolverData& data) {
   if (!alone_) {
     const float slack = this->slack();
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-      const Body& b = solver.bodies[i];
       const Mirror& m = mirrors[i];
       if (!m.present) continue;
-      const Vec3 by_others =
-          b.v_free - into_own_frame(solver.places[i].turn, m.taken.v.x, m.taken.v.y, m.taken.w);
-      alone &= std::max({std::abs(by_others.x), std::abs(by_others.y), m.gyration * std::abs(by_others.w)}) <=
-               slack;
+      alone &= std::max({std::abs(m.pushed.v.x), std::abs(m.pushed.v.y),
+                         m.gyration * std::abs(m.pushed.w)}) <= slack;
     }
   }
   solver.advance();
@@ -336,8 +355,7 @@ void Component::advance(const b2SolverData& data) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
     kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
-  at_rest_ = kind == SolverKind::direct && touches.empty() && ties.empty() && alone && !kinematic &&
-             solver.at_rest();
+  at_rest_ = kind == SolverKind::direct && ties.empty() && alone && !kinematic && solver.at_rest();
 }
 
 }  // namespace ductile::dynamics

@@ -1,12 +1,12 @@
 // Contacts as rows of the one problem: non-penetration and Coulomb friction at a point of two bodies.
 //
 // A contact is two rows at its point, along the normal n from A to B and along n's left:
-//   λ = G max(0, b − n·v)      t = clamp(G (τ + l·v), −c, c), c = μ λ of the round before
-// with v the velocity of B against A, b what restitution asks for, τ the speed of a conveyor. For given c
-// that is a row with one cap 0 and the other infinite and one of caps ±c: f stays convex (objective.h).
-// Friction whose cap depends on λ at once would not be; the rounds are the lagged fixed point of A. Castro,
-// F. Permenter, X. Han, IEEE Trans. Robotics 39 (2023), and of M. Jean, Comput. Methods Appl. Mech. Engrg.
-// 177 (1999).
+//   λ = max(0, G (b − n·v) + λ₋)      t = clamp(G (τ + l·v) + t₋, −c, c), c = μ λ of the round before
+// with v the velocity of B against A, b what restitution asks for, τ the speed of a conveyor, λ₋ and t₋ the
+// impulses of the step before: an even load moves nothing. For given c that is a row with one cap 0 and the
+// other infinite and one of caps ±c: f stays convex (objective.h). Friction whose cap depends on λ at once
+// would not be; the rounds are the lagged fixed point of A. Castro, F. Permenter, X. Han, IEEE Trans.
+// Robotics 39 (2023), and of M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999).
 //
 // Contact rows are the last in System::joints. They have no gap, no law in time and no
 // material: what integrates, books or projects joints leaves them out (System::own).
@@ -18,7 +18,8 @@
 
 namespace ductile::dynamics {
 
-/// G of contacts as a multiple of the effective mass: what they sink by is g h²/contact_ratio a step.
+/// G of contacts as a multiple of the effective mass: a load that comes within a step sinks by g
+/// h²/contact_ratio.
 inline constexpr double contact_ratio = 1e8;
 
 /// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H

@@ -65,7 +65,7 @@ void Structure::Impl::velocity(const b2SolverData& data) {
     }
     hold_bullets();
     for (Component* c : active_) c->first_velocity(data);
-    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->alone(); })) {
+    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->whole(); })) {
       report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
       velocity_calls_ = last;
     }

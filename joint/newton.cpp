@@ -46,11 +46,16 @@ void Newton::forget() {
   pushes_ = 0;
 }
 
+double Newton::tolerance_of(const System& system) const {
+  return system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance;
+}
+
 // The structure's impulses to `tolerance` of themselves, or to what rounding leaves: in a rigid row the
 // velocity's last bits are multiplied by κ.
-double Newton::target(const Evaluation& at) const {
+double Newton::target(const System& system, const Evaluation& at) const {
   constexpr double floor = 2 * rigid_ratio * std::numeric_limits<double>::epsilon();
-  return tunables.tolerance * tunables.tolerance * at.impulse2 + floor * floor * at.speed2;
+  const double tolerance = tolerance_of(system);
+  return tolerance * tolerance * at.impulse2 + floor * floor * at.speed2;
 }
 
 // An old factor is kept while the rounds that it still needs cost less than a new one (Hairer & Wanner,
@@ -63,7 +68,7 @@ bool Newton::worth_refactoring(const System& system, const Hessian& hessian, con
                                const Round& round) const {
   if (hessian.factored() == Factored::tangents && at.changed == 0 && !round.short_step) return false;
   if (at.changed > 0 && round.used > at.changed + 1) return true;
-  const double left2 = target(at), contraction = std::log(contraction_);
+  const double left2 = target(system, at), contraction = std::log(contraction_);
   const double by_rate =
       at.gradient2 <= contraction_ * left2 ? 1 : std::ceil(std::log(at.gradient2 / left2) / contraction);
   const double expected = at.changed > 0 ? at.changed + 1.0 : by_rate;
@@ -205,14 +210,14 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v = system.bodies[i].v_free;
     at = evaluate(system, g_);
   }
-  if (at.gradient2 > target(at) && at.flows && !round.pushed_only) start_from_lower(system, at);
+  if (at.gradient2 > target(system, at) && at.flows && !round.pushed_only) start_from_lower(system, at);
 
   double best2 = at.gradient2;
   round.first2 = at.gradient2;
   int idle = 0;          // rounds that gained nothing
   bool settled = false;  // rounding leaves no more to gain
   // A predicted start always takes one round, even within tolerance: that removes the prediction's bias.
-  for (; (at.gradient2 > target(at) || (prediction != nullptr && round.number == 0)) &&
+  for (; (at.gradient2 > target(system, at) || (prediction != nullptr && round.number == 0)) &&
          round.number < tunables.round_bound;
        ++round.number) {
     if ((at.flows || round.crossed) && hands_over(system, at, round)) break;
@@ -242,12 +247,12 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     round.crossed = at.crossed;
     // A Newton step within one regime: this is the solution, as far as rounding allows; and that is not far
     // where the step came from much faster velocities.
-    if (exact && !at.crossed && !(at.gradient2 > target(at) && at.gradient2 <= 1e-4 * before2)) {
+    if (exact && !at.crossed && !(at.gradient2 > target(system, at) && at.gradient2 <= 1e-4 * before2)) {
       ++round.number;
       settled = true;
       break;
     }
-    if (at.gradient2 > target(at)) {
+    if (at.gradient2 > target(system, at)) {
       double slope1 = 0;
       for (std::size_t i = 0; i < system.free; ++i) slope1 += dot(g_[i], d_[i]);
       if (search(system, at, slope0, slope1, round.short_step)) at = evaluate(system, g_);
@@ -260,14 +265,15 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     idle = !gains && at.gradient2 <= 1e-10 * at.impulse2 + 1e-8 * at.speed2 ? idle + 1 : 0;
     settled = (!gains && at.gradient2 <= rounding_of_impulses(system)) || idle == 5;
     if (settled) break;
-    if (!tangents && !round.crossed && round.first2 > target(at)) {
+    if (!tangents && !round.crossed && round.first2 > target(system, at)) {
       const double by = round.first2 / at.gradient2;
       contraction_ = std::clamp(round.used == 1 ? by : std::pow(by, 1.0 / round.used), 1.2, 1e17);
     }
   }
-  if (!(at.gradient2 <= target(at) || settled)) at = solve_by_interior_point(system, hessian, report);
+  if (!(at.gradient2 <= target(system, at) || settled)) at = solve_by_interior_point(system, hessian, report);
   report.rounds += round.number;
-  report.residual = at.gradient2 > 0 ? tunables.tolerance * std::sqrt(at.gradient2 / target(at)) : 0;
+  report.residual =
+      at.gradient2 > 0 ? tolerance_of(system) * std::sqrt(at.gradient2 / target(system, at)) : 0;
   left2_ = at.gradient2;
   pushed2_ = 0;
   pushes_ = 0;

@@ -69,7 +69,7 @@ void Solver::place_others() {
 }
 
 bool Solver::solve(SolveReport& report) {
-  const bool predicted = std::exchange(predicted_, false) && !last_.flows;
+  const bool predicted = std::exchange(predicted_, false) && !any_flows();
   Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
   for (int again = 0; again < 3 && solution.moved && raise_to_tension(*this, step()); ++again) {
     hessian_.forget();
@@ -163,9 +163,15 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
   return projection_.project(*this, hessian_, last_, step(), goal, try_goal);
 }
 
+// In last_ a contact that is open, or slides, flows as well.
+bool Solver::any_flows() const {
+  return last_.flows && std::ranges::any_of(own_joints(), [](const Joint& j) { return j.regime != 0; });
+}
+
 bool Solver::at_rest() {
   const auto stands_still = [this] {
-    if (last_.flows || !(last_.speed2 <= 1e-10 * last_.impulse2)) return false;
+    if (!(last_.speed2 <= 1e-10 * last_.impulse2)) return false;
+    if (any_flows()) return false;
     // What poses do not resolve moves nothing, whatever it asks of stiff rows.
     double farthest = 0;
     for (const Place& p : places) farthest = std::max({farthest, std::abs(p.pose.x), std::abs(p.pose.y)});

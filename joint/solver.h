@@ -76,8 +76,8 @@ class Solver : public System {
   /// rest_tolerance: the next step is this one if nothing else touches the bodies. It then starts from this
   /// solution, not from a prediction.
   bool at_rest();
-  /// Whether any row was beyond its cap in the last solve.
-  bool any_flows() const { return last_.flows; }
+  /// Whether any row of the structure's own joints was beyond its cap in the last solve.
+  bool any_flows() const;
   /// Of the bodies in the last solve, m/s and rad/s.
   double fastest() const { return std::sqrt(last_.fastest2); }
   double fastest_turn() const { return std::sqrt(last_.fastest_turn2); }

@@ -1,0 +1,76 @@
+#include "seams.h"
+
+#include <algorithm>
+
+#include "ductile/joint.h"
+
+namespace ductile::dynamics {
+
+namespace {
+
+constexpr float skin = 4 * b2_linearSlop;  // by which pieces may be apart, or one higher than the next
+
+/// Whether `neighbour` covers a face of the polygon where it is nearest to a point, which is in the polygon's
+/// frame: beside the face, a little towards its middle, there is more of it.
+bool covers(const b2Fixture& neighbour, const b2Fixture& piece, int32 face, const b2Vec2& point) {
+  const auto& shape = static_cast<const b2PolygonShape&>(*piece.GetShape());
+  const b2Vec2 from = shape.m_vertices[face], along = shape.m_vertices[(face + 1) % shape.m_count] - from;
+  const float edge = std::min(0.5f, skin / along.Length());
+  const float at = b2Clamp(b2Dot(point - from, along) / along.LengthSquared(), edge, 1 - edge);
+  return neighbour.TestPoint(
+      b2Mul(piece.GetBody()->GetTransform(), from + at * along + skin * shape.m_normals[face]));
+}
+
+/// Whether the contact is at a face of `piece`, one of its fixtures, that `neighbour` covers there, or at a
+/// corner of such a face.
+bool meets_cover(const b2Contact& contact, const b2Fixture& piece, const b2Fixture& neighbour) {
+  if (piece.GetType() != b2Shape::e_polygon) return false;
+  const auto& shape = static_cast<const b2PolygonShape&>(*piece.GetShape());
+  const b2Manifold& manifold = *contact.GetManifold();
+  const bool is_a = contact.GetFixtureA() == &piece;
+  const auto* end = shape.m_vertices + shape.m_count;
+  const auto* corner = std::find(shape.m_vertices, end, manifold.localPoint);
+  if (manifold.type == (is_a ? b2Manifold::e_faceA : b2Manifold::e_faceB) && corner != end) {
+    const auto at = static_cast<int32>(corner - shape.m_vertices);  // where a circle meets it
+    return covers(neighbour, piece, at, *corner) ||
+           covers(neighbour, piece, (at + shape.m_count - 1) % shape.m_count, *corner);
+  }
+  b2WorldManifold world;
+  contact.GetWorldManifold(&world);
+  const b2Transform& frame = piece.GetBody()->GetTransform();
+  const b2Vec2 out = b2MulT(frame.q, is_a ? world.normal : -world.normal);
+  const auto* normal =
+      std::max_element(shape.m_normals, shape.m_normals + shape.m_count,
+                       [&out](const b2Vec2& m, const b2Vec2& n) { return b2Dot(m, out) < b2Dot(n, out); });
+  return std::all_of(world.points, world.points + manifold.pointCount, [&](const b2Vec2& point) {
+    return covers(neighbour, piece, static_cast<int32>(normal - shape.m_normals), b2MulT(frame, point));
+  });
+}
+
+bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b2Body& other) {
+  if (piece.GetType() != b2Shape::e_polygon) return false;
+  for (const b2JointEdge* j = piece.GetBody()->GetJointList(); j != nullptr; j = j->next) {
+    if (ElasticPlasticJoint::cast(j->joint) == nullptr) continue;
+    // What stands still may have very many contacts.
+    const bool from_neighbour = j->other->GetType() == b2_dynamicBody;
+    const b2Body &from = from_neighbour ? *j->other : other, &to = from_neighbour ? other : *j->other;
+    for (const b2ContactEdge* e = from.GetContactList(); e != nullptr; e = e->next) {
+      const b2Contact& beside = *e->contact;
+      if (e->other != &to || !beside.IsTouching() || !beside.IsEnabled()) continue;
+      const bool is_a = beside.GetFixtureA()->GetBody() == j->other;
+      const b2Fixture& neighbour = is_a ? *beside.GetFixtureA() : *beside.GetFixtureB();
+      if (meets_cover(contact, piece, neighbour) && !meets_cover(beside, neighbour, piece)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_at_seam(const Touch& touch) {
+  const b2Fixture &a = *touch.contact->GetFixtureA(), &b = *touch.contact->GetFixtureB();
+  return is_carried_beside(*touch.contact, a, *b.GetBody()) ||
+         is_carried_beside(*touch.contact, b, *a.GetBody());
+}
+
+}  // namespace ductile::dynamics

@@ -1,0 +1,13 @@
+// Seams: where pieces are joined, the side face of one is covered by the other, and what slides over both
+// meets a corner that is none of the whole. Box2D, which sees each piece alone, catches or lifts it there.
+#pragma once
+
+#include "box2d_contacts.h"
+
+namespace ductile::dynamics {
+
+/// Whether a contact is at a face, or at the corner of a face, that a joined piece covers, while that piece
+/// carries the same body at a face of its own: such a contact is none of the structure as a whole.
+bool is_at_seam(const Touch& touch);
+
+}  // namespace ductile::dynamics
