@@ -98,8 +98,11 @@ void Structure::Impl::form() {
   std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> first_joint(static_cast<std::size_t>(world->GetBodyCount()), none);
+  std::vector<const b2Body*> seen(first_joint.size());  // others have places in other islands, or none
   const auto first = [&](const b2Body& body) -> std::size_t& {
-    return first_joint[IslandContacts::place_of(body)];
+    const std::size_t place = IslandContacts::place_of(body);
+    seen[place] = &body;
+    return first_joint[place];
   };
   std::vector<std::size_t> root(all.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
@@ -140,6 +143,22 @@ void Structure::Impl::form() {
     if (!is_free(pair.a) && !is_free(pair.b)) continue;
     const std::size_t joint = first(is_free(pair.a) ? *pair.a : *pair.b);
     if (joint != none) touched[find(joint)].push_back(pair);
+  }
+  // What is near may touch in the next step: known by then, it need not be formed anew.
+  std::vector<char> looked_at(first_joint.size());
+  for (const BodyPair& pair : pairs) {
+    for (b2Body* body : {pair.a, pair.b}) {
+      if (!is_free(body) || first(*body) == none) continue;
+      if (std::exchange(looked_at[IslandContacts::place_of(*body)], 1) != 0) continue;
+      const std::size_t group = find(first(*body));
+      for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+        if (e->contact->IsTouching()) continue;
+        const std::size_t place = IslandContacts::place_of(*e->other);
+        const bool is_in = place < seen.size() && seen[place] == e->other && first_joint[place] != none &&
+                           find(first_joint[place]) == group;
+        if (may_take(*e->other) && (is_in || !is_free(e->other))) touched[group].push_back({body, e->other});
+      }
+    }
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
     auto& group = groups[k];
