@@ -87,6 +87,9 @@ class Check {
       if (j.at && (j.gap > 0 || j.overrides.elastic || j.overrides.hinge_length || j.overrides.shear_span))
         add(place, "has `gap`, `elastic` or a hinge's length beside `at`",
             "leave them out: a node is rigid, and has no section");
+      if (j.welded && !j.at)
+        add(place, "is `welded` and no node",
+            "leave it out: where edges touch, joints have their section's strength; or give a point, `at`");
       if (j.across) {
         finite((*j.across)[0], place, "across");
         finite((*j.across)[1], place, "across");
@@ -702,6 +705,34 @@ class Planner {
                                      (def.drive->row == axial ? "; N, Nc: drive" : "; M: drive"));
   }
 
+  // What a welded node's joint has of the bars that end there.
+  struct Weld {
+    double M = 0, M_reverse = 0, max_rotation = unlimited;
+    std::string by;  // the joint next to the node of which they are; empty: none
+  };
+  // Of the weaker bar. A hinge turns the piece that is farther along the bar, so that a bar whose joint next
+  // to the node counts its pieces the other way round has its two moments exchanged.
+  Weld weld_of(int hub, int other, Point at, const std::string& name) {
+    Weld weaker{unlimited, unlimited, unlimited, ""};
+    for (const int piece : {hub, other}) {
+      const PlannedJoint* next = next_to_end(piece, at);
+      if (next == nullptr) continue;
+      const bool same_sense = (piece == hub ? next->b : next->a) == piece;
+      const double M = same_sense ? next->M : next->M_reverse;
+      const double M_reverse = same_sense ? next->M_reverse : next->M;
+      if (weaker.by.empty() || std::min(M, M_reverse) < std::min(weaker.M, weaker.M_reverse))
+        weaker.by = next->name;
+      weaker.M = std::min(weaker.M, M);
+      weaker.M_reverse = std::min(weaker.M_reverse, M_reverse);
+      weaker.max_rotation = std::min(weaker.max_rotation, next->max_rotation);
+    }
+    if (weaker.by.empty())
+      problems_.push_back({"joint '" + name + "' at " + to_string(at),
+                           "is welded where neither body ends with a joint of its own",
+                           "split one that ends there into pieces, or give the node's `moment`"});
+    return weaker;
+  }
+
   // The first body's piece is the hub.
   void join_at(const JointBetweenDef& def, int node) {
     std::vector<int> pieces;
@@ -710,7 +741,8 @@ class Planner {
       require_near(piece, *def.at, node - 1);
     }
     const JointOverrides& own = def.overrides;
-    const bool bends = own.moment.value_or(0) > 0 && !own.stiffness_moment && !own.elastic;
+    const bool bends =
+        own.moment.value_or(def.welded ? unlimited : 0) > 0 && !own.stiffness_moment && !own.elastic;
     std::vector<double> gives(pieces.size());
     if (bends) {
       std::transform(pieces.begin(), pieces.end(), gives.begin(),
@@ -735,19 +767,21 @@ class Planner {
       joint.N = own.axial.value_or(unlimited);
       joint.Nc = own.axial_compression.value_or(joint.N);
       joint.Q = own.shear.value_or(unlimited);
-      joint.M = own.moment.value_or(0);
-      joint.M_reverse = own.moment_reverse.value_or(joint.M);
+      const Weld weld = def.welded ? weld_of(pieces[0], pieces[i], *def.at, joint.name) : Weld{};
+      joint.M = own.moment.value_or(weld.M);
+      joint.M_reverse = own.moment_reverse.value_or(own.moment.value_or(weld.M_reverse));
       const double both = gives[0] + gives[i];
       joint.stiffness = {own.stiffness_axial.value_or(unlimited), own.stiffness_shear.value_or(unlimited),
                          own.stiffness_moment.value_or(both > 0 ? 1 / both : unlimited)};
       joint.damping_ratio = own.damping_ratio.value_or(damping_of(joint.a, joint.b));
-      joint.max_rotation = own.max_rotation.value_or(unlimited);
+      joint.max_rotation = own.max_rotation.value_or(weld.max_rotation);
       joint.max_elongation = own.max_elongation.value_or(unlimited);
       joint.max_compression = own.max_compression.value_or(unlimited);
       joint.max_slip = own.max_slip.value_or(unlimited);
       joint.hold = own.hold.value_or(false);
       joint.node = node;
-      joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: free");
+      joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: " +
+                                       (weld.by.empty() ? "free" : "as " + weld.by));
       plan_.joints.push_back(std::move(joint));
     }
   }

@@ -45,7 +45,7 @@ void check_line(const JointBetweenDef& def, const std::string& place, std::vecto
     add("has a drive to a position at speed 0", "give a speed, or leave it out");
   if (def.is_line() && d.position && !(*d.position > 0))
     add("winds a line in to a length of " + to_string(*d.position), "stop at a length > 0");
-  if (limits(o, d.row))
+  if (limits(o, d.row) || (def.welded && d.row == rotation))
     add("has a cap beside that of its drive", "leave one of them out: give the drive's `cap` alone");
 }
 

@@ -79,7 +79,7 @@ void Desk::draw_making(ImDrawList& to) const {
     to.AddCircle(at, f(3.5), ink::edge, 0, f(1.5));
   }
   for (const JointBetweenDef& joint : scene.joints) {  // welds
-    if (!joint.at || !joint.overrides.moment || *joint.overrides.moment == 0) continue;
+    if (!joint.at || !(joint.welded || joint.overrides.moment.value_or(0) > 0)) continue;
     const Point at = camera_.to_screen(*joint.at), half{4 * ui_, 4 * ui_};
     to.AddRectFilled(px(at - half), px(at + half), ink::edge);
   }

@@ -44,8 +44,9 @@ SceneDef with_weld_or_pin(SceneDef scene, Point at) {
     if (!joint.at || !is_same(*joint.at, at)) continue;
     // A weld outlasts the beams, which yield beside it.
     std::optional<double>& moment = joint.overrides.moment;
-    moment = moment ? std::nullopt : std::optional(unlimited);
+    moment = moment || joint.welded ? std::nullopt : std::optional(unlimited);
     joint.overrides.moment_reverse.reset();
+    joint.welded = false;
     return scene;
   }
   throw InvalidInput({{"node", "nothing is pinned here", "put it where beams meet"}});

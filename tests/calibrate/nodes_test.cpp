@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ductile/box2d.h"
+#include "ductile/plane.h"
 #include "scenes.h"
 
 namespace ductile {
@@ -94,6 +95,61 @@ TEST(Node, RefusesWhatItCannotBe) {
   expect("farther", [](JointBetweenDef& j) { j.at = Point{50, 0}; });
   expect("not finite", [](JointBetweenDef& j) { j.at = Point{unlimited, 0}; });
   expect("`gap`", [](JointBetweenDef& j) { j.gap = 1; });
+}
+
+// M_p = f_y b h²/4 of bars 0.2 m high: 70 kN m of one, half as much of the other; the third goes on beyond.
+TEST(Node, WeldedIsAsStrongAsTheWeakerBarThatEndsThere) {
+  const auto bar = [](const char* name, Point from, Point to, double depth) {
+    const double L = length(to - from);
+    return BodyDef{.name = name,
+                   .outline = {rectangle(0, -0.1, L, 0.1), {}},
+                   .material = test_steel,
+                   .depth = depth,
+                   .pieces = 4,
+                   .at = from,
+                   .angle = std::atan2(to.y - from.y, to.x - from.x)};
+  };
+  SceneDef scene;
+  scene.bodies = {bar("strong", {-4, 0}, {0, 0}, 0.02), bar("weak", {0, 0}, {0, 4}, 0.01),
+                  bar("long", {0, -4}, {0, 4.5}, 0.001)};
+  scene.joints = {{.a = "strong", .b = "weak", .at = Point{0, 0}, .welded = true},
+                  {.a = "strong", .b = "long", .at = Point{0, 0}, .welded = true}};
+  const auto nodes = [&] {
+    std::vector<PlannedJoint> joints;
+    for (const PlannedJoint& j : calibrate(scene).joints)
+      if (j.node != 0) joints.push_back(j);
+    return joints;
+  };
+  const std::vector<PlannedJoint> joints = nodes();
+  ASSERT_EQ(joints.size(), 2u);
+  for (const double M : {joints[0].M, joints[0].M_reverse}) EXPECT_NEAR(M, 35e3, 35e3 * 1e-9);
+  for (const double M : {joints[1].M, joints[1].M_reverse}) EXPECT_NEAR(M, 70e3, 70e3 * 1e-9);
+  EXPECT_NEAR(joints[0].max_rotation, 0.2 * 0.2 / 0.1, 1e-9);  // ε_f L_p/y
+  EXPECT_EQ(joints[0].N, unlimited);
+
+  scene.joints[0].overrides.moment = 50e3;
+  EXPECT_EQ(nodes()[0].M, 50e3);
+  EXPECT_EQ(nodes()[0].M_reverse, 50e3);
+  scene.joints[0] = {.a = "weak", .b = "long", .at = Point{0, 0}, .welded = true};
+  EXPECT_NEAR(nodes()[0].M, 35e3, 35e3 * 1e-9);
+
+  const auto expect = [&](const char* what, const SceneDef& refused) {
+    try {
+      calibrate(refused);
+      ADD_FAILURE() << what;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  SceneDef whole = scene;
+  whole.bodies[1].pieces = 1;
+  expect("is welded where neither body ends", whole);
+  SceneDef touching = scene;
+  touching.joints[0].at.reset();
+  expect("is `welded` and no node", touching);
+  SceneDef driven = scene;
+  driven.joints[0].drive = DriveDef{.row = rotation, .speed = 0};
+  expect("cap beside that of its drive", driven);
 }
 
 TEST(Build, IntoAStructureThatIsThere) {

@@ -114,6 +114,27 @@ TEST(LeastMass, APortalWithFixedFeet) {
   }
 }
 
+// The same with welded corners, where the hinges of the weaker member form in the node itself.
+TEST(LeastMass, WeldedCornersAreAsStrongAsTheWeakerMember) {
+  const double h = 10, l = 12, V = 2e6 / (l / 2), H = 0.2e6 / h;
+  SceneDef scene = portal(h, l, H, V, 0.5, true);
+  for (std::size_t i = 1; i < 4; ++i) {
+    BodyDef& body = scene.bodies[i];
+    const double middle = (i == 3 ? l : h) / 2;
+    body.cuts = {{Point{middle, -t}, Point{middle, t}}};
+    if (i == 3) continue;
+    JointBetweenDef& corner = scene.joints[i + 1];
+    corner.overrides = {};
+    corner.welded = true;
+  }
+  const double column = H * h / 2, girder = V * l / 4 - H * h / 2;
+  const LeastMass least = least_mass(scene, {{1, 2}, {3}}, 1);
+  EXPECT_NEAR(bears(least.scene, 1) / column, 1, 1e-8);
+  EXPECT_NEAR(bears(least.scene, 3) / girder, 1, 1e-8);
+  EXPECT_NEAR(least.mass / (mass(2 * h, column) + mass(l, girder)), 1, 1e-8);
+  EXPECT_NEAR(least.collapse, 1, 1e-7);
+}
+
 // Two equal spans on three supports, one loaded three times as much as the other: each span's mechanism,
 // W l/2 = 2 M + the lesser of both at the middle support. M_2 = a_2/3, M_1 = (a_1 − a_2/3)/2 with a = W l/2:
 // 1/2 of the first's (2, 1) and 1/6 of the second's (0, 3) are (1, 1).

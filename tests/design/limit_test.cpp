@@ -118,6 +118,40 @@ TEST(LimitAnalysis, IntervalsInLine) {
   EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor / one, 1, 2e-3);  // of polygons
 }
 
+// A T of cast iron bears more with its flange in compression: a bar of it that is welded to a wall at a node
+// bears what one bears that touches the wall, up and down, whichever way it is drawn and joined.
+TEST(LimitAnalysis, WeldedNodesKnowASectionsSides) {
+  constexpr double l = 5;
+  const Ring tee{{-0.01, 0}, {0.01, 0},   {0.01, 0.18}, {0.1, 0.18},
+                 {0.1, 0.2}, {-0.1, 0.2}, {-0.1, 0.18}, {-0.01, 0.18}};
+  Material iron = test_steel;
+  iron.yield_stress_compression = 3 * iron.yield_stress;
+  for (const bool outward : {true, false}) {
+    std::vector<double> bears;
+    for (const double load : {P, -P}) {
+      SceneDef touching = bending_only();
+      touching.bodies = {wall("wall", -1, 0), beam(4, l, 0.2)};
+      BodyDef& bar = touching.bodies[1];
+      bar.material = iron;
+      bar.profile = {{{tee, {}}, iron}};
+      if (!outward) std::swap(bar.along[0], bar.along[1]);
+      touching.joints = {{.a = "wall", .b = "beam"}};
+      touching.loads = {{.body = "beam", .at = {l, 0}, .force = {0, -load}}};
+      bears.push_back(limit_analysis(calibrate(touching)).load_factor);
+      for (const bool wall_first : {true, false}) {
+        SceneDef welded = touching;
+        welded.joints = {{.a = wall_first ? "wall" : "beam",
+                          .b = wall_first ? "beam" : "wall",
+                          .at = Point{0, 0},
+                          .welded = true}};
+        EXPECT_NEAR(limit_analysis(calibrate(welded)).load_factor / bears.back(), 1, exactly)
+            << outward << wall_first << load;
+      }
+    }
+    EXPECT_GT(std::max(bears[0], bears[1]), 1.5 * std::min(bears[0], bears[1]));
+  }
+}
+
 TEST(LimitAnalysis, WhatHasNoAnswerSaysSo) {
   EXPECT_THROW(limit_analysis(calibrate(cantilever(2, 0))), InvalidInput) << "no load";
   SceneDef heavy = cantilever(2, P);

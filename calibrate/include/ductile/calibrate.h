@@ -122,6 +122,10 @@ struct JointBetweenDef {
   /// nothing limits but its own overrides.
   std::optional<Point> at;
   std::vector<std::string> others;  ///< further bodies of a node
+  /// Of a node: not a pin, but as strong as the sections that end there. Each of its joints has the moments
+  /// and the `max_rotation` of the weaker body's own joint next to the node; a body that goes on beyond it,
+  /// or is one piece, does not govern.
+  bool welded = false;
   /// m, world axes at t = 0: the joint's section instead of common edges, between the pieces nearest to its
   /// middle, which is the joint's anchor. Two bodies may have several such joints.
   std::optional<std::array<Point, 2>> across;

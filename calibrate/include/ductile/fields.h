@@ -101,7 +101,8 @@ inline constexpr std::tuple body{Field{"name", &BodyDef::name, any_number, "", t
 
 /// A joint between bodies; `between`, its place, `kind`, `drive` and overrides besides.
 inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"},
-                                  Field{"length", &JointBetweenDef::length, positive, "m"}};
+                                  Field{"length", &JointBetweenDef::length, positive, "m"},
+                                  Field{"welded", &JointBetweenDef::welded}};
 
 /// A drive; `row` besides.
 inline constexpr std::tuple drive{Field{"position", &DriveDef::position, any_number, "m or rad"},
