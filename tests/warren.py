@@ -5,6 +5,9 @@ import subprocess
 
 NODES = {"a": (-4, 2), "b": (0, 2), "c": (4, 2), "d": (-2, 4), "e": (2, 4)}
 BEAMS = ["ab", "bc", "ad", "db", "be", "ec", "de"]
+# In the order of the menu: what it is exported as, the file's ending, and what is in it.
+EXPORTS = (("Box2D definitions", "box2d.json", '"beam1/0"'), ("C++ source", "cpp", "build_new(b2World"),
+           ("R.U.B.E. level", "rube.json", '"joint"'), ("picture", "svg", "</svg>"), ("replay", "html", "</html>"))
 LEFT = ["ab", "ad", "db"]  # the half that a mirror in x = 0 makes the whole of, without the upper chord
 
 

@@ -1,6 +1,7 @@
 #include "desk.h"
 
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,8 @@
 
 #include "pick.h"
 #include "quantity.h"
+
+#include <imgui_stdlib.h>  // after imgui.h
 
 namespace ductile::viewer {
 namespace {
@@ -31,9 +34,13 @@ void place_window(const Bounds& box) {
 void Desk::draw(Point size, double ui) {
   ui_ = hand_.ui_scale = ui;
   controls_.clear();
+  focus_.clear();
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   rests_ = moved.x != 0 || moved.y != 0 ? 0 : rests_ + ImGui::GetIO().DeltaTime;
-  if (!ImGui::IsAnyItemActive()) edited_ = false;
+  if (!ImGui::IsAnyItemActive()) {
+    edited_ = false;
+    if (ImGui::GetFrameCount() > typing_since_ + 5) typing_ = 0;  // its slider has gone
+  }
   // Beside the scene where there is room, else below it, one at a time.
   narrow_ = size.x < (left_width + right_width + least_width) * ui;
   const double left = narrow_ ? 0 : left_width * ui, right = narrow_ ? size.x : size.x - right_width * ui;
@@ -41,14 +48,19 @@ void Desk::draw(Point size, double ui) {
   const double bottom = narrow_ ? top + narrow_bottom_height * ui : size.y;
   camera_.screen = {{left, 0}, {right, top}};
   if (edition_ != bench_.edition()) adopt();
-  if (!ImGui::GetIO().WantTextInput) keys();
+  panel_keys();
+  const Bounds below{{0, bottom}, size}, bar{{0, top}, {size.x, bottom}},
+      at_left = narrow_ ? below : Bounds{{0, 0}, {left, top}},
+      at_right = narrow_ ? below : Bounds{{right, 0}, {size.x, top}};
   centre(camera_.screen);
-  time({{0, top}, {size.x, bottom}});
-  const Bounds below{{0, bottom}, size};
-  if (!narrow_ || !details_) scene(narrow_ ? below : Bounds{{0, 0}, {left, top}});
-  if (!narrow_ || details_) details(narrow_ ? below : Bounds{{right, 0}, {size.x, top}});
+  time(bar);
+  if (!narrow_ || !details_) scene(at_left);
+  if (!narrow_ || details_) details(at_right);
   if (!bench_.message.empty()) message();
   if (helping_) help();
+  if (panel_ == Panel::view) return;
+  const Bounds& box = panel_ == Panel::details ? at_right : panel_ == Panel::time ? bar : at_left;
+  ImGui::GetForegroundDrawList()->AddRect(px(box.low), px(box.high), ink::accent, 0, 0, f(2 * ui_));
 }
 
 void Desk::adopt() {
@@ -64,6 +76,7 @@ void Desk::adopt() {
 
 void Desk::tip(const char* name, const char* text) {
   controls_[name] = {point(ImGui::GetItemRectMin()), point(ImGui::GetItemRectMax())};
+  if ((popup_ || panel_ != Panel::view) && ImGui::IsItemFocused()) focus_ = name;
   constexpr double rest = 0.4;  // s
   if (rests_ < rest || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
@@ -77,6 +90,41 @@ bool Desk::button(const char* label, const char* name, const char* text) {
   const bool pressed = ImGui::Button(label);
   tip(name, text);
   return pressed;
+}
+
+bool Desk::slide(const char* label, double& value, double low, double high, const char* format) {
+  const ImGuiID id = ImGui::GetID(label);
+  if (typing_ != id) {
+    const char* shown = std::isfinite(value) ? format : "unlimited";
+    double slid = value;
+    const bool changed =
+        ImGui::SliderScalar(label, ImGuiDataType_Double, &slid, &low, &high, shown,
+                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
+                                (low < 0 ? ImGuiSliderFlags_None : ImGuiSliderFlags_Logarithmic));
+    if (ImGui::IsItemActivated() && (ImGui::GetIO().KeyCtrl || !ImGui::IsMouseDown(ImGuiMouseButton_Left))) {
+      typing_ = id;
+      typing_since_ = ImGui::GetFrameCount();
+      typed_ = fmt::sprintf(shown, value);
+      return false;
+    }
+    if (changed) value = slid;
+    return changed;
+  }
+  if (ImGui::GetFrameCount() == typing_since_ + 1) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText((std::string(label) + "##typed").c_str(), &typed_, ImGuiInputTextFlags_AutoSelectAll);
+  if (!ImGui::IsItemDeactivated()) return false;
+  typing_ = 0;
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  const std::string_view all = format;
+  const std::size_t space = all.find(' ');
+  const std::string unit(space == all.npos ? "" : all.substr(space + 1));
+  const std::optional<double> now = typed(typed_, unit);
+  if (!now) {
+    bench_.message = "'" + typed_ + "' is no number" + (unit.empty() ? "" : " of " + unit) + ".";
+    return false;
+  }
+  value = std::clamp(*now, low, high);
+  return true;
 }
 
 bool Desk::choose(const char* label, const char* text, int& value, std::initializer_list<const char*> items) {
@@ -230,9 +278,7 @@ void Desk::time(const Bounds& box) {
   }
   next_group();
   ImGui::SetNextItemWidth(static_cast<float>(110 * ui_));
-  constexpr double slowest = 0.01, fastest = 4;
-  ImGui::SliderScalar("pace", ImGuiDataType_Double, &bench_.pace, &slowest, &fastest, "%.2f x",
-                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  slide("pace", bench_.pace, 0.01, 4, "%.2f x");
   tip("pace", "Seconds of the scene per second: slow motion to the left.");
   ImGui::SameLine(0, gap);
   ImGui::SetNextItemWidth(static_cast<float>(90 * ui_));

@@ -37,10 +37,13 @@ class Desk {
   const Maker& maker() const { return maker_; }
   /// The box of every control of the last frame, px, by name.
   const std::map<std::string, Bounds>& controls() const { return controls_; }
+  /// The control that has the keys; empty: the scene has them.
+  const std::string& focus() const { return focus_; }
 
  private:
   void adopt();  // another scene or plan has come
   void keys();
+  void panel_keys();
   void centre(const Bounds& box);
   void scene(const Bounds& box);
   void run();
@@ -87,6 +90,9 @@ class Desk {
   /// To be called right after a control: its name, and what it does, for whoever rests the pointer on it.
   void tip(const char* name, const char* text);
   bool button(const char* label, const char* name, const char* text);
+  /// A slider, fine at both ends of a range that has no negative numbers. Ctrl + click, or Enter by keys,
+  /// types a value, in the unit that `format` ends with or another one.
+  bool slide(const char* label, double& value, double low, double high, const char* format);
   /// One of several.
   bool choose(const char* label, const char* text, int& value, std::initializer_list<const char*> items);
   void seek(std::optional<long> step);
@@ -106,15 +112,21 @@ class Desk {
   std::string save_as_, scene_;  // what is typed; what was opened
   std::string profile_filter_;   // what is typed to find one
   std::map<std::string, Bounds> controls_;
+  std::string focus_;
   std::optional<Diagram> diagram_;  // of the joint in focus
   std::size_t diagram_of_ = 0;
-  bool edited_ = false;  // by the control that is being dragged
+  bool edited_ = false;   // by the control that is being dragged
+  ImGuiID typing_ = 0;    // the slider whose value is being typed
+  int typing_since_ = 0;  // frame
+  std::string typed_;
   std::string news_;
   double news_ends_ = 0;     // s of ImGui::GetTime()
   double rests_ = 0;         // s since the pointer moved
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
-  bool placing_ = false, helping_ = false;
+  bool placing_ = false, helping_ = false, exporting_ = false;
+  enum class Panel { view, details, time, scene } panel_ = Panel::view;  // that has the keys
+  bool popup_ = false;                                                   // a list or menu has them
   bool narrow_ = false, details_ = false;  // one panel at a time; the one on the right
 };
 

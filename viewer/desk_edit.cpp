@@ -45,9 +45,7 @@ void Desk::edit() {
   if (axis_of(body)) {
     beam_section(scene, body);
   } else if (body.profile.empty()) {
-    constexpr double thinnest = 1e-4, thickest = 100;
-    const bool changed = ImGui::SliderScalar("depth", ImGuiDataType_Double, &body.depth, &thinnest, &thickest,
-                                             "%.4g m", ImGuiSliderFlags_Logarithmic);
+    const bool changed = slide("depth", body.depth, 1e-4, 100, "%.4g m");
     tip("depth", "Of the body, out of the plane.");
     commit(changed, scene);
   }
@@ -92,8 +90,7 @@ void Desk::material(SceneDef& scene, BodyDef& body) {
             &Material::fracture_strain, 0, 2, 1}};
   for (const Value& value : values) {
     double shown = material.*value.of / value.unit;
-    const bool changed = ImGui::SliderScalar(value.label, ImGuiDataType_Double, &shown, &value.low,
-                                             &value.high, value.format, ImGuiSliderFlags_Logarithmic);
+    const bool changed = slide(value.label, shown, value.low, value.high, value.format);
     tip(value.name, value.text);
     if (changed) material.*value.of = shown * value.unit;
     is_now(changed);
@@ -148,9 +145,7 @@ void Desk::limits(SceneDef& scene) {
     ImGui::SameLine();
     ImGui::BeginDisabled(!own);
     double shown = value.value_or(limit.now);
-    changed =
-        ImGui::SliderScalar(limit.label, ImGuiDataType_Double, &shown, &limit.low, &limit.high,
-                            shown < unlimited ? limit.format : "unlimited", ImGuiSliderFlags_Logarithmic);
+    changed = slide(limit.label, shown, limit.low, limit.high, limit.format);
     tip(limit.name, limit.text);
     if (changed) value = shown;
     commit(changed && own, scene);

@@ -9,6 +9,30 @@
 
 namespace ductile::viewer {
 
+// Tab gives the keys to the next panel: arrows go from control to control there, Enter presses or types.
+void Desk::panel_keys() {
+  ImGuiIO& io = ImGui::GetIO();
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  const bool ours = !popup && !popup_ && !io.WantTextInput;  // Escape has just closed what was open
+  popup_ = popup;
+  const auto give = [this](Panel panel) {
+    static constexpr std::array windows{"scene view", "details", "time", "scene"};  // in the order of Panel
+    panel_ = panel;
+    if (panel == Panel::details || panel == Panel::scene) details_ = panel == Panel::details;
+    ImGui::SetWindowFocus(windows[static_cast<std::size_t>(panel)]);
+  };
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) panel_ = Panel::view;
+  if (ours && key(GLFW_KEY_ESCAPE)) bench_.message.clear();
+  if (ours && key(GLFW_KEY_TAB) && !io.KeyCtrl && !io.KeyAlt) {
+    give(static_cast<Panel>((static_cast<int>(panel_) + (io.KeyShift ? 3 : 1)) % 4));
+  } else if (ours && panel_ != Panel::view && key(GLFW_KEY_ESCAPE)) {
+    give(Panel::view);
+  } else if (ours && (panel_ == Panel::view || io.KeyCtrl || io.KeyAlt)) {
+    keys();
+  }
+  io.ConfigFlags = popup || panel_ != Panel::view ? ImGuiConfigFlags_NavEnableKeyboard : 0;
+}
+
 // What Box2D's testbed has a key for has the same here.
 void Desk::keys() {
   const ImGuiIO& io = ImGui::GetIO();
@@ -26,6 +50,10 @@ void Desk::keys() {
       if (key(GLFW_KEY_T)) take(Maker::Tool::turn);
     }
     if (key(GLFW_KEY_O)) open_named();
+    if (key(GLFW_KEY_E)) {
+      exporting_ = true;
+      details_ = false;
+    }
     return;
   }
   if (io.KeyAlt) {  // ctrl + N and T are a browser's own
@@ -102,9 +130,10 @@ void Desk::help() {
       Row{"ctrl+drag", "select in a box anywhere"},
       Row{"shift+drag", "pull a bomb back and let it go"},
       Row{"ctrl+A", "select all joints"},
-      Row{"ctrl+click", "type a slider's value"},
+      Row{"ctrl+click", "type a slider's value: 0.2, 20 cm, 8 in"},
+      Row{"Tab", "the next panel: arrows, Enter; Escape: back to the scene"},
       Row{"ctrl+Z  Y", "undo, redo"},
-      Row{"ctrl+N  O  S", "new scene (alt+N too), open, save"},
+      Row{"ctrl+N  O  S  E", "new scene (alt+N too), open, save, export"},
       Row{"Escape", "give up what is drawn, lay the tool down, select nothing"},
       Row{"H", "this list"},
   };

@@ -15,8 +15,6 @@ namespace {
 
 using Tool = Maker::Tool;
 
-constexpr double least_stroke = -5, most_stroke = 5;  // m
-
 struct ToolButton {
   Tool tool;
   const char *label, *control, *text;
@@ -126,7 +124,7 @@ void Desk::line_style() {
   double force = line.force / 1e3;
   if (slide("force", force, 1e-3, 1e6, "%.4g kN")) line.force = 1e3 * force;
   tip("jack force", "With which the next jack pushes or pulls at most.");
-  ImGui::SliderScalar("stroke", ImGuiDataType_Double, &line.stroke, &least_stroke, &most_stroke, "%.3g m");
+  slide("stroke", line.stroke, -5, 5, "%.3g m");
   tip("jack stroke", "By how much it grows; shortens, to the left.");
   slide("speed", line.speed, 1e-3, 10, "%.3g m/s");
   tip("jack speed", "How fast it does.");

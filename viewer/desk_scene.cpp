@@ -1,10 +1,12 @@
 // The left side of the desk: which scene, how it is run, what is drawn of it, what is thrown at it.
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "controls.h"
 #include "desk.h"
@@ -14,7 +16,6 @@
 #include <imgui_stdlib.h>  // after imgui.h
 
 namespace ductile::viewer {
-namespace {}  // namespace
 
 void Desk::scene(const Bounds& box) {
   ImGui::SetNextWindowPos(px(box.low));
@@ -24,7 +25,8 @@ void Desk::scene(const Bounds& box) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::TextUnformatted("Scene");
   const auto rows = static_cast<float>(std::min<std::size_t>(7, bench_.scenes().size() + 1));
-  ImGui::BeginChild("scenes", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, true);
+  ImGui::BeginChild("scenes", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, true,
+                    ImGuiWindowFlags_NavFlattened);
   for (const std::filesystem::path& file : bench_.scenes()) {
     const bool here = file == bench_.file();
     if (ImGui::Selectable(scene_name(file).c_str(), here) && !here) bench_.try_open(file);
@@ -35,7 +37,9 @@ void Desk::scene(const Bounds& box) {
   if (bench_.scenes().empty()) ImGui::TextWrapped("Drop a file here.");
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1);
+  ImGui::PushAllowKeyboardFocus(false);  // Tab goes on to the next panel
   ImGui::InputText("##save as", &save_as_);
+  ImGui::PopAllowKeyboardFocus();
   tip("save as", "Where the scene is saved. Files dropped on the window are opened: scenes, drawings.");
   if (button("Save", "save", "Saves the scene as it was edited to the file above (ctrl+S).")) save();
   ImGui::SameLine();
@@ -58,14 +62,19 @@ void Desk::scene(const Bounds& box) {
 
 // Into files beside the scene, of its name and the format's ending.
 void Desk::exports() {
-  if (button("Export", "export", "For other programs: definitions, C++, a level, a picture, a replay.")) {
-    ImGui::OpenPopup("formats");
-  }
+  if (button("Export", "export",
+             "For other programs: definitions, C++, a level, a picture, a replay (ctrl+E, and a number)."))
+    exporting_ = true;
+  if (std::exchange(exporting_, false)) ImGui::OpenPopup("formats");
+  ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y});
   if (!ImGui::BeginPopup("formats")) return;
+  int number = 0;
   for (const ExportFormat& format : export_formats()) {
-    const bool wanted = ImGui::Selectable(format.name);
+    const bool typed = key(GLFW_KEY_1 + number++);
+    const bool wanted = ImGui::Selectable(fmt::format("{} {}", number, format.name).c_str()) || typed;
     tip((std::string("export ") + format.name).c_str(), format.what);
     if (!wanted) continue;
+    ImGui::CloseCurrentPopup();
     const std::filesystem::path scene = save_as_;
     const std::filesystem::path file = scene.parent_path() / (scene_name(scene) + format.ending);
     attempt(bench_, [&] {
@@ -136,11 +145,11 @@ void Desk::show() {
 
 void Desk::throwing() {
   if (!ImGui::CollapsingHeader("Throw", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  slide("mass, kg", hand_.mass, 1e-3, 1e9, "%.6g");
+  slide("mass", hand_.mass, 1e-3, 1e9, "%.6g kg");
   tip("mass", "Of the next bomb or mass.");
-  slide("size, m", hand_.size, 1e-2, 100, "%.3g");
+  slide("size", hand_.size, 1e-2, 100, "%.3g m");
   tip("size", "Diameter of a bomb, side of a mass.");
-  slide("speed, m/s", hand_.speed, 0.1, 1000, "%.3g");
+  slide("speed", hand_.speed, 0.1, 1000, "%.3g m/s");
   tip("speed",
       "Of a bomb that is thrown with the space bar; one that is pulled back goes as far as it was pulled in "
       "a quarter of a second.");
@@ -153,7 +162,7 @@ void Desk::throwing() {
     placing_ = true;
   }
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-  slide("grip, m/s²", hand_.strength, 1, 1e5, "%.0f");
+  slide("grip", hand_.strength, 1, 1e5, "%.0f m/s²");
   tip("grip", "Greatest pull of the pointer on a body that is dragged, over its mass.");
 }
 

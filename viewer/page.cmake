@@ -9,7 +9,7 @@ set_target_properties(ductile_page PROPERTIES OUTPUT_NAME index SUFFIX .html)
 target_link_libraries(ductile_page PRIVATE ductile_options ductile::workbench fmt::fmt nlohmann_json::nlohmann_json imgui)
 set(shell ${CMAKE_CURRENT_SOURCE_DIR}/page.html)
 target_link_options(ductile_page PRIVATE --shell-file ${shell} -sSINGLE_FILE -sMINIFY_HTML=0 -sENVIRONMENT=web
-  -sUSE_GLFW=3 -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB
+  -sUSE_GLFW=3 -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sGL_SUPPORT_AUTOMATIC_ENABLE_EXTENSIONS=0 -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB
   -sEXPORTED_RUNTIME_METHODS=ccall -sEXPORTED_FUNCTIONS=_main,_page_state,_page_poses)
 
 file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.scene.json ${PROJECT_SOURCE_DIR}/scenes/*.svg)

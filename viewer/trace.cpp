@@ -56,6 +56,7 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
                    {"view", {view.low.x, view.low.y, view.high.x, view.high.y}},
                    {"joints", joints},
                    {"pieces", pieces},
+                   {"focus", desk.focus()},
                    {"controls", controls}};
   return state.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

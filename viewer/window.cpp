@@ -52,6 +52,7 @@ Window::Window(Workbench& bench, double scale, bool visible) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui::GetIO().KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER;  // presses what has the keys: the space bar throws
   ImGui_ImplOpenGL3_Init(platform::shading_language);
   scale_ = scale > 0 ? scale : platform::scale_of(window_);
   dress();

@@ -197,7 +197,8 @@ class Maker:
 
     KEYS = {"Enter": ("Enter", "Enter", 13), "Escape": ("Escape", "Escape", 27), "Delete": ("Delete", "Delete", 46),
             "Left": ("ArrowLeft", "ArrowLeft", 37), "Up": ("ArrowUp", "ArrowUp", 38), "Right": ("ArrowRight", "ArrowRight", 39),
-            "Down": ("ArrowDown", "ArrowDown", 40), "Control": ("Control", "ControlLeft", 17), "Alt": ("Alt", "AltLeft", 18), " ": (" ", "Space", 32)}
+            "Down": ("ArrowDown", "ArrowDown", 40), "Control": ("Control", "ControlLeft", 17), "Alt": ("Alt", "AltLeft", 18),
+            "Tab": ("Tab", "Tab", 9), " ": (" ", "Space", 32)}
 
     def __init__(self, tab):
         self.tab = tab
@@ -286,7 +287,7 @@ def makes_a_bridge_by_pointer(address, scale=0.5, **screen):
         maker.control("undo")
         maker.control("save")
         maker.is_the_bridge(load=100e3)
-        for name, ending, word in (("Box2D definitions", "box2d.json", '"beam1/0"'), ("replay", "html", "</html>")):
+        for name, ending, word in warren.EXPORTS:
             maker.control("export")
             maker.control("export " + name)
             assert word in maker.download("new." + ending)
@@ -351,8 +352,27 @@ def makes_a_bridge_by_keys(address):
             tab.frame()
         maker.key("p")
         maker.key("r")
+        # Bent by a load whose number is typed.
+        maker.key("4")
+        go("b")
+        maker.key("Tab")
+        while maker.state()["focus"] != "load force":
+            maker.key("Down")
+        maker.key("Enter")
+        tab.frame()
+        tab.type("20 MN")
+        maker.key("Enter")
+        maker.key("Escape")
+        assert maker.state()["usage"] < 1 and not maker.state()["focus"], maker.state()
+        maker.key("Enter")
+        assert maker.state()["usage"] == 1  # it yields
+        maker.key("Control", "z")
         maker.key("Control", "s")
         maker.is_the_bridge(load=100e3)
+        for number, (_, ending, word) in enumerate(warren.EXPORTS, 1):
+            maker.key("Control", "e")
+            maker.key(str(number))
+            assert word in maker.download("new." + ending)
         assert not tab.errors, tab.errors
 
 

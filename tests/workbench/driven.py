@@ -96,6 +96,15 @@ class Window(unittest.TestCase):
         x0, y0, x1, y1 = self.state["controls"][name]
         self.click((x0 + across * (x1 - x0), (y0 + y1) / 2))
 
+    def type(self, text):
+        for letter in text:
+            self.key({" ": "space"}.get(letter, letter.lower()), *(["Shift_L"] if letter.isupper() else []))
+
+    def reach(self, control):
+        """Gives it the keys, in the panel on the right."""
+        self.key("Tab")
+        self.wait(lambda: self.state["focus"] == control or self.key("Down"))
+
     def pause_at(self, step):
         self.wait(lambda: self.state["step"] >= step)
         self.key("p")

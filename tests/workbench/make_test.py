@@ -107,9 +107,7 @@ class Bridge(driven.Window):
         self.control("play")
         self.wait(lambda: self.state["step"] > 20)
         self.control("play")
-        for name, ending, word in (("Box2D definitions", "box2d.json", '"beam1/0"'), ("C++ source", "cpp", "build_new(b2World"),
-                                   ("R.U.B.E. level", "rube.json", '"joint"'), ("picture", "svg", "</svg>"),
-                                   ("replay", "html", "</html>")):
+        for name, ending, word in warren.EXPORTS:
             self.control("export")
             self.control("export " + name)
             file = self.path / f"new.{ending}"
@@ -164,8 +162,29 @@ class Bridge(driven.Window):
         self.pause_at(20)
         self.assertEqual(self.state["events"], 0)
         self.key("r")
+        # Under what bends and breaks it, whose number is typed.
+        self.key("4")
+        go("b")
+        self.reach("load force")
+        self.key("Return")
+        self.type("20 MN")
+        self.key("Return")
+        self.key("Escape")
+        self.assertEqual((self.state["focus"], self.state["usage"] < 1), ("", True))
+        self.key("Return")
+        self.assertEqual(self.state["usage"], 1)  # it yields
+        self.key("p")
+        self.wait(lambda: self.state["broken"] > 0)
+        self.key("p")
+        self.key("z", "Control_L")
         self.key("s", "Control_L")
         self.is_the_bridge(load=100e3)
+        for number, (_, ending, word) in enumerate(warren.EXPORTS, 1):
+            self.key("e", "Control_L")
+            self.key(str(number))
+            file = self.path / f"new.{ending}"
+            self.wait(lambda: str(file) in self.state["message"])
+            self.assertIn(word, file.read_text())
 
     def test_half_of_it_mirrored(self):
         """Of HEB 100, chosen by its name, and pinned where the halves meet."""
