@@ -262,12 +262,13 @@ constexpr Row upe[] = {
 };
 
 /// ArcelorMittal's UPN (EN 10365, DIN 1026-1), read in two public copies of its catalogue. "29.3 +0.52%" is a
-/// value that the catalogue has 0.52 % above what the standard's drawing gives, integrated with 25 digits apart
-/// from this program; all others are met to their rounding. Where those come from, as far as they tell:
+/// value that the catalogue has 0.52 % above what the standard's drawing gives, integrated with 25 digits
+/// apart from this program; all others are met to their rounding. Where those come from, as far as they tell:
 ///   - W_el,z and i, but i_y of UPN 120, 180 and 320, follow from the catalogue's own I, A and y_s.
 ///   - I_z is off by up to 0.6 %, I_y of UPN 100 and W_pl,y of three by 0.1 to 0.3 %. No other reading of the
 ///     drawing meets all of A, I_y and I_z: 35 of 46 values are met as the standard has it, at most 39 with
-///     slopes within 5 %, root and toe radii within 10 and 20 % and t_f measured within 2 % of b of its place.
+///     slopes within 5 %, root and toe radii within 10 and 20 % and t_f measured within 2 % of b of its
+///     place.
 ///   - W_pl,z, which the standard does not have, is 0.2 to 1.5 % too little wherever it is off.
 ///   - A of UPN 280, i_y of UPN 320 (1 %), W_pl,y of UPN 80 and 350 (1 and 2 %) and A_v of UPN 80 (4 %) fit
 ///     nothing else in their rows.
