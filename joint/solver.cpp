@@ -165,7 +165,8 @@ bool Solver::project(std::span<const Pose> goal, bool try_goal) {
 
 // In last_ a contact that is open, or slides, flows as well.
 bool Solver::any_flows() const {
-  return last_.flows && std::ranges::any_of(own_joints(), [](const Joint& j) { return j.regime != 0; });
+  const std::span<const Joint> own = own_joints();
+  return last_.flows && std::any_of(own.begin(), own.end(), [](const Joint& j) { return j.regime != 0; });
 }
 
 bool Solver::at_rest() {
