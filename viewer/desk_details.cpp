@@ -193,10 +193,11 @@ void Desk::joints() {
   if (!ImGui::BeginTable("joints", 4, table_flags | ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable))
     return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_None, 3);
-  ImGui::TableSetupColumn("use", ImGuiTableColumnFlags_PreferSortDescending, 1.4f);
-  ImGui::TableSetupColumn("rad", ImGuiTableColumnFlags_PreferSortDescending, 1.6f);
-  ImGui::TableSetupColumn("limit", ImGuiTableColumnFlags_PreferSortDescending, 1.4f);
+  constexpr ImGuiTableColumnFlags down = ImGuiTableColumnFlags_PreferSortDescending;
+  ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_None, 3.4f);
+  ImGui::TableSetupColumn("use", down | ImGuiTableColumnFlags_DefaultSort);
+  ImGui::TableSetupColumn("rad", down);
+  ImGui::TableSetupColumn("limit", down);
   ImGui::TableHeadersRow();
   const auto use = [&](std::size_t i) {  // of the cap that is nearest
     const auto& usage = frame.joints[i].usage;
@@ -211,9 +212,9 @@ void Desk::joints() {
   const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
   if (specs && specs->SpecsCount > 0) {
     const int column = specs->Specs[0].ColumnIndex;
-    const bool down = specs->Specs[0].SortDirection == ImGuiSortDirection_Descending;
+    const bool descends = specs->Specs[0].SortDirection == ImGuiSortDirection_Descending;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      if (down) std::swap(a, b);
+      if (descends) std::swap(a, b);
       return column == 0 ? plan.joints[a].name < plan.joints[b].name : value(a, column) < value(b, column);
     });
   }
@@ -231,7 +232,12 @@ void Desk::joints() {
         bench_.select({i}, ImGui::GetIO().KeyShift || ImGui::GetIO().KeyCtrl);
       }
       ImGui::PopID();
-      if (line == 0) tip("first joint", "Selects the joint; shift or ctrl: one more.");
+      const char* name = plan.joints[i].name.c_str();  // may be longer than the column
+      if (line == 0) {
+        tip("first joint", name);
+      } else if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", name);
+      }
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(joint.broken ? "broke" : percent(use(i)).c_str());
       ImGui::TableNextColumn();

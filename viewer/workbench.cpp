@@ -224,6 +224,9 @@ void Workbench::check() {
                    ? "no factor on its loads makes it yield"
                    : fmt::format("yields at {:.3g} times its loads, first in {}", found.reserve,
                                  plan().joints[static_cast<std::size_t>(found.first_to_yield.front())].name);
+    double mass = 0;
+    for (const Piece& piece : plan().pieces) mass += piece.mass;
+    verdict_ += fmt::format("; {:.4g} kg", mass);
   } catch (const InvalidInput& error) {
     verdict_ = error.problems().front().what;
   }

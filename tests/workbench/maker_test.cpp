@@ -98,6 +98,8 @@ TEST(Maker, SaysWhatTheStaticCheckSays) {
     maker.press(bench);
   }
   EXPECT_TRUE(bench.verdict().starts_with("yields at")) << falls << bench.verdict();
+  EXPECT_TRUE(bench.verdict().ends_with("; 628 kg"))
+      << bench.verdict();  // 4 m of 0.2 m by 0.1 m of 7850 kg/m³
   const double reserve = static_check(bench.plan()).reserve;
   EXPECT_GT(bench.frame().joints[0].usage.M + bench.frame().joints[1].usage.M, 0);  // though no step was made
   maker.choose(bench, Tool::load);
