@@ -15,8 +15,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
                      std::vector<BodyPair> touching)
     : solver(solver_kind == SolverKind::iterative),
       members(std::move(enlisted_members)),
-      met(std::move(touching)),
-      kind(solver_kind) {
+      met(std::move(touching)) {
   constexpr int unnumbered = std::numeric_limits<int>::max();
   by_address_.reserve(2 * (members.size() + met.size()));
   for (const Member* m : members) {
@@ -70,31 +69,23 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   for (const int i : order) ordered.push_back(bodies[z(i)]);
   ordered.insert(ordered.end(), others.begin(), others.end());
 
-  // Poses are kept relative to a place nearby, so that doubles resolve strains anywhere in the world.
   const b2Vec2 near = ordered.front()->GetWorldCenter();
-  origin_x = std::round(near.x);
-  origin_y = std::round(near.y);
-  mirrors.resize(ordered.size());
+  origin = {std::round(near.x), std::round(near.y)};
+  mirrors.reserve(ordered.size());
   solver.bodies.resize(ordered.size());
   solver.places.resize(ordered.size());
-  goal.resize(ordered.size());
-  accounts.resize(ordered.size());
+  goal_.resize(ordered.size());
+  account.began.resize(ordered.size());
+  account.lost.resize(ordered.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number(body) = static_cast<int>(i);
-    Mirror& mirror = mirrors[i];
-    mirror.body = body;
-    mirror.left = {body->GetWorldCenter(), body->GetAngle()};
-    mirror.given = {body->GetLinearVelocity(), body->GetAngularVelocity()};
-    mirror.exact = in_doubles(mirror.given);
-    mirror.type = body->GetType();
-    const int joined = degree(body);
-    mirror.guest = joined == 0;
-    read_mass(i);
-    int edges = 0;
-    for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++edges;
-    mirror.joints = !mirror.guest && edges == joined ? body->GetJointList() : nullptr;
-    put(solver.places[i], relative(mirror.left));
+    const Mirror& mirror = mirrors.emplace_back(*body, degree(body));
+    const BodyMass& m = mirror.mass;
+    const double offset = m.center.LengthSquared();
+    solver.bodies[i].mass = m.mass;
+    solver.bodies[i].inertia = body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
+    put(solver.places[i], origin.relative(mirror.left));
   }
 
   bool held_anew = false;
@@ -102,30 +93,29 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     held_anew |= freedom(i, free_bodies) < known.freedom;
     Pose at = known.pose;
     // Fixtures came or went.
-    const double x = double{mirrors[i].local_center.x} - known.local_center.x;
-    const double y = double{mirrors[i].local_center.y} - known.local_center.y;
+    const double x = double{mirrors[i].mass.center.x} - known.local_center.x;
+    const double y = double{mirrors[i].mass.center.y} - known.local_center.y;
     const Turn turn = turn_of(at.angle);
     at.x += turn.c * x - turn.s * y;
     at.y += turn.s * x + turn.c * y;
     const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
     if (!same(left, mirrors[i].left)) return;
-    put(solver.places[i], {at.x - origin_x, at.y - origin_y, at.angle});
+    put(solver.places[i], {at.x - origin.x, at.y - origin.y, at.angle});
   };
   solver.joints.reserve(members.size());
   solver.records.reserve(members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
-    Joint& j = solver.joints.emplace_back(m.own);
-    solver.records.push_back(m.own_record);
-    solver.drift_time() = std::max(solver.drift_time(), m.drift_time);
+    Joint& j = solver.joints.emplace_back(m.own.joint);
+    solver.records.push_back(m.own.record);
+    solver.drift_time() = std::max(solver.drift_time(), m.own.drift_time);
     m.belong_to(this);
     m.index = i;
     j.a = number(m.joint->GetBodyA());
     j.b = number(m.joint->GetBodyB());
-    anchored_ |= z(j.a) >= free_bodies || z(j.b) >= free_bodies;
-    if (!m.fresh) {
-      remember(z(j.a), m.known[0]);
-      remember(z(j.b), m.known[1]);
+    if (!m.own.fresh) {
+      remember(z(j.a), m.own.known[0]);
+      remember(z(j.b), m.own.known[1]);
     }
     // In doubles: what floats round of it changes when the centre of mass does, and would strain rigid rows.
     const b2Vec2 a = m.joint->GetLocalAnchorA(), from_a = m.joint->GetBodyA()->GetLocalCenter();
@@ -144,11 +134,11 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint
   // took back what turning has parted, they would strain each other.
   const bool hold =
-      held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->fresh; });
+      held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->own.fresh; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     Joint& j = solver.joints[i];
     Rows& gap = solver.records[i].gap;
-    if (std::exchange(members[i]->fresh, false)) {
+    if (std::exchange(members[i]->own.fresh, false)) {
       struck_ |= parts(j);
       for (unsigned row = 0; row < 3; ++row) j.neutral[row] += gap[row];
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
@@ -156,12 +146,12 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     }
     // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
     // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
-    const Rows& seen = members[i]->own_record.gap;
+    const Rows& seen = members[i]->own.record.gap;
     bool moved = false;
     for (unsigned row = 0; row < 3; ++row) moved |= std::abs(gap[row] - seen[row]) > 1e-9;
     for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += gap[row] - seen[row];
     if (moved) gap = seen;
-    parted_ |= moved;
+    displaced_ |= moved;
     for (unsigned row = 0; row < 3 && hold; ++row) {
       if (j.G[row] > 0 && !is_slack(j, solver.records[i], row))
         j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
@@ -177,32 +167,8 @@ bool Component::parts(const Joint& j) const {
                           b.GetAngularVelocity());
   };
   const Rows v = relative_velocity(j, of_body(j.a), of_body(j.b));
-  const double size = std::max(mirrors[z(j.a)].gyration, mirrors[z(j.b)].gyration);
+  const double size = std::max(mirrors[z(j.a)].mass.gyration, mirrors[z(j.b)].mass.gyration);
   return std::max({std::abs(v[0]), std::abs(v[1]), size * std::abs(v[2])}) > blow_speed;
-}
-
-double Member::left(unsigned row, double slip) const {
-  const PlasticFlow& p = record().plastic;
-  if (row == 0) return slip > 0 ? max_elongation - p.forward[0] : max_compression - p.back[0];
-  return (row == 1 ? max_slip : max_rotation) - p.forward[row] - p.back[row];
-}
-
-void Component::read_mass(std::size_t i) {
-  Mirror& m = mirrors[i];
-  m.mass = m.body->GetMass();
-  m.inverse_mass = 1.0f / m.mass;
-  m.inertia = m.body->GetInertia();
-  m.local_center = m.body->GetLocalCenter();
-  const double offset = m.local_center.LengthSquared();
-  m.gyration = m.mass > 0 ? std::sqrt(m.inertia / m.mass) : 0;
-  solver.bodies[i].mass = m.mass;
-  solver.bodies[i].inertia = m.body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
-}
-
-b2Position Component::box2d_pose(std::size_t i) const {
-  const Pose& p = solver.places[i].pose;
-  return {{static_cast<float>(p.x + origin_x), static_cast<float>(p.y + origin_y)},
-          static_cast<float>(p.angle)};
 }
 
 int Component::freedom(std::size_t body, std::size_t free_bodies) const {
@@ -211,33 +177,24 @@ int Component::freedom(std::size_t body, std::size_t free_bodies) const {
 
 KnownPose Component::known(int body) const {
   const Pose& p = solver.places[z(body)].pose;
-  return {{p.x + origin_x, p.y + origin_y, p.angle},
-          mirrors[z(body)].local_center,
+  return {{p.x + origin.x, p.y + origin.y, p.angle},
+          mirrors[z(body)].mass.center,
           freedom(z(body), solver.free_bodies())};
 }
 
 void Component::hand_back(Member& m) const {
-  m.own = solver.joints[m.index];
-  m.own_record = solver.records[m.index];
-  m.drift_time = solver.drift_time();
-  m.known = {known(m.own.a), known(m.own.b)};
+  const Joint& j = solver.joints[m.index];
+  m.own = {j, solver.records[m.index], solver.drift_time(), {known(j.a), known(j.b)}, m.own.fresh};
 }
 
 bool Component::fits_bodies() const {
   return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return m.guest || m.fits(); });
 }
 
-void Component::Mirror::keep(Tape& tape) {
-  tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact);
-  bool only_ours = joints != nullptr && joints == body->GetJointList();
-  tape(only_ours);
-  if (tape.reads()) joints = only_ours ? body->GetJointList() : nullptr;
-}
-
 void Component::keep(Tape& tape) {
-  tape(origin_x, origin_y, parted_, alone_, struck_, at_rest_, resting, mirrors, solver);
+  bool rests = rest_ != Rest::none;
+  tape(origin, displaced_, struck_, rests, mirrors, solver);
+  rest_ = rests ? Rest::expected : Rest::none;
 }
-
-Pose Component::relative(const b2Position& at) const { return {at.c.x - origin_x, at.c.y - origin_y, at.a}; }
 
 }  // namespace ductile::dynamics

@@ -15,7 +15,7 @@ bool Component::touch(Touch t) {
   t.in_b = index_of(t.b());
   if (!knows(t.in_a, t.in_b)) return false;
   t.at_seam = is_at_seam(t);
-  touches.push_back(t);
+  outside_.touches.push_back(t);
   return true;
 }
 
@@ -33,7 +33,7 @@ int Component::index_of(const b2Body* body) const {
 
 // Velocities as they were before the contacts' stored impulses went into them.
 void Component::set_warm_starts_aside() {
-  for (const Touch& t : touches) {
+  for (const Touch& t : outside_.touches) {
     const VelocityConstraint& v = *t.velocity;
     const b2Vec2 n = v.normal, l{n.y, -n.x};
     Vec3 &a = mirrors[z(t.in_a)].exact, &b = mirrors[z(t.in_b)].exact;
@@ -49,23 +49,22 @@ void Component::set_warm_starts_aside() {
 
 void Component::enter_contacts() {
   read_touches();
-  solver.touch(links_, rows_);
+  solver.touch(outside_.links, outside_.contacts);
 }
 
 // Whether the contacts are those that the last step was solved with, and hold the impulses that it found.
 // Box2D added these to the velocities, in floats.
 bool Component::touched_as_before() {
-  if (touches.empty() && solver.contacts.empty()) return true;
-  if (!at_rest_) return false;
+  if (outside_.touches.empty() && solver.contacts.empty()) return true;
   read_touches();
-  for (const Touch& t : touches) mirrors[z(t.in_a)].rounding = mirrors[z(t.in_b)].rounding = 0;
-  for (const Touch& t : touches) {
+  for (const Touch& t : outside_.touches) mirrors[z(t.in_a)].rounding = mirrors[z(t.in_b)].rounding = 0;
+  for (const Touch& t : outside_.touches) {
     const VelocityConstraint& v = *t.velocity;
     const auto add = [](Mirror& m, const PointConstraint& p, const b2Vec2& arm, float by_mass,
                         float by_inertia) {
       constexpr float last_bits = 4 * std::numeric_limits<float>::epsilon();
       m.rounding += last_bits * (p.normal_impulse + std::abs(p.tangent_impulse)) *
-                    (by_mass + by_inertia * arm.Length() * m.gyration);
+                    (by_mass + by_inertia * arm.Length() * m.mass.gyration);
     };
     for (int32 k = 0; k < v.count; ++k) {
       const PointConstraint& p = v.points[k];
@@ -85,12 +84,13 @@ bool Component::touched_as_before() {
            now.friction == before.friction && now.normal == static_cast<float>(before.normal) &&
            now.tangent == static_cast<float>(before.tangent);
   };
-  return std::equal(rows_.begin(), rows_.end(), solver.contacts.begin(), solver.contacts.end(), is_same);
+  const std::vector<Contact>& rows = outside_.contacts;
+  return std::equal(rows.begin(), rows.end(), solver.contacts.begin(), solver.contacts.end(), is_same);
 }
 
 void Component::read_touches() {
-  rows_.clear();
-  for (const Touch& t : touches) {
+  outside_.contacts.clear();
+  for (const Touch& t : outside_.touches) {
     if (t.at_seam) continue;
     const VelocityConstraint& v = *t.velocity;
     Contact c;
@@ -110,7 +110,7 @@ void Component::read_touches() {
       c.normal = p.normal_impulse;
       c.tangent = p.tangent_impulse;
       c.id = t.contact->GetManifold()->points[k].id.key;
-      rows_.push_back(c);
+      outside_.contacts.push_back(c);
     }
   }
 }
@@ -121,7 +121,7 @@ void Component::return_contacts() {
   static const Contact nothing;
   const bool anchored = is_anchored();
   auto row = solver.contacts.begin();
-  for (const Touch& t : touches) {
+  for (const Touch& t : outside_.touches) {
     for (int32 k = 0; k < t.velocity->count; ++k) {
       const Contact& c = t.at_seam ? nothing : *row++;
       t.velocity->points[k].normal_impulse = static_cast<float>(c.normal);
@@ -142,7 +142,7 @@ void Component::return_contacts() {
 // Whether velocities jump at the start of this step: of pieces, or as something closes with them.
 bool Component::is_blow() const {
   if (struck_) return true;
-  for (const Touch& t : touches) {
+  for (const Touch& t : outside_.touches) {
     if (t.at_seam) continue;
     const VelocityConstraint& v = *t.velocity;
     for (int32 k = 0; k < v.count; ++k) {

@@ -6,6 +6,7 @@
 
 #include "component.h"
 #include "frames.h"
+#include "structure.h"
 
 namespace ductile::dynamics {
 
@@ -13,7 +14,7 @@ namespace ductile::dynamics {
 // what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
 // together.
 void Component::limit_speed(const b2SolverData& data) {
-  if (kind != SolverKind::direct) return;
+  if (!direct()) return;
   constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
   const auto share = [&](double limit, double speed) {
     return std::min(1.0, rounding * limit / (solver.step() * speed));
@@ -31,7 +32,7 @@ void Component::limit_speed(const b2SolverData& data) {
     const double least =
         std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
     if (least == 1) {
-      if (pass > 0) report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      if (pass > 0) structure->report.slowed = std::max(structure->report.slowed, 1 - kinetic() / before);
       return;
     }
     if (pass == 0) before = kinetic();
@@ -43,15 +44,15 @@ void Component::limit_speed(const b2SolverData& data) {
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
       const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
-      accounts[i].lost.v += lost.v;
-      accounts[i].lost.w += lost.w;
+      account.lost[i].v += lost.v;
+      account.lost[i].w += lost.w;
       if (together) continue;
       b.v_free -= less;
       b.v -= less;
     }
     if (together) {
       solver.scale(least);
-      report->slowed = std::max(report->slowed, 1 - kinetic() / before);
+      structure->report.slowed = std::max(structure->report.slowed, 1 - kinetic() / before);
       return give(data);
     }
     solve(data);
@@ -59,7 +60,7 @@ void Component::limit_speed(const b2SolverData& data) {
 }
 
 double Component::close_ledger() {
-  if (!std::exchange(open, false)) return 0;
+  if (!std::exchange(account.open, false)) return 0;
   const float h = static_cast<float>(solver.step());
   double clamped = 0;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -70,11 +71,11 @@ double Component::close_ledger() {
     const float w = m.body->GetAngularVelocity();
     solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
-    b2Velocity lost = accounts[i].lost;
+    b2Velocity lost = account.lost[i];
     if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
     if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
-    clamped += double{m.mass} * b2Dot(lost.v, 0.5f * (accounts[i].began.v + v)) +
-               solver.bodies[i].inertia * lost.w * (accounts[i].began.w + w) / 2;
+    clamped += double{m.mass.mass} * b2Dot(lost.v, 0.5f * (account.began[i].v + v)) +
+               solver.bodies[i].inertia * lost.w * (account.began[i].w + w) / 2;
   }
   solver.close_ledger(solver.before);
   return clamped;

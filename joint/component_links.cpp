@@ -12,24 +12,23 @@ bool Component::tie(StockJoint t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
   if (!knows(t.in_a, t.in_b)) return false;
-  ties.push_back(t);
+  outside_.ties.push_back(t);
   return true;
 }
 
 // Velocities as they were before Box2D gave them the joints' impulses: those stored, and where such a joint
 // comes before ours in the island, those of its first iteration.
 void Component::set_ties_aside(const b2SolverData& data) {
-  const b2Vec2 origin{static_cast<float>(origin_x), static_cast<float>(origin_y)};
+  const b2Vec2 near = origin.in_floats();
   const auto place_of = [&](const Mirror& m) {
     Place place;
-    put(place, relative(m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
-                                                : data.positions[m.island_index]));
+    put(place, origin.relative(m.pose_in(data)));
     return place;
   };
-  for (const StockJoint& t : ties) {
+  for (const StockJoint& t : outside_.ties) {
     Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const Place at_a = place_of(a), at_b = place_of(b);
-    const StockRows rows = rows_of(*t.joint, at_a, at_b, origin, double{data.step.dt});
+    const StockRows rows = rows_of(*t.joint, at_a, at_b, near, double{data.step.dt});
     for (std::size_t k = 0; k < rows.count; ++k) {
       Joint j;
       j.J = rows.links[k].J;
@@ -48,12 +47,12 @@ void Component::set_ties_aside(const b2SolverData& data) {
 }
 
 void Component::enter_ties() {
-  links_.clear();
-  const b2Vec2 origin{static_cast<float>(origin_x), static_cast<float>(origin_y)};
-  for (StockJoint& t : ties) {
-    t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], origin, solver.step());
+  outside_.links.clear();
+  const b2Vec2 near = origin.in_floats();
+  for (StockJoint& t : outside_.ties) {
+    t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], near, solver.step());
     for (std::size_t k = 0; k < t.rows.count; ++k) {
-      Link& link = links_.emplace_back(t.rows.links[k]);
+      Link& link = outside_.links.emplace_back(t.rows.links[k]);
       link.a = t.in_a;
       link.b = t.in_b;
     }
@@ -62,7 +61,7 @@ void Component::enter_ties() {
 
 void Component::return_ties() {
   std::span<const Link> left = solver.links;
-  for (StockJoint& t : ties) {
+  for (StockJoint& t : outside_.ties) {
     if (t.rows.count == 0) continue;
     dynamics::hand_back(t, left.first(t.rows.count));
     left = left.subspan(t.rows.count);
@@ -75,7 +74,10 @@ bool Component::is_anchored() const {
     return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&
            !(mirrors[z(t.in_a)].guest && mirrors[z(t.in_b)].guest) && t.joint->GetType() != e_mouseJoint;
   };
-  return anchored_ || std::any_of(ties.begin(), ties.end(), anchors);
+  const auto joined = [](const Mirror& m) { return !m.guest; };
+  return std::any_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
+                     joined) ||
+         std::any_of(outside_.ties.begin(), outside_.ties.end(), anchors);
 }
 
 }  // namespace ductile::dynamics

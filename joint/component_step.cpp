@@ -13,8 +13,8 @@ namespace ductile::dynamics {
 
 bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
                      std::span<const StockJoint> stock) {
-  touches.clear();
-  ties.clear();
+  outside_.touches.clear();
+  outside_.ties.clear();
   for (Mirror& m : mirrors) m.present = !m.guest;
   const auto see = [this](const auto& all) {
     for (const auto& t : all) {
@@ -26,29 +26,25 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
   see(contacts.touches());
   see(stock);
   bool masses = true;
-  alone_ = kind == SolverKind::direct;
+  bool alone = direct();
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     if (!m.present) continue;
     if (m.body->GetType() != m.type) return false;
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
-    alone_ &= i >= solver.free_bodies() || only_ours(m);
-    if (!at_rest_) take(m, data);  // while the body is at hand
+    alone &= i >= solver.free_bodies() || m.only_ours();
+    if (rest_ == Rest::none) take(m, data);  // while the body is at hand
     masses &= m.has_its_mass();
   }
+  coupling_ = alone ? Coupling::none : Coupling::partly;
   return masses;
-}
-
-// Box2D prepends new joints to a body's list, and one of ours that goes dissolves the component.
-bool Component::only_ours(const Mirror& m) {
-  return m.body->GetContactList() == nullptr && m.body->GetJointList() == m.joints;
 }
 
 // Whether all that touches or holds its bodies is solved with it: then nothing changes their velocities after
 // the solve.
 bool Component::is_whole() const {
-  if (kind != SolverKind::direct || !ties.empty()) return false;
+  if (!direct() || !outside_.ties.empty()) return false;
   std::size_t sides = 0;  // of contacts, less those of the touches
   for (const Mirror& m : mirrors) {
     if (!m.present || m.type != b2_dynamicBody) continue;
@@ -56,14 +52,14 @@ bool Component::is_whole() const {
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
       sides += e->contact->IsTouching() ? 1 : 0;
   }
-  for (const Touch& t : touches) {
+  for (const Touch& t : outside_.touches) {
     for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
   }
   return sides == 0;
 }
 
 void Component::disturb() {
-  at_rest_ = resting = false;
+  rest_ = Rest::none;
   solver.laws_changed();
 }
 
@@ -73,18 +69,16 @@ float Component::slack() const { return static_cast<float>(Solver::rest_toleranc
 // A structure at rest is brought the same poses and velocities step after step, and answers them with the
 // same.
 bool Component::as_before(const b2SolverData& data) const {
-  if (!at_rest_ || double{data.step.dt} != solver.step()) return false;
+  if (double{data.step.dt} != solver.step()) return false;
   const float slack = this->slack();
   for (const Mirror& m : mirrors) {
     if (!m.present) continue;
-    if (m.type == b2_staticBody) {
-      if (!same({m.body->GetWorldCenter(), m.body->GetAngle()}, m.left)) return false;
-      continue;
-    }
+    if (!same(m.pose_in(data), m.left)) return false;
+    if (m.type == b2_staticBody) continue;
     const b2Velocity& v = data.velocities[m.island_index];
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
-                                   m.gyration * std::abs(v.w - m.taken.w)});
-    if (!(change <= slack + m.rounding) || !same(data.positions[m.island_index], m.left)) return false;
+                                   m.mass.gyration * std::abs(v.w - m.taken.w)});
+    if (!(change <= slack + m.rounding)) return false;
   }
   return true;
 }
@@ -95,7 +89,7 @@ bool Component::as_before(const b2SolverData& data) const {
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
-  if (m.type != b2_dynamicBody || kind != SolverKind::direct) {
+  if (m.type != b2_dynamicBody || !direct()) {
     m.exact = in_doubles(m.given = m.taken);
     return;
   }
@@ -104,7 +98,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
   const float h = data.step.dt, scale = m.body->GetGravityScale();
   const float damping = m.body->GetLinearDamping(), turn_damping = m.body->GetAngularDamping();
   b2Velocity v = m.given;
-  v.v += h * m.inverse_mass * (scale * m.mass * gravity);
+  v.v += h * m.mass.inverse_mass * (scale * m.mass.mass * gravity);
   v.v *= 1.0f / (1.0f + h * damping);
   v.w *= 1.0f / (1.0f + h * turn_damping);
   if (v.v == m.taken.v && v.w == m.taken.w) {
@@ -114,32 +108,33 @@ void Component::take(Mirror& m, const b2SolverData& data) {
   } else {
     m.exact = in_doubles(m.taken);
     const b2Vec2 jump = m.body->GetLinearVelocity() - m.given.v;
-    const float turn = m.gyration * std::abs(m.body->GetAngularVelocity() - m.given.w);
+    const float turn = m.mass.gyration * std::abs(m.body->GetAngularVelocity() - m.given.w);
     struck_ |= !m.guest && std::max(jump.Length(), turn) > blow_speed;
   }
   m.given = m.taken;
 }
 
 void Component::first_velocity(const b2SolverData& data) {
-  whole_ = alone_ || is_whole();
-  resting = ties.empty() && touched_as_before() && as_before(data);
-  if (resting) {
+  if (!alone() && is_whole()) coupling_ = Coupling::whole;
+  const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
+  if (expected && outside_.ties.empty() && touched_as_before() && as_before(data)) {
+    rest_ = Rest::kept;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;
     }
     return_contacts();
-    open = solver.keeps_ledger;  // something may strike it before the step is over
-    ++report->resting;
+    account.open = solver.keeps_ledger;  // something may strike it before the step is over
+    ++structure->report.resting;
     return;
   }
-  if (at_rest_) {
+  if (expected) {
     for (Mirror& m : mirrors) {
       if (m.present && m.type != b2_staticBody) take(m, data);
     }
   }
   set_warm_starts_aside();
   set_ties_aside(data);
-  bool moved = std::exchange(parted_, false);
+  bool moved = std::exchange(displaced_, false);
   const auto start_from = [this](std::size_t i) {
     Body& b = solver.bodies[i];
     const Vec3& v = mirrors[i].exact;
@@ -151,11 +146,10 @@ void Component::first_velocity(const b2SolverData& data) {
       solver.bodies[i].v = solver.bodies[i].v_free = {};
       continue;
     }
-    const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
-                                                  : data.positions[m.island_index];
+    const b2Position at = m.pose_in(data);
     if (m.type == b2_staticBody) m.exact = {};
     if (m.guest && !same(at, m.left)) {
-      put(solver.places[i], relative(m.left = at));
+      put(solver.places[i], origin.relative(m.left = at));
     } else {
       moved |= !same(at, m.left);
     }
@@ -167,17 +161,16 @@ void Component::first_velocity(const b2SolverData& data) {
     // it. Joint by joint, the sweeps do that.
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       Mirror& m = mirrors[i];
-      goal[i] = solver.places[i].pose;
+      goal_[i] = solver.places[i].pose;
       if (m.guest) continue;
-      const b2Position at = m.type == b2_staticBody ? b2Position{m.body->GetWorldCenter(), m.body->GetAngle()}
-                                                    : data.positions[m.island_index];
-      goal[i] = same(at, m.left) ? solver.places[i].pose : relative(at);
+      const b2Position at = m.pose_in(data);
+      goal_[i] = same(at, m.left) ? solver.places[i].pose : origin.relative(at);
       if (m.type == b2_staticBody) m.left = at;
     }
-    if (kind == SolverKind::direct) {
+    if (direct()) {
       project(true);
     } else {
-      solver.sweep_positions(goal);
+      solver.sweep_positions(goal_);
       solver.begin(data.step.dt);
     }
     write_poses(data);
@@ -191,23 +184,23 @@ void Component::first_velocity(const b2SolverData& data) {
       solver.before[i] = {};
       if (!mirrors[i].present) continue;
       const b2Velocity v =
-          accounts[i].began = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
+          account.began[i] = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
-      accounts[i].lost = {{0, 0}, 0};  // b2Vec2 does not make itself 0
+      account.lost[i] = {{0, 0}, 0};  // b2Vec2 does not make itself 0
     }
-    open = true;
+    account.open = true;
   }
-  if (kind == SolverKind::iterative) solver.warm_start();
+  if (!direct()) solver.warm_start();
   enter_ties();
   enter_contacts();
-  if (kind == SolverKind::direct && is_blow()) solver.strike();
+  if (direct() && is_blow()) solver.strike();
   struck_ = false;
   solve(data);
 }
 
 void Component::next_velocity(const b2SolverData& data) {
-  if (whole_) {
-    ++report->skipped;
+  if (whole()) {
+    ++structure->report.skipped;
     return;
   }
   bool touched = false;
@@ -223,14 +216,14 @@ void Component::next_velocity(const b2SolverData& data) {
     const Vec3 change = into_own_frame(solver.places[i].turn, double{now.v.x} - given.v.x,
                                        double{now.v.y} - given.v.y, double{now.w} - given.w);
     solver.push(i, change);
-    if (kind == SolverKind::iterative) b.v += change;
+    if (!direct()) b.v += change;
     given = now;
   }
-  if (touched) resting = false;
-  if (touched || kind == SolverKind::iterative) {
+  if (touched) rest_ = Rest::none;
+  if (touched || !direct()) {
     solve(data);
   } else {
-    ++report->skipped;
+    ++structure->report.skipped;
   }
 }
 
@@ -245,7 +238,7 @@ bool Component::weaken_what_breaks() {
     double share = 1;
     for (unsigned i = 0; i < 3; ++i) {
       if (!flows(j.regime, i) || !(j.G[i] > 0)) continue;
-      const double slip = slip_of(j, r, i), left = m->left(i, slip);
+      const double slip = slip_of(j, r, i), left = m->limits.left(r.plastic, i, slip);
       if (std::abs(slip) > left) share = std::min(share, std::max(left, 0.0) / std::abs(slip));
     }
     if (share < 0.95 * r.held) {
@@ -260,7 +253,7 @@ bool Component::weaken_what_breaks() {
 
 void Component::solve(const b2SolverData& data) {
   SolveReport solved;
-  if (kind == SolverKind::direct) {
+  if (direct()) {
     solver.solve(solved);
     for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
   } else {
@@ -269,18 +262,18 @@ void Component::solve(const b2SolverData& data) {
   give(data);
   return_contacts();
   return_ties();
-  ++report->solves;
-  report->rounds += solved.rounds;
-  report->factorisations += solved.factorisations;
-  report->bounds_hit += solved.unsolved ? 1 : 0;
-  report->residual = std::max(report->residual, solved.residual);
+  ++structure->report.solves;
+  structure->report.rounds += solved.rounds;
+  structure->report.factorisations += solved.factorisations;
+  structure->report.bounds_hit += solved.unsolved ? 1 : 0;
+  structure->report.residual = std::max(structure->report.residual, solved.residual);
 }
 
 void Component::project(bool try_goal) {
-  const bool kept = solver.project(goal, try_goal);
-  report->bounds_hit += kept ? 0 : 1;
-  report->parted += kept ? 0 : 1;
-  ++report->projections;
+  const bool kept = solver.project(goal_, try_goal);
+  structure->report.bounds_hit += kept ? 0 : 1;
+  structure->report.parted += kept ? 0 : 1;
+  ++structure->report.projections;
 }
 
 void Component::give(const b2SolverData& data) {
@@ -293,36 +286,36 @@ void Component::give(const b2SolverData& data) {
 }
 
 void Component::position(const b2SolverData& data) {
-  if (alone_ && !resting) return write_poses(data);
-  if (alone_) {
+  if (alone() && !rests()) return write_poses(data);
+  if (alone()) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       if (mirrors[i].present) data.positions[mirrors[i].island_index] = mirrors[i].left;
     }
     return;
   }
-  for (const StockJoint& t : ties) let_positions(t);
+  for (const StockJoint& t : outside_.ties) let_positions(t);
   bool pushed = false;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    goal[i] = solver.places[i].pose;
+    goal_[i] = solver.places[i].pose;
     if (!mirrors[i].present) continue;
     b2Position& at = data.positions[mirrors[i].island_index];
     const bool kept = same(at, mirrors[i].left);
     if (mirrors[i].guest && !kept) {
-      put(solver.places[i], goal[i] = relative(mirrors[i].left = at));
+      put(solver.places[i], goal_[i] = origin.relative(mirrors[i].left = at));
       continue;
     }
-    goal[i] = kept ? solver.places[i].pose : relative(at);
+    goal_[i] = kept ? solver.places[i].pose : origin.relative(at);
     pushed |= !kept;
     at = mirrors[i].left;
   }
-  if (kind == SolverKind::direct && !pushed) return;
-  if (kind == SolverKind::iterative) {
-    solver.sweep_positions(goal);
+  if (direct() && !pushed) return;
+  if (!direct()) {
+    solver.sweep_positions(goal_);
   } else {
-    for (std::size_t i = solver.free_bodies(); i < goal.size(); ++i) goal[i] = solver.places[i].pose;
+    for (std::size_t i = solver.free_bodies(); i < goal_.size(); ++i) goal_[i] = solver.places[i].pose;
     project(false);
   }
-  at_rest_ = false;
+  rest_ = Rest::none;
   write_poses(data);
 }
 
@@ -337,25 +330,26 @@ void Component::write_poses(const b2SolverData& data) {
 void Component::advance(const b2SolverData& data) {
   // Stock joints that come before ours in the list see velocities without our impulses, and take back what
   // they do about it in the iterations that follow: they need those iterations.
-  bool alone = true;
-  if (!alone_) {
+  bool unmoved = true;
+  if (!alone()) {
     const float slack = this->slack();
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       const Mirror& m = mirrors[i];
       if (!m.present) continue;
-      alone &= std::max({std::abs(m.pushed.v.x), std::abs(m.pushed.v.y),
-                         m.gyration * std::abs(m.pushed.w)}) <= slack;
+      unmoved &= std::max({std::abs(m.pushed.v.x), std::abs(m.pushed.v.y),
+                           m.mass.gyration * std::abs(m.pushed.w)}) <= slack;
     }
   }
   solver.advance();
   bool kinematic = false;
   // Where nothing else moves them, position() tells it, if it is called at all.
-  const bool later = alone_ && data.step.positionIterations > 0;
+  const bool later = alone() && data.step.positionIterations > 0;
   for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
     kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
-  at_rest_ = kind == SolverKind::direct && ties.empty() && alone && !kinematic && solver.at_rest();
+  const bool rests = direct() && outside_.ties.empty() && unmoved && !kinematic && solver.at_rest();
+  rest_ = rests ? Rest::expected : Rest::none;
 }
 
 }  // namespace ductile::dynamics

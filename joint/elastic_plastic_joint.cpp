@@ -154,13 +154,10 @@ double ElasticPlasticJoint::slip() const {
 
 double ElasticPlasticJoint::capacity_used() const {
   if (member_ == nullptr) return 0;
-  const auto share = [](double value, double limit) { return value > 0 ? value / limit : 0; };
-  return std::max({share(accumulated_rotation(), member_->max_rotation),
-                   share(elongation(), member_->max_elongation),
-                   share(compression(), member_->max_compression), share(slip(), member_->max_slip)});
+  return member_->limits.used(record().plastic);
 }
 
-bool ElasticPlasticJoint::yielded() const { return member_ != nullptr && member_->yielded; }
+bool ElasticPlasticJoint::yielded() const { return member_ != nullptr && member_->said.yielded; }
 bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_->broken; }
 
 double ElasticPlasticJoint::dissipated() const {
@@ -230,10 +227,7 @@ void ElasticPlasticJoint::set_limits(double max_rotation, double max_elongation,
     throw std::invalid_argument("elastic-plastic joint: maxima must be ≥ 0");
   }
   if (member_ == nullptr) return;
-  member_->max_rotation = max_rotation;
-  member_->max_elongation = max_elongation;
-  member_->max_compression = max_compression;
-  member_->max_slip = max_slip;
+  member_->limits = {max_rotation, max_elongation, max_compression, max_slip};
 }
 
 void ElasticPlasticJoint::wake() {

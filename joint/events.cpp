@@ -28,10 +28,10 @@ void Structure::Impl::look_for_breaks(Component& component) {
                       : row == shear ? JointEvent::shear
                                      : JointEvent::rotation;
     const double used = m->joint->capacity_used();
-    if (!std::exchange(m->yielded, true)) {
+    if (!std::exchange(m->said.yielded, true)) {
       say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
-    } else if (used >= m->told + def.flow_share) {
-      m->told = used;
+    } else if (used >= m->said.used + def.flow_share) {
+      m->said.used = used;
       say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
     }
     const bool exceeded = used > 1;
@@ -43,7 +43,7 @@ void Structure::Impl::look_for_breaks(Component& component) {
 void Structure::Impl::say(Member& member, JointEvent event) {
   // Never allocates inside a step: what finds no room is not said.
   if (pending_.size() == pending_.capacity()) return;
-  event.worked = event.energy - std::exchange(member.told_energy, event.energy);
+  event.worked = event.energy - std::exchange(member.said.energy, event.energy);
   pending_.push_back({member.id, event});
 }
 

@@ -31,7 +31,7 @@ bool is_piece(const b2Body* body) {
 template <class Visit>
 void each_near(const Component& component, const Visit& visit) {
   for (std::size_t i = 0; i < component.solver.free_bodies(); ++i) {
-    const Component::Mirror& m = component.mirrors[i];
+    const Mirror& m = component.mirrors[i];
     if (m.guest) continue;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& c = *e->contact;

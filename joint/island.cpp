@@ -25,39 +25,31 @@ void Structure::Impl::stop_if_not_finite(b2Body& body, const b2SolverData& data)
 
 // Joints are solved in the order in which they were initialised: the first does the work of all.
 bool Structure::Impl::enlist(Member* member, Component* component) {
-  const bool first = !enlisting_;
+  const bool first = velocity_calls_ > 0 || enlisted_.empty();
   if (first) {
-    enlisting_ = true;
-    incomplete_ = false;
-    ++batch_;
     enlisted_.clear();
     active_.clear();
     velocity_calls_ = 0;
     if (std::exchange(stepped_, true) == false) report = {};
   }
   enlisted_.push_back(member);
-  if (component == nullptr) {
-    incomplete_ = true;
-    return first;
-  }
-  if (component->batch != batch_) {
-    component->batch = batch_;
-    component->enlisted = 0;
-    active_.push_back(component);
-  }
-  ++component->enlisted;
+  if (component != nullptr && component->enlisted++ == 0) active_.push_back(component);
   return first;
 }
 
 void Structure::Impl::velocity(const b2SolverData& data) {
-  enlisting_ = false;
   const int last = data.step.velocityIterations;
   if (velocity_calls_ == last) return;
   if (velocity_calls_++ == 0) {
     choose_contacts(data);
-    bool fits = !incomplete_;
-    for (Component* c : active_)
-      fits = fits && c->enlisted == c->members.size() && c->look(data, contacts_, stock_);
+    std::size_t known = 0;
+    bool fits = true;
+    for (Component* c : active_) {
+      const std::size_t enlisted = std::exchange(c->enlisted, 0);
+      known += enlisted;
+      fits = fits && enlisted == c->members.size() && c->look(data, contacts_, stock_);
+    }
+    fits = fits && known == enlisted_.size();
     if (!fits || !distribute()) {
       form();
       for (Component* c : active_) c->look(data, contacts_, stock_);
@@ -74,7 +66,7 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   }
   if (velocity_calls_ < last) return;
   for (Component* c : active_) {
-    if (c->resting) continue;
+    if (c->rests()) continue;
     c->limit_speed(data);
     c->advance(data);
     look_for_breaks(*c);
@@ -164,8 +156,6 @@ void Structure::Impl::form() {
     auto& group = groups[k];
     if (group.empty()) continue;
     Component& c = form(std::move(group), std::move(touched[k]));
-    c.batch = batch_;
-    c.enlisted = c.members.size();
     active_.push_back(&c);
   }
 }
@@ -174,7 +164,6 @@ Component& Structure::Impl::form(std::vector<Member*> group, std::vector<BodyPai
   Component& c = *components.emplace_back(
       std::make_unique<Component>(std::move(group), def.solver, std::move(touching)));
   c.structure = this;
-  c.report = &report;
   c.solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
   return c;
 }
@@ -186,7 +175,7 @@ void Structure::Impl::dissolve(Component& component) {
   component.solver.find_gaps();
   for (Member* m : component.members) {
     component.hand_back(*m);
-    if (m->broken) m->own.impulse = {};
+    if (m->broken) m->own.joint.impulse = {};
     m->belong_to(nullptr);
   }
 }

@@ -27,17 +27,15 @@ void Member::set_state(const JointState& s) {
   JointRecord& r = record();
   if (component != nullptr) component->solver.find_gaps();
   for (unsigned i = 0; i < 3; ++i) {
-    j.neutral[i] = (fresh ? 0 : r.gap[i]) - s.elastic[i];
+    j.neutral[i] = (own.fresh ? 0 : r.gap[i]) - s.elastic[i];
     if (is_rigid(r, i)) j.impulse[i] = r.law.h * r.law.spring[i] * s.elastic[i];
     r.plastic.net[i] = s.plastic[i];
     r.plastic.forward[i] = s.forward[i];
     r.plastic.back[i] = s.back[i];
     r.dissipated[i] = s.dissipated[i];
   }
-  if (!fresh) StepLaws::set_equal_bias(j, r.gap);
-  yielded = s.yielded;
-  told = joint->capacity_used();
-  told_energy = joint->dissipated();
+  if (!own.fresh) StepLaws::set_equal_bias(j, r.gap);
+  said = {s.yielded, joint->capacity_used(), joint->dissipated()};
 }
 
 JointState ElasticPlasticJoint::state() const {
@@ -48,14 +46,14 @@ JointState ElasticPlasticJoint::state() const {
   if (member_->component != nullptr) member_->component->solver.find_gaps();
   for (unsigned i = 0; i < 3; ++i) {
     s.elastic[i] = elastic(static_cast<Row>(i));
-    if (member_->fresh || j.special)
-      s.elastic[i] = (member_->fresh ? 0 : r.gap[i]) - j.neutral[i];  // slack, too
+    if (member_->own.fresh || j.special)
+      s.elastic[i] = (member_->own.fresh ? 0 : r.gap[i]) - j.neutral[i];  // slack, too
     s.plastic[i] = r.plastic.net[i];
     s.forward[i] = r.plastic.forward[i];
     s.back[i] = r.plastic.back[i];
     s.dissipated[i] = r.dissipated[i];
   }
-  s.yielded = member_->yielded;
+  s.yielded = member_->said.yielded;
   return s;
 }
 
@@ -97,11 +95,11 @@ ElasticPlasticJointDef ElasticPlasticJoint::def() const {
   if (member_ == nullptr) return d;
   for (const Row i : {axial, shear, rotation}) d.rows[i] = row(i);
   d.line = frame.line;
-  if (d.line) d.length = member_->fresh ? member_->length : row_state().neutral[axial];
-  d.max_rotation = member_->max_rotation;
-  d.max_elongation = member_->max_elongation;
-  d.max_compression = member_->max_compression;
-  d.max_slip = member_->max_slip;
+  if (d.line) d.length = member_->own.fresh ? member_->length : row_state().neutral[axial];
+  d.max_rotation = member_->limits.rotation;
+  d.max_elongation = member_->limits.elongation;
+  d.max_compression = member_->limits.compression;
+  d.max_slip = member_->limits.slip;
   if (member_->surface != nullptr) {
     const auto polygon = member_->surface->polygon();
     d.interaction.assign(polygon.begin(), polygon.end());

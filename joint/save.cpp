@@ -18,7 +18,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 2;    // changes with what the solver carries from step to step
+constexpr int past = 3;    // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -161,7 +161,7 @@ class Structure::Impl::Save {
     a("axis", axis.c, axis.s);
     if (m == nullptr) m = &make(a, def, axis);
     a("id", m->id);
-    a("told", m->told, m->told_energy);
+    a("told", m->said.used, m->said.energy);
     const auto unfit = unfit_.find(m->component);
     bool alone = m->component == nullptr || unfit != unfit_.end();
     a("alone", alone);  // in no component
@@ -169,8 +169,8 @@ class Structure::Impl::Save {
     Member left = *m;
     if (unfit != unfit_.end()) unfit->second->hand_back(left);
     tape(a, "past", [&](Tape& t) {
-      t(left.own, left.own_record, left.drift_time, left.known, left.fresh);
-      if (t.reads()) dynamics::restore(left.own, left.own_record);
+      t(left.own);
+      if (t.reads()) dynamics::restore(left.own.joint, left.own.record);
     });
     if (a.reads()) *m = left;
   }
@@ -181,7 +181,7 @@ class Structure::Impl::Save {
     ElasticPlasticJoint* joint = s_.join(world_.world(), def);
     world_.all_joints.push_back(joint);
     Member& m = *s_.members.back();
-    m.own.frame.axis = axis;
+    m.own.joint.frame.axis = axis;
     return m;
   }
 
@@ -217,7 +217,7 @@ class Structure::Impl::Save {
     Guests guests;
     const std::vector<b2Body*>& known = world_.all_bodies;
     for (std::size_t i = 0; c != nullptr && i < c->mirrors.size(); ++i) {
-      const Component::Mirror& m = c->mirrors[i];
+      const Mirror& m = c->mirrors[i];
       if (!m.guest || (std::count(known.begin(), known.end(), m.body) != 0 && m.fits())) continue;
       const Body& b = c->solver.bodies[i];
       const bool moves = i < c->solver.free_bodies();
@@ -258,8 +258,8 @@ class Structure::Impl::Save {
   // The component keeps addresses of what stood in, and masses as they were, which floats may not hold.
   void dismiss(Component& c, const std::vector<Gone>& gone) {
     for (const Gone& g : gone) {
-      const auto mirror = std::find_if(c.mirrors.begin(), c.mirrors.end(),
-                                       [&](const Component::Mirror& m) { return m.body == g.body; });
+      const auto mirror =
+          std::find_if(c.mirrors.begin(), c.mirrors.end(), [&](const Mirror& m) { return m.body == g.body; });
       if (mirror != c.mirrors.end() && g.mass > 0)
         c.solver.bodies[static_cast<std::size_t>(mirror - c.mirrors.begin())].inertia = g.inertia;
       world_.world().DestroyBody(g.body);

@@ -46,6 +46,8 @@ class Solver : public System {
 
   void form(std::size_t free_bodies);
   std::size_t free_bodies() const { return free; }
+  /// In the paper's way.
+  bool swept() const { return motion_.swept; }
   void locate() { locate_all(*this); }
   void find_gaps() { dynamics::find_gaps(*this); }
 

@@ -54,32 +54,29 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   Member& m = *member;
   m.structure = this;
   m.id = next_id++;
-  m.max_rotation = d.max_rotation;
-  m.max_elongation = d.max_elongation;
-  m.max_compression = d.max_compression;
-  m.max_slip = d.max_slip;
+  m.limits = {d.max_rotation, d.max_elongation, d.max_compression, d.max_slip};
   m.break_group = d.break_group;
   m.node = d.node;
   m.length = d.line ? d.length : -1;
   for (unsigned i = 0; i < 3; ++i) {
     const RowDef& row = d.rows[i];
-    m.own_record.material.stiffness[i] = row.stiffness;
-    m.own_record.material.damping_ratio[i] = row.damping_ratio;
-    m.own_record.material.damping[i] = row.damping;
-    m.own_record.material.cap[i] = row.cap;
-    m.own_record.material.cap_reverse[i] = row.cap_reverse;
-    m.own_record.material.hardening[i] = row.hardening;
-    if (row.slackens) m.own_record.material.slackens |= 1u << i;
-    if (row.drive) m.own_record.material.drive(i, row.drive->target, row.drive->speed);
+    m.own.record.material.stiffness[i] = row.stiffness;
+    m.own.record.material.damping_ratio[i] = row.damping_ratio;
+    m.own.record.material.damping[i] = row.damping;
+    m.own.record.material.cap[i] = row.cap;
+    m.own.record.material.cap_reverse[i] = row.cap_reverse;
+    m.own.record.material.hardening[i] = row.hardening;
+    if (row.slackens) m.own.record.material.slackens |= 1u << i;
+    if (row.drive) m.own.record.material.drive(i, row.drive->target, row.drive->speed);
   }
   if (!d.interaction.empty()) {
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
-    m.own_record.material.surface = m.surface.get();
+    m.own.record.material.surface = m.surface.get();
   }
-  m.own.frame.axis = turn_of(d.axisAngle);
-  m.own.frame.follow = d.axisFollow;
-  m.own.frame.reference = weld->GetReferenceAngle();
-  m.own.frame.line = d.line;
+  m.own.joint.frame.axis = turn_of(d.axisAngle);
+  m.own.joint.frame.follow = d.axisFollow;
+  m.own.joint.frame.reference = weld->GetReferenceAngle();
+  m.own.joint.frame.line = d.line;
   b2Body *a = weld->GetBodyA(), *b = weld->GetBodyB();
   m.joint = ElasticPlasticJoint::put_in_place(weld, &m);
   m.set_state(d.state);
@@ -101,8 +98,8 @@ void Structure::Impl::forget(Member& member) {
     dissolve(component);
     std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
   }
-  for (const double joules : member.own_record.dissipated) gone_.dissipated += joules;
-  for (const double joules : member.own_record.stored) gone_.numerical += joules;  // lost with the joint
+  for (const double joules : member.own.record.dissipated) gone_.dissipated += joules;
+  for (const double joules : member.own.record.stored) gone_.numerical += joules;  // lost with the joint
   if (member.node != 0 && !member.broken) orphans.push_back(member.joint->def());
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
@@ -157,18 +154,18 @@ auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {
 void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
   // Called for every joint; each component is shifted by its first.
   Component* c = caller.component;
-  for (KnownPose& known : caller.known) {
+  for (KnownPose& known : caller.own.known) {
     known.pose.x -= new_origin.x;
     known.pose.y -= new_origin.y;
   }
   if (c == nullptr || caller.index != 0) return;
-  c->origin_x -= new_origin.x;
-  c->origin_y -= new_origin.y;
-  for (Component::Mirror& m : c->mirrors) m.left.c -= new_origin;
+  c->origin.x -= new_origin.x;
+  c->origin.y -= new_origin.y;
+  for (Mirror& m : c->mirrors) m.left.c -= new_origin;
 }
 
 bool Structure::Impl::told_all() const {
-  const auto open = [](const auto& c) { return c->open; };
+  const auto open = [](const auto& c) { return c->account.open; };
   const auto broken = [](const auto& m) { return m->broken; };
   return !stepped_ && pending_.empty() && orphans.empty() && !telling_ && bullets_.empty() &&
          std::none_of(components.begin(), components.end(), open) &&
@@ -180,14 +177,13 @@ std::size_t Structure::Impl::bytes() const {
                     joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending);
   for (const auto& c : components) {
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
-           c->mirrors.capacity() * sizeof(Component::Mirror) +
-           c->accounts.capacity() * sizeof(Component::Account);
+           c->mirrors.capacity() * sizeof(Mirror) + 2 * c->account.began.capacity() * sizeof(b2Velocity);
   }
   return sum;
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def,      watch, next_id, {},      {},        report,   worst,  batch_,
+  State s{def,      watch, next_id, {},      {},        report,   worst,
           stepped_, gone_, {},      orphans, last_node, bullets_, stopped};
   s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
   for (const auto& m : members) s.members.push_back(*m);
@@ -206,7 +202,6 @@ void Structure::Impl::restore(const State& s) {
   next_id = s.next_id;
   report = s.report;
   worst = s.worst;
-  batch_ = s.batch;
   stepped_ = s.stepped;
   gone_ = s.gone;
   pending_.assign(s.pending.begin(), s.pending.end());
@@ -218,7 +213,6 @@ void Structure::Impl::restore(const State& s) {
   broke_ = true;  // update() looks for itself
   enlisted_.clear();
   active_.clear();
-  enlisting_ = false;
   components.clear();
   members.clear();
   joints.clear();

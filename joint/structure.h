@@ -104,13 +104,10 @@ struct Structure::Impl {
   // The island at hand.
   std::vector<dynamics::Member*> enlisted_;
   std::vector<dynamics::Component*> active_;
-  std::uint64_t batch_ = 0;
   int velocity_calls_ = 0;
-  bool enlisting_ = false;
   dynamics::IslandContacts contacts_;
   std::vector<dynamics::StockJoint> stock_;  // that hold its pieces, and what touches these
   std::vector<b2Body*> bullets_;             // that are none until update()
-  bool incomplete_ = false;                  // some enlisted joint is in no component
   bool stepped_ = false;                     // since the last update()
   bool broke_ = false;                       // some joint, since then
 
@@ -136,7 +133,6 @@ struct Structure::Impl::State {
   };
   std::vector<Formed> components;
   StepReport report, worst;
-  std::uint64_t batch;
   bool stepped;
   JointEnergy gone;
   std::vector<Pending> pending;

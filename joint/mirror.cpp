@@ -1,0 +1,36 @@
+#include "mirror.h"
+
+#include <cmath>
+
+#include "frames.h"
+
+namespace ductile::dynamics {
+
+BodyMass::BodyMass(const b2Body& body)
+    : mass(body.GetMass()),
+      inverse_mass(1.0f / mass),
+      inertia(body.GetInertia()),
+      gyration(mass > 0 ? std::sqrt(inertia / mass) : 0),
+      center(body.GetLocalCenter()) {}
+
+Mirror::Mirror(b2Body& of, int joined)
+    : body(&of),
+      mass(of),
+      type(of.GetType()),
+      guest(joined == 0),
+      left{of.GetWorldCenter(), of.GetAngle()},
+      given{of.GetLinearVelocity(), of.GetAngularVelocity()},
+      exact(in_doubles(given)) {
+  int held = 0;
+  for (const b2JointEdge* e = of.GetJointList(); e != nullptr; e = e->next) ++held;
+  if (!guest && held == joined) joints = of.GetJointList();
+}
+
+void Mirror::keep(Tape& tape) {
+  tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact);
+  bool only_ours = joints != nullptr && joints == body->GetJointList();
+  tape(only_ours);
+  if (tape.reads()) joints = only_ours ? body->GetJointList() : nullptr;
+}
+
+}  // namespace ductile::dynamics

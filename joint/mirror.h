@@ -1,0 +1,71 @@
+// A body of a component beside Box2D's own: what Box2D was given of it last, what it brings, and whether it
+// is still what the component was formed for.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include "pose.h"
+#include "tape.h"
+#include "vec3.h"
+
+namespace ductile::dynamics {
+
+/// The mass of a body.
+struct BodyMass {
+  float mass = 0, inverse_mass = 0;  // kg, 1/kg
+  float inertia = 0, gyration = 0;   // kg m² about the body's origin; m
+  b2Vec2 center{0, 0};
+
+  BodyMass() = default;
+  explicit BodyMass(const b2Body& body);
+  bool is_of(const b2Body& body) const {
+    return body.GetMass() == mass && body.GetInertia() == inertia && body.GetLocalCenter() == center;
+  }
+};
+
+struct Mirror {
+  b2Body* body = nullptr;
+  BodyMass mass;
+  b2BodyType type = b2_staticBody;
+  bool guest = false;                   // touches the structure or is tied to it, but no joint of it
+  const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
+
+  b2Position left{};             // pose as it was left
+  b2Velocity given{};            // velocity as it was left
+  Vec3 exact;                    // what `given` is rounded of, world axes
+  b2Velocity taken{};            // velocity that Box2D had at the step's start
+  b2Velocity pushed{{0, 0}, 0};  // what others have added to it since
+  float rounding = 0;            // m/s: of `taken`, by the contacts' stored impulses in it
+  int32 island_index = 0;
+  bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
+
+  Mirror() = default;
+  /// Of a body that has so many joints of the component.
+  Mirror(b2Body& of, int joined);
+
+  bool has_its_mass() const { return type != b2_dynamicBody || mass.is_of(*body); }
+  bool fits() const { return body->GetType() == type && has_its_mass(); }
+  /// Whether nothing touches or holds the body but joints of the component. Box2D prepends new joints to a
+  /// body's list, and one of ours that goes dissolves the component.
+  bool only_ours() const { return body->GetContactList() == nullptr && body->GetJointList() == joints; }
+  /// Its pose and velocity at the start of a step.
+  b2Position pose_in(const b2SolverData& data) const {
+    return type == b2_staticBody ? b2Position{body->GetWorldCenter(), body->GetAngle()}
+                                 : data.positions[island_index];
+  }
+  void keep(Tape& tape);
+};
+
+/// A place in the world that poses are kept relative to, so that doubles resolve strains anywhere, m.
+struct Origin {
+  double x = 0, y = 0;
+
+  Pose relative(const b2Position& at) const { return {at.c.x - x, at.c.y - y, at.a}; }
+  b2Position in_world(const Pose& p) const {
+    return {{static_cast<float>(p.x + x), static_cast<float>(p.y + y)}, static_cast<float>(p.angle)};
+  }
+  b2Vec2 in_floats() const { return {static_cast<float>(x), static_cast<float>(y)}; }
+  void keep(Tape& tape) { tape(x, y); }
+};
+
+}  // namespace ductile::dynamics
