@@ -27,12 +27,13 @@ void Component::limit_speed(const b2SolverData& data) {
     }
     return sum;
   };
+  double& slowed = structure->reports.step.slowed;
   double before = 0;
   for (int pass = 0;; ++pass) {
     const double least =
         std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
     if (least == 1) {
-      if (pass > 0) structure->report.slowed = std::max(structure->report.slowed, 1 - kinetic() / before);
+      if (pass > 0) slowed = std::max(slowed, 1 - kinetic() / before);
       return;
     }
     if (pass == 0) before = kinetic();
@@ -52,7 +53,7 @@ void Component::limit_speed(const b2SolverData& data) {
     }
     if (together) {
       solver.scale(least);
-      structure->report.slowed = std::max(structure->report.slowed, 1 - kinetic() / before);
+      slowed = std::max(slowed, 1 - kinetic() / before);
       return give(data);
     }
     solve(data);

@@ -124,7 +124,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     return_contacts();
     account.open = solver.keeps_ledger;  // something may strike it before the step is over
-    ++structure->report.resting;
+    ++structure->reports.step.resting;
     return;
   }
   if (expected) {
@@ -200,7 +200,7 @@ void Component::first_velocity(const b2SolverData& data) {
 
 void Component::next_velocity(const b2SolverData& data) {
   if (whole()) {
-    ++structure->report.skipped;
+    ++structure->reports.step.skipped;
     return;
   }
   bool touched = false;
@@ -223,13 +223,13 @@ void Component::next_velocity(const b2SolverData& data) {
   if (touched || !direct()) {
     solve(data);
   } else {
-    ++structure->report.skipped;
+    ++structure->reports.step.skipped;
   }
 }
 
 // Joints that break in this step hold until they do. A joint whose break somebody may veto holds through it.
 bool Component::weaken_what_breaks() {
-  if (!solver.struck() || !solver.any_flows() || structure->veto) return false;
+  if (!solver.struck() || !solver.any_flows() || structure->events.veto) return false;
   bool any = false;
   for (const Member* m : members) {
     const Joint& j = solver.joints[m->index];
@@ -262,18 +262,20 @@ void Component::solve(const b2SolverData& data) {
   give(data);
   return_contacts();
   return_ties();
-  ++structure->report.solves;
-  structure->report.rounds += solved.rounds;
-  structure->report.factorisations += solved.factorisations;
-  structure->report.bounds_hit += solved.unsolved ? 1 : 0;
-  structure->report.residual = std::max(structure->report.residual, solved.residual);
+  StepReport& report = structure->reports.step;
+  ++report.solves;
+  report.rounds += solved.rounds;
+  report.factorisations += solved.factorisations;
+  report.bounds_hit += solved.unsolved ? 1 : 0;
+  report.residual = std::max(report.residual, solved.residual);
 }
 
 void Component::project(bool try_goal) {
   const bool kept = solver.project(goal_, try_goal);
-  structure->report.bounds_hit += kept ? 0 : 1;
-  structure->report.parted += kept ? 0 : 1;
-  ++structure->report.projections;
+  StepReport& report = structure->reports.step;
+  report.bounds_hit += kept ? 0 : 1;
+  report.parted += kept ? 0 : 1;
+  ++report.projections;
 }
 
 void Component::give(const b2SolverData& data) {

@@ -35,16 +35,16 @@ void Structure::Impl::look_for_breaks(Component& component) {
       say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
     }
     const bool exceeded = used > 1;
-    if (!exceeded || (veto && !veto(*m->joint))) continue;
+    if (!exceeded || (events.veto && !events.veto(*m->joint))) continue;
     break_joint(*m, mode, static_cast<Row>(row));
   }
 }
 
 void Structure::Impl::say(Member& member, JointEvent event) {
   // Never allocates inside a step: what finds no room is not said.
-  if (pending_.size() == pending_.capacity()) return;
+  if (events.pending.size() == events.pending.capacity()) return;
   event.worked = event.energy - std::exchange(member.said.energy, event.energy);
-  pending_.push_back({member.id, event});
+  events.pending.push_back({member.id, event});
 }
 
 // Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
@@ -83,16 +83,16 @@ void Structure::Impl::tell() {
     bool& telling;
     explicit Telling(bool& flag) : telling(flag) { telling = true; }
     ~Telling() { telling = false; }
-  } telling(telling_);
-  while (told_ < pending_.size()) {
-    Pending p = pending_[told_++];
+  } telling(events.telling);
+  while (events.told < events.pending.size()) {
+    Events::Pending p = events.pending[events.told++];
     const auto member = find(p.id);
-    if (!handler || member == members.end()) continue;
+    if (!events.handler || member == members.end()) continue;
     p.event.at = (*member)->joint->GetAnchorA();
-    handler(p.event);
+    events.handler(p.event);
   }
-  pending_.clear();
-  told_ = 0;
+  events.pending.clear();
+  events.told = 0;
 }
 
 }  // namespace ductile

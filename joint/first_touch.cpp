@@ -108,7 +108,7 @@ void Structure::Impl::meet_guests() {
 
 void Structure::Impl::hold_bullets() {
   if (def.solver != SolverKind::direct || world->GetSubStepping()) return;
-  for (const Component* c : active_) {
+  for (const Component* c : island_.active) {
     each_near(*c, [this](const b2Contact&, b2Body&, b2Body& guest) {
       if (!guest.IsBullet()) return;
       guest.SetBullet(false);

@@ -20,52 +20,53 @@ void Structure::Impl::stop_if_not_finite(b2Body& body, const b2SolverData& data)
   velocity = {{0, 0}, 0};
   body.SetLinearVelocity({0, 0});
   body.SetAngularVelocity(0);
-  ++stopped;
+  ++reports.stopped;
 }
 
 // Joints are solved in the order in which they were initialised: the first does the work of all.
 bool Structure::Impl::enlist(Member* member, Component* component) {
-  const bool first = velocity_calls_ > 0 || enlisted_.empty();
+  const bool first = island_.velocity_calls > 0 || island_.enlisted.empty();
   if (first) {
-    enlisted_.clear();
-    active_.clear();
-    velocity_calls_ = 0;
-    if (std::exchange(stepped_, true) == false) report = {};
+    island_.enlisted.clear();
+    island_.active.clear();
+    island_.velocity_calls = 0;
+    if (std::exchange(reports.stepped, true) == false) reports.step = {};
   }
-  enlisted_.push_back(member);
-  if (component != nullptr && component->enlisted++ == 0) active_.push_back(component);
+  island_.enlisted.push_back(member);
+  if (component != nullptr && component->enlisted++ == 0) island_.active.push_back(component);
   return first;
 }
 
 void Structure::Impl::velocity(const b2SolverData& data) {
   const int last = data.step.velocityIterations;
-  if (velocity_calls_ == last) return;
-  if (velocity_calls_++ == 0) {
+  if (island_.velocity_calls == last) return;
+  if (island_.velocity_calls++ == 0) {
     choose_contacts(data);
     std::size_t known = 0;
     bool fits = true;
-    for (Component* c : active_) {
+    for (Component* c : island_.active) {
       const std::size_t enlisted = std::exchange(c->enlisted, 0);
       known += enlisted;
-      fits = fits && enlisted == c->members.size() && c->look(data, contacts_, stock_);
+      fits = fits && enlisted == c->members.size() && c->look(data, island_.contacts, island_.stock);
     }
-    fits = fits && known == enlisted_.size();
+    fits = fits && known == island_.enlisted.size();
     if (!fits || !distribute()) {
       form();
-      for (Component* c : active_) c->look(data, contacts_, stock_);
+      for (Component* c : island_.active) c->look(data, island_.contacts, island_.stock);
       distribute();
     }
     hold_bullets();
-    for (Component* c : active_) c->first_velocity(data);
-    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->whole(); })) {
-      report.skipped += static_cast<int>(active_.size()) * (last - velocity_calls_);
-      velocity_calls_ = last;
+    for (Component* c : island_.active) c->first_velocity(data);
+    if (std::all_of(island_.active.begin(), island_.active.end(),
+                    [](const Component* c) { return c->whole(); })) {
+      reports.step.skipped += static_cast<int>(island_.active.size()) * (last - island_.velocity_calls);
+      island_.velocity_calls = last;
     }
   } else {
-    for (Component* c : active_) c->next_velocity(data);
+    for (Component* c : island_.active) c->next_velocity(data);
   }
-  if (velocity_calls_ < last) return;
-  for (Component* c : active_) {
+  if (island_.velocity_calls < last) return;
+  for (Component* c : island_.active) {
     if (c->rests()) continue;
     c->limit_speed(data);
     c->advance(data);
@@ -74,19 +75,19 @@ void Structure::Impl::velocity(const b2SolverData& data) {
 }
 
 void Structure::Impl::position(const b2SolverData& data) {
-  for (Component* c : active_) c->position(data);
+  for (Component* c : island_.active) c->position(data);
 }
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
 void Structure::Impl::form() {
-  for (Component* c : active_) dissolve(*c);
+  for (Component* c : island_.active) dissolve(*c);
   std::erase_if(components, [&](const auto& c) {
-    return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
+    return std::find(island_.active.begin(), island_.active.end(), c.get()) != island_.active.end();
   });
-  active_.clear();
+  island_.active.clear();
 
   // Contacts change the order of joints between steps; elimination must not depend on it.
-  std::vector<Member*> all = enlisted_;
+  std::vector<Member*> all = island_.enlisted;
   std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> first_joint(static_cast<std::size_t>(world->GetBodyCount()), none);
@@ -112,8 +113,8 @@ void Structure::Impl::form() {
   }
   // What touches or is tied hangs together, too. Of bodies without joints, by way of those that they touch.
   std::vector<BodyPair> pairs;
-  for (const StockJoint& t : stock_) pairs.push_back({t.a(), t.b()});
-  for (const Touch& t : contacts_.touches()) pairs.push_back({t.a(), t.b()});
+  for (const StockJoint& t : island_.stock) pairs.push_back({t.a(), t.b()});
+  for (const Touch& t : island_.contacts.touches()) pairs.push_back({t.a(), t.b()});
   for (bool again = true; std::exchange(again, false);) {
     for (const BodyPair& pair : pairs) {
       if (!is_free(pair.a) || !is_free(pair.b)) continue;
@@ -156,7 +157,7 @@ void Structure::Impl::form() {
     auto& group = groups[k];
     if (group.empty()) continue;
     Component& c = form(std::move(group), std::move(touched[k]));
-    active_.push_back(&c);
+    island_.active.push_back(&c);
   }
 }
 

@@ -37,8 +37,8 @@ using namespace dynamics;
 
 // Only those whose hub was destroyed: a joint that a game destroyed, or whose own body went, is gone.
 void Structure::Impl::join_orphans() {
-  if (orphans.empty()) return;
-  std::vector<ElasticPlasticJointDef> left = std::exchange(orphans, {});
+  if (nodes.orphans.empty()) return;
+  std::vector<ElasticPlasticJointDef> left = std::exchange(nodes.orphans, {});
   std::erase_if(left, [&](const auto& o) { return lives(*world, o.bodyA) || !lives(*world, o.bodyB); });
   std::stable_sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -93,7 +93,7 @@ std::vector<std::string> Structure::Impl::problems(const ElasticPlasticJointDef&
   return all;
 }
 
-int Structure::new_node() { return --impl_->last_node; }
+int Structure::new_node() { return --impl_->nodes.last; }
 
 std::vector<ElasticPlasticJoint*> Structure::pin(const b2Vec2& at, const std::vector<b2Body*>& bodies) {
   ElasticPlasticJointDef like;

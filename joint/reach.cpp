@@ -45,25 +45,25 @@ bool Structure::Impl::may_take(const b2Body& body) const {
 
 // Those that are rows of this step's problem. A body that a structure has joints on is a piece.
 void Structure::Impl::choose_contacts(const b2SolverData& data) {
-  contacts_.clear();
-  contacts_.read(*world, data);
-  stock_.clear();
-  for (const Touch& t : contacts_.touches()) {
+  island_.contacts.clear();
+  island_.contacts.read(*world, data);
+  island_.stock.clear();
+  for (const Touch& t : island_.contacts.touches()) {
     for (b2Body* body : {t.a(), t.b()}) stop_if_not_finite(*body, data);
     for (int32 k = 0; k < t.velocity->count; ++k)  // Box2D made it of the velocities: 0 · ∞ is no number
       if (float& bounce = t.velocity->points[k].bounce; !b2IsValid(bounce)) bounce = 0;
   }
-  if (def.solver != SolverKind::direct) return contacts_.clear();
-  contacts_.begin(*world);
+  if (def.solver != SolverKind::direct) return island_.contacts.clear();
+  island_.contacts.begin(*world);
   const bool ours_alone = world->GetJointCount() == static_cast<int32>(members.size());
   const bool stock_known = !ours_alone && data.step.warmStarting;
   if (stock_known) choose_stock_joints();
-  contacts_.choose([this](const b2Body* body) { return structure_of(*body) == this; },
-                   [this](const b2Body* body) { return may_take(*body); },
-                   [&](b2Body& body) {
-                     if (stock_known) follow(body);
-                   });
-  for (const StockJoint& t : stock_) {
+  island_.contacts.choose([this](const b2Body* body) { return structure_of(*body) == this; },
+                          [this](const b2Body* body) { return may_take(*body); },
+                          [&](b2Body& body) {
+                            if (stock_known) follow(body);
+                          });
+  for (const StockJoint& t : island_.stock) {
     for (b2Body* body : {t.a(), t.b()}) {
       if (body->GetType() == b2_dynamicBody) stop_if_not_finite(*body, data);
     }
@@ -72,50 +72,51 @@ void Structure::Impl::choose_contacts(const b2SolverData& data) {
 
 // Of pieces. Contacts change the order of joints in the island; rows must not depend on it.
 void Structure::Impl::choose_stock_joints() {
-  for (Member* m : enlisted_) {
+  for (Member* m : island_.enlisted) {
     const auto look = [&](b2Body& piece, const b2JointEdge& edge) {
       if (piece.GetType() != b2_dynamicBody) return;
       each_beside(edge, [&](b2Joint& joint) {
         b2Body &a = *joint.GetBodyA(), &b = *joint.GetBodyB();
         const bool seen_from_a = &piece != &a && a.GetType() == b2_dynamicBody && structure_of(a) == this;
         if (seen_from_a || !is_stock(joint) || !may_take(a) || !may_take(b)) return;
-        stock_.push_back(
-            {.joint = &joint, .member = m->id, .place = static_cast<std::uint32_t>(stock_.size())});
+        island_.stock.push_back(
+            {.joint = &joint, .member = m->id, .place = static_cast<std::uint32_t>(island_.stock.size())});
       });
     };
     look(*m->joint->GetBodyA(), dynamics::of(*m->joint, b2Joint_m_edgeA{}));
     look(*m->joint->GetBodyB(), dynamics::of(*m->joint, b2Joint_m_edgeB{}));
   }
-  std::sort(stock_.begin(), stock_.end(), [](const StockJoint& s, const StockJoint& t) {
+  std::sort(island_.stock.begin(), island_.stock.end(), [](const StockJoint& s, const StockJoint& t) {
     return s.member != t.member ? s.member < t.member : s.place < t.place;
   });
-  for (const StockJoint& t : stock_) {
+  for (const StockJoint& t : island_.stock) {
     for (b2Body* body : {t.a(), t.b()})
-      if (structure_of(*body) != this) contacts_.reach(*body);
+      if (structure_of(*body) != this) island_.contacts.reach(*body);
   }
 }
 
 // Joints of a body that is no piece, to such as it is. Those to pieces are known by now.
 void Structure::Impl::follow(b2Body& body) {
-  for (b2JointEdge* e = body.GetJointList(); e != nullptr && stock_.size() < members.size() + far_joints;
-       e = e->next) {
+  for (b2JointEdge* e = body.GetJointList();
+       e != nullptr && island_.stock.size() < members.size() + far_joints; e = e->next) {
     b2Body& other = *e->other;
     if (!is_stock(*e->joint) || !may_take(other) || structure_of(other) == this ||
-        contacts_.is_followed(other))
+        island_.contacts.is_followed(other))
       continue;
-    stock_.push_back({.joint = e->joint});
-    contacts_.reach(other);
+    island_.stock.push_back({.joint = e->joint});
+    island_.contacts.reach(other);
   }
 }
 
 bool Structure::Impl::distribute() {
   const auto taken = [this](const auto& all, const auto& take) {
     return std::all_of(all.begin(), all.end(), [&](const auto& t) {
-      return std::any_of(active_.begin(), active_.end(), [&](Component* c) { return take(*c, t); });
+      return std::any_of(island_.active.begin(), island_.active.end(),
+                         [&](Component* c) { return take(*c, t); });
     });
   };
-  return taken(contacts_.touches(), [](Component& c, const Touch& t) { return c.touch(t); }) &&
-         taken(stock_, [](Component& c, const StockJoint& t) { return c.tie(t); });
+  return taken(island_.contacts.touches(), [](Component& c, const Touch& t) { return c.touch(t); }) &&
+         taken(island_.stock, [](Component& c, const StockJoint& t) { return c.tie(t); });
 }
 
 }  // namespace ductile

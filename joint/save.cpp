@@ -122,7 +122,7 @@ class Structure::Impl::Save {
       a("flow_share", s_.def.flow_share);
       a("keep_ledger", s_.def.keep_ledger);
       a("next_id", next_id);
-      a("last_node", s_.last_node);
+      a("last_node", s_.nodes.last);
       a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped);
     });
     if (a_.reads()) s_.gone_ = gone;
@@ -290,7 +290,7 @@ class Structure::Impl::Save {
 void Structure::Impl::clear() {
   for (std::uint32_t i = 0; i < members.size(); ++i) members[i]->id = i;  // some may stand in no order
   WorldArchive::clear(*world);
-  orphans.clear();
+  nodes.orphans.clear();
   gone_ = {};
 }
 
@@ -339,8 +339,12 @@ std::vector<std::uint8_t> save_bytes(const Structure& structure) {
 std::string save_json(const Structure& structure) { return written(structure).dump(); }
 
 void load_bytes(Structure& structure, std::span<const std::uint8_t> bytes) {
-  Archive::Json document = Archive::Json::from_cbor(bytes.begin(), bytes.end(), true, false);
-  if (document.is_discarded()) throw std::invalid_argument("save: these bytes are no CBOR, or not all of it");
+  Archive::Json document;
+  try {
+    document = Archive::Json::from_cbor(bytes.begin(), bytes.end());
+  } catch (const Archive::Json::exception&) {  // also of what promises more entries than there is memory
+    throw std::invalid_argument("save: these bytes are no CBOR, or not all of it");
+  }
   read(structure, std::move(document));
 }
 

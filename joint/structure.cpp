@@ -32,9 +32,9 @@ void Structure::Impl::watch_is_gone(bool with_world) {
   members.clear();
   joints.clear();
   components.clear();
-  pending_.clear();
-  orphans.clear();
-  told_ = 0;
+  events.pending.clear();
+  nodes.orphans.clear();
+  events.told = 0;
   watch = nullptr;
   if (with_world) world = nullptr;
 }
@@ -82,9 +82,9 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.set_state(d.state);
   members.push_back(std::move(member));
   joints.push_back(m.joint);
-  enlisted_.reserve(members.capacity());
-  active_.reserve(members.capacity());
-  pending_.reserve(4 * members.capacity());
+  island_.enlisted.reserve(members.capacity());
+  island_.active.reserve(members.capacity());
+  events.pending.reserve(4 * members.capacity());
   if (d.node != 0) mark(*a), mark(*b);
   a->SetAwake(true);
   b->SetAwake(true);
@@ -100,7 +100,7 @@ void Structure::Impl::forget(Member& member) {
   }
   for (const double joules : member.own.record.dissipated) gone_.dissipated += joules;
   for (const double joules : member.own.record.stored) gone_.numerical += joules;  // lost with the joint
-  if (member.node != 0 && !member.broken) orphans.push_back(member.joint->def());
+  if (member.node != 0 && !member.broken) nodes.orphans.push_back(member.joint->def());
   const auto place = find(member.id);
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
@@ -120,18 +120,21 @@ JointEnergy Structure::Impl::energy() const {
   return sum;
 }
 
+void dynamics::Reports::close_step() {
+  if (!std::exchange(stepped, false)) return;
+  worst.bounds_hit += step.bounds_hit;
+  worst.parted += step.parted;
+  worst.residual = std::max(worst.residual, step.residual);
+  worst.slowed = std::max(worst.slowed, step.slowed);
+}
+
 void Structure::Impl::update() {
-  if (watch == nullptr || telling_) return;
+  if (watch == nullptr || events.telling) return;
   if (world->IsLocked())
     throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
   let_bullets_go();
   if (def.solver == SolverKind::direct && !world->GetSubStepping()) meet_guests();
-  if (std::exchange(stepped_, false)) {
-    worst.bounds_hit += report.bounds_hit;
-    worst.parted += report.parted;
-    worst.residual = std::max(worst.residual, report.residual);
-    worst.slowed = std::max(worst.slowed, report.slowed);
-  }
+  reports.close_step();
   if (def.keep_ledger) {
     for (const auto& c : components) gone_.clamped += c->close_ledger();
   }
@@ -167,14 +170,14 @@ void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
 bool Structure::Impl::told_all() const {
   const auto open = [](const auto& c) { return c->account.open; };
   const auto broken = [](const auto& m) { return m->broken; };
-  return !stepped_ && pending_.empty() && orphans.empty() && !telling_ && bullets_.empty() &&
-         std::none_of(components.begin(), components.end(), open) &&
+  return !reports.stepped && events.pending.empty() && nodes.orphans.empty() && !events.telling &&
+         bullets_.empty() && std::none_of(components.begin(), components.end(), open) &&
          std::none_of(members.begin(), members.end(), broken);
 }
 
 std::size_t Structure::Impl::bytes() const {
   std::size_t sum = sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
-                    joints.capacity() * sizeof(void*) + pending_.capacity() * sizeof(Pending);
+                    joints.capacity() * sizeof(void*) + events.pending.capacity() * sizeof(Events::Pending);
   for (const auto& c : components) {
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
            c->mirrors.capacity() * sizeof(Mirror) + 2 * c->account.began.capacity() * sizeof(b2Velocity);
@@ -183,9 +186,14 @@ std::size_t Structure::Impl::bytes() const {
 }
 
 auto Structure::Impl::state() const -> State {
-  State s{def,      watch, next_id, {},      {},        report,   worst,
-          stepped_, gone_, {},      orphans, last_node, bullets_, stopped};
-  s.pending.assign(pending_.begin() + static_cast<std::ptrdiff_t>(told_), pending_.end());
+  State s{.def = def,
+          .watch = watch,
+          .next_id = next_id,
+          .reports = reports,
+          .nodes = nodes,
+          .bullets = bullets_,
+          .gone = gone_};
+  s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.told), events.pending.end());
   for (const auto& m : members) s.members.push_back(*m);
   for (const auto& c : components) {
     std::vector<std::uint32_t> ids;
@@ -200,19 +208,15 @@ void Structure::Impl::restore(const State& s) {
   def = s.def;
   watch = s.watch;
   next_id = s.next_id;
-  report = s.report;
-  worst = s.worst;
-  stepped_ = s.stepped;
+  reports = s.reports;
+  nodes = s.nodes;
   gone_ = s.gone;
-  pending_.assign(s.pending.begin(), s.pending.end());
-  told_ = 0;
-  orphans = s.orphans;
-  last_node = s.last_node;
-  stopped = s.stopped;
+  events.pending.assign(s.pending.begin(), s.pending.end());
+  events.told = 0;
   bullets_ = s.bullets;
   broke_ = true;  // update() looks for itself
-  enlisted_.clear();
-  active_.clear();
+  island_.enlisted.clear();
+  island_.active.clear();
   components.clear();
   members.clear();
   joints.clear();
@@ -297,13 +301,13 @@ ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJoi
 
 void Structure::update() { impl_->update(); }
 void Structure::on_event(std::function<void(const JointEvent&)> handler) {
-  impl_->handler = std::move(handler);
+  impl_->events.handler = std::move(handler);
 }
 void Structure::may_break(std::function<bool(const ElasticPlasticJoint&)> veto) {
-  impl_->veto = std::move(veto);
+  impl_->events.veto = std::move(veto);
 }
 std::span<ElasticPlasticJoint* const> Structure::joints() const { return impl_->joints; }
-const StepReport& Structure::report() const { return impl_->report; }
+const StepReport& Structure::report() const { return impl_->reports.step; }
 JointEnergy Structure::energy() const { return impl_->energy(); }
 std::size_t Structure::bytes() const { return impl_->bytes(); }
 

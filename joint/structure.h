@@ -15,6 +15,43 @@ namespace ductile::dynamics {
 /// A body that is in a node keeps a mark, by which it is told from another one that was made at its address.
 void mark(b2Body& body);
 
+/// The island that b2World is solving, and what of it is one problem.
+struct Island {
+  std::vector<Member*> enlisted;
+  std::vector<Component*> active;  // of the enlisted joints
+  int velocity_calls = 0;
+  IslandContacts contacts;
+  std::vector<StockJoint> stock;  // that hold its pieces, and what touches these
+};
+
+/// What the game is told and asked.
+struct Events {
+  std::function<void(const JointEvent&)> handler;
+  std::function<bool(const ElasticPlasticJoint&)> veto;
+  struct Pending {
+    std::uint32_t id;  // of the joint
+    JointEvent event;
+  };
+  std::vector<Pending> pending;
+  std::size_t told = 0;  // of them
+  bool telling = false;  // the handler is at work
+};
+
+struct Reports {
+  StepReport step;
+  StepReport worst;      // since the start: bounds_hit and parted are sums, residual and slowed are maxima
+  int stopped = 0;       // velocities since the start that were no finite numbers
+  bool stepped = false;  // since the last update()
+
+  void close_step();
+};
+
+struct Nodes {
+  /// Of what held bodies to nodes and went without breaking since the last update().
+  std::vector<ElasticPlasticJointDef> orphans;
+  int last = 0;  // of new_node(): negative, so that a game's own are others
+};
+
 }  // namespace ductile::dynamics
 
 namespace ductile {
@@ -30,9 +67,9 @@ struct Structure::Impl {
   /// With its world, or with all bodies of it, or alone.
   void watch_is_gone(bool with_world);
   std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
-  /// Whether a structure has joints on the body that is not this one.
   /// Whose joints a body has: no two structures share one, so its first tells. Null: nobody's.
   static const Impl* structure_of(const b2Body& body);
+  /// Whether a structure has joints on the body that is not this one.
   bool is_of_another(const b2Body& body) const;
   /// Joins to each other what hung on bodies of nodes that are no more.
   void join_orphans();
@@ -69,17 +106,12 @@ struct Structure::Impl {
   std::vector<std::unique_ptr<dynamics::Member>> members;  // by id
   std::vector<ElasticPlasticJoint*> joints;                // as members
   std::vector<std::unique_ptr<dynamics::Component>> components;
-  std::function<void(const JointEvent&)> handler;
-  std::function<bool(const ElasticPlasticJoint&)> veto;
-  StepReport report;
-  /// Of what held bodies to nodes and went without breaking since the last update().
-  std::vector<ElasticPlasticJointDef> orphans;
+  dynamics::Events events;
+  dynamics::Reports reports;
+  dynamics::Nodes nodes;
   /// Stops a body of the island at hand whose velocity is no finite number: it would spread to all that hangs
   /// together, for good.
   void stop_if_not_finite(b2Body& body, const b2SolverData& data);
-  int stopped = 0;    // times since the start that it did
-  int last_node = 0;  // of new_node(): negative, so that a game's own are others
-  StepReport worst;   // since the start: bounds_hit and parted are sums, residual and slowed are maxima
 
  private:
   void form();
@@ -101,25 +133,10 @@ struct Structure::Impl {
   void tell();
   decltype(members)::iterator find(std::uint32_t id);
 
-  // The island at hand.
-  std::vector<dynamics::Member*> enlisted_;
-  std::vector<dynamics::Component*> active_;
-  int velocity_calls_ = 0;
-  dynamics::IslandContacts contacts_;
-  std::vector<dynamics::StockJoint> stock_;  // that hold its pieces, and what touches these
-  std::vector<b2Body*> bullets_;             // that are none until update()
-  bool stepped_ = false;                     // since the last update()
-  bool broke_ = false;                       // some joint, since then
-
-  JointEnergy gone_;  // of components and joints that are no more
-
-  struct Pending {
-    std::uint32_t id;
-    JointEvent event;
-  };
-  std::vector<Pending> pending_;
-  std::size_t told_ = 0;  // of them
-  bool telling_ = false;  // a handler is at work
+  dynamics::Island island_;
+  std::vector<b2Body*> bullets_;  // that are none until update()
+  bool broke_ = false;            // some joint, since the last update()
+  JointEnergy gone_;              // of components and joints that are no more
 };
 
 struct Structure::Impl::State {
@@ -132,14 +149,11 @@ struct Structure::Impl::State {
     std::vector<std::uint32_t> ids;  // of its members
   };
   std::vector<Formed> components;
-  StepReport report, worst;
-  bool stepped;
-  JointEnergy gone;
-  std::vector<Pending> pending;
-  std::vector<ElasticPlasticJointDef> orphans;
-  int last_node;
+  std::vector<dynamics::Events::Pending> pending;
+  dynamics::Reports reports;
+  dynamics::Nodes nodes;
   std::vector<b2Body*> bullets;
-  int stopped;
+  JointEnergy gone;
 };
 
 }  // namespace ductile

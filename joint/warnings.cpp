@@ -54,7 +54,7 @@ double least_width(const b2Fixture& fixture) {
 
 std::vector<std::string> Structure::warnings() const {
   const Impl& structure = *impl_;
-  const StepReport& worst = structure.worst;
+  const StepReport& worst = structure.reports.worst;
   std::vector<std::string> all;
   if (worst.slowed > 0.01) {
     all.push_back(
@@ -62,11 +62,11 @@ std::vector<std::string> Structure::warnings() const {
              "most 2 m and 90 degrees a step; use a smaller step",
              100 * worst.slowed));
   }
-  if (structure.stopped > 0) {
+  if (structure.reports.stopped > 0) {
     all.push_back(
         text("%d times the velocity of a body was not a finite number, and was taken as 0; look for what the "
              "game set or pushed it with",
-             structure.stopped));
+             structure.reports.stopped));
   }
   if (const int unsolved = worst.bounds_hit - worst.parted; unsolved > 0) {
     all.push_back(

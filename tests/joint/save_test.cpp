@@ -303,6 +303,9 @@ TEST(Save, IsRefusedWhereItCannotBe) {
   EXPECT_NO_THROW(save_bytes(s.structure));
   Scene empty;
   EXPECT_THROW(load_json(empty.structure, "{"), std::invalid_argument);
+  const std::uint8_t too_many[] = {0xbb, 0x4c, 0, 0, 0,
+                                   0,    0,    0, 0};  // CBOR: a map of 2^62 entries and more follows
+  EXPECT_THROW(load_bytes(empty.structure, too_many), std::invalid_argument);
   try {
     load_json(empty.structure, R"({"ductile": 1, "past": 1})");
     FAIL();
