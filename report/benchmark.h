@@ -23,7 +23,13 @@ struct Benchmark {
 std::vector<Benchmark> static_benchmarks(const Context& context);
 /// The same, of frames and arches.
 std::vector<Benchmark> frame_benchmarks();
+/// Frames that programs are calibrated with: by plastic zones, which hinges at points stand for.
+std::vector<Benchmark> calibration_benchmarks();
+/// Hinges in their order, and loads that come and go.
+std::vector<Benchmark> repeated_benchmarks();
 /// In motion, at small steps and at 60 Hz.
 std::vector<Benchmark> motion_benchmarks(const Context& context);
+/// Blows, and bodies that fly.
+std::vector<Benchmark> blow_benchmarks(const Context& context);
 
 }  // namespace ductile::report

@@ -57,12 +57,17 @@ class Report(unittest.TestCase):
         out = Path(self.folder.name) / "benchmarks"
         self.assertEqual(report(out, only="benchmarks").returncode, 0)
         data = json.loads((out / "data" / "benchmarks.json").read_text())
-        self.assertEqual([c["holds"] for c in data["claims"]], [True, True])
+        self.assertEqual([c["holds"] for c in data["claims"]], [True, False, True])
         for table in data["tables"]:
             columns = [c["name"] for c in table["columns"]]
             for row in table["rows"]:
                 row = dict(zip(columns, row))
-                self.assertLessEqual(abs(row["ductile"] / row["reference"] - 1), row["allowed [%]"] / 100, row)
+                allowed = row["allowed [%]"] / 100
+                # Of hinges at points: they overrate columns near their yield force, and the report says so.
+                if row["problem"] == "Vogel's portal":
+                    self.assertGreater(row["ductile"] / row["reference"] - 1, allowed, "it is met: say so")
+                    allowed = 0.03
+                self.assertLessEqual(abs(row["ductile"] / row["reference"] - 1), allowed, row)
                 for words in ("source", "read", "input"):
                     self.assertTrue(row[words], row)
 
