@@ -862,9 +862,9 @@ class Planner {
     joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
     joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
                        stiff(def.fix_angle, def.stiffness_angle)};
-    if (const double gives = end_gives(piece, def.at); def.fix_angle && gives > 0) {
-      joint.stiffness.M = 1 / gives;
-      joint.damping_ratio = strips_[plan_.pieces[piece].body].damping_ratio();
+    if (const double gives = end_gives(piece, def.at); joint.M > 0 && gives > 0) {  // in line with a spring
+      joint.stiffness.M = 1 / (gives + 1 / joint.stiffness.M);
+      if (def.fix_angle) joint.damping_ratio = strips_[plan_.pieces[piece].body].damping_ratio();
     }
     joint.displacement = def.displacement;
     joint.ramp = def.ramp;

@@ -47,6 +47,9 @@ double compliance(const std::array<Arm, 2>& arms) {
   return sum;
 }
 
+// rad per N m, of a support's own spring, which is in line with the bar to it.
+double support_gives(double k, double bar) { return std::max(1 / k - bar, 0.); }
+
 bool is_inside(const Plan& plan, const PlannedJoint& joint) {
   return joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
                              plan.pieces[static_cast<std::size_t>(joint.b)].body;
@@ -122,8 +125,8 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
   Root rigid = k.cwiseSqrt().asDiagonal();
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
   const bool bends = compliance(arms) > 0;
-  if (bends && (joint.a >= 0 || stands_for(joint, arms)))
-    flexibility(rotation, rotation) = 0;  // is the arms'
+  if (bends)  // is the arms', but for a support's spring
+    flexibility(rotation, rotation) = joint.a >= 0 ? 0 : support_gives(k[rotation], compliance(arms));
   for (const Arm& arm : arms) {
     if (arm.length == 0) continue;
     const Vector3d n = across(joint, arm), turn = Vector3d::UnitZ();
@@ -162,10 +165,12 @@ Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::
 }
 
 // The same cubic of one arm: slope θ in the middle of the piece, the chord ψ = (ℓ θ + w)/ℓ, and at the end
-// either no slope, or no moment: β = −α/2, which leaves ℓ α²/5.
-Matrix2d curved_at_support(double length, bool clamped) {
+// the slope of a spring s, 4 EI/ℓ β + 2 EI/ℓ α = −s (ψ + β): −ψ where it clamps, −α/2 where there is none.
+Matrix2d curved_at_support(const Arm& arm, double k) {
+  const double length = arm.length, gives = arm.EI / length * support_gives(k, length / arm.EI);
+  const double clamped = k > 0 ? 1 / (1 + 4 * gives) : 0;
   const Vector2d turn(1, 0), chord(1, 1 / length), alpha = turn - chord,
-                                                   beta = clamped ? Vector2d(-chord) : Vector2d(-0.5 * alpha);
+                                                   beta = -clamped * chord - (1 - clamped) / 2 * alpha;
   Matrix2d form = length * (chord * chord.transpose() - turn * turn.transpose());
   form += length / 30 * (4 * alpha * alpha.transpose() + 4 * beta * beta.transpose());
   form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());

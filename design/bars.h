@@ -29,7 +29,7 @@ Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms
                        std::array<double, 2> follow);
 
 /// The same of a support's arm, in (θ, w): the turn of its piece, and what its end is to the left of where
-/// the rigid piece would have it. `clamped`: the end does not turn.
-Eigen::Matrix2d curved_at_support(double length, bool clamped);
+/// the rigid piece would have it. `k`: the support's stiffness against turns, N m/rad, with the arm in line.
+Eigen::Matrix2d curved_at_support(const Arm& arm, double k);
 
 }  // namespace ductile

@@ -77,7 +77,7 @@ void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan,
   for (const Plan::Load& load : plan.loads)
     if (load.piece == joint.b && length(load.at - joint.anchor) < 1e-6 * arm.length)
       N += dead(load) * dot(load.def.force, arm.along);
-  const Eigen::Matrix2d form = N * curved_at_support(arm.length, k[row + rotation] > 0);
+  const Eigen::Matrix2d form = N * curved_at_support(arm, k[row + rotation]);
   const int c = statics.column[static_cast<std::size_t>(joint.b)];
   const auto s = statics.scale(joint.b);
   const Eigen::Vector2d columns[] = {

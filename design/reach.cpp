@@ -11,9 +11,15 @@
 namespace ductile {
 namespace {
 
+// Beyond the critical load there is no state of second order.
+bool has_buckled(const StaticCheck& check) {
+  return std::all_of(check.turn.begin(), check.turn.end(), [](double turn) { return std::isnan(turn); });
+}
+
 // Of a disc, its centre's and what it turns at its rim, at most.
-double largest_displacement(const Plan& plan) {
-  const StaticCheck check = static_check(plan);
+double largest_displacement(const Plan& plan, Order order) {
+  const StaticCheck check = static_check(plan, order);
+  if (has_buckled(check)) return unlimited;
   double most = 0;
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     const Piece& piece = plan.pieces[i];
@@ -26,8 +32,9 @@ double largest_displacement(const Plan& plan) {
   return most;
 }
 
-double largest_rotation(const Plan& plan) {
-  const StaticCheck check = static_check(plan);
+double largest_rotation(const Plan& plan, Order order) {
+  const StaticCheck check = static_check(plan, order);
+  if (has_buckled(check)) return unlimited;
   double most = 0;
   for (std::size_t i = 0; i < plan.joints.size(); ++i)
     if (plan.joints[i].stiffness.M < unlimited && std::isfinite(check.joints[i].M))
@@ -77,16 +84,21 @@ double value_of(const BodyDef& body, Property property) {
 
 }  // namespace
 
-double measured(const Plan& plan, Measure measure) {
+bool has_order(Measure measure) {
+  return measure == Measure::reserve || measure == Measure::collapse || measure == Measure::displacement ||
+         measure == Measure::rotation;
+}
+
+double measured(const Plan& plan, Measure measure, Order order) {
   switch (measure) {
     case Measure::reserve:
-      return static_check(plan).reserve;
+      return static_check(plan, order).reserve;
     case Measure::collapse:
-      return limit_analysis(plan).load_factor;
+      return order == Order::first ? limit_analysis(plan).load_factor : second_order_limit(plan).load_factor;
     case Measure::displacement:
-      return largest_displacement(plan);
+      return largest_displacement(plan, order);
     case Measure::rotation:
-      return largest_rotation(plan);
+      return largest_rotation(plan, order);
     case Measure::frequency:
       return slowest_mode(plan).frequency;
     case Measure::damping:
@@ -98,7 +110,7 @@ double measured(const Plan& plan, Measure measure) {
 }
 
 Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Property property, Measure measure,
-            double target) {
+            double target, Order order) {
   require_positive(target);
   for (const std::size_t i : bodies)
     if (!(value_of(scene.bodies[i], property) > 0))
@@ -110,9 +122,9 @@ Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Prope
     result.scene = scene;
     for (const std::size_t i : bodies) scale(result.scene.bodies[i], property, factor);
     const Plan plan = calibrate(result.scene);
-    result.reached = measured(plan, measure);
+    result.reached = measured(plan, measure, order);
     governs = "at " + to_string(factor) + " times what it is, it is " + to_string(result.reached);
-    if (measure == Measure::reserve) governs += ", governed by " + governing(plan, static_check(plan));
+    if (measure == Measure::reserve) governs += ", governed by " + governing(plan, static_check(plan, order));
     return result.reached;
   };
   const bool falls = measure == Measure::displacement || measure == Measure::rotation;
@@ -122,11 +134,11 @@ Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Prope
   return result;
 }
 
-Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target) {
+Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target, Order order) {
   require_positive(target);
   double best = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const double reached = measured(calibrate(candidates[i]), measure);
+    const double reached = measured(calibrate(candidates[i]), measure, order);
     if (is_at_most(measure) ? reached <= target : reached >= target)
       return {static_cast<double>(i), reached, candidates[i]};
     best = i == 0 ? reached : is_at_most(measure) ? std::min(best, reached) : std::max(best, reached);
@@ -135,19 +147,19 @@ Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, d
                        "list stronger ones, or change the target"}});
 }
 
-Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target) {
+Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target, Order order) {
   std::vector<double> mass(candidates.size());
   std::transform(candidates.begin(), candidates.end(), mass.begin(),
                  [](const SceneDef& scene) { return mass_of(calibrate(scene)); });
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
+  std::vector<std::size_t> sorted(candidates.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::stable_sort(sorted.begin(), sorted.end(),
                    [&](std::size_t a, std::size_t b) { return mass[a] < mass[b]; });
   std::vector<SceneDef> by_mass;
-  by_mass.reserve(order.size());
-  for (const std::size_t i : order) by_mass.push_back(candidates[i]);
-  Reach reach = first_to_reach(by_mass, measure, target);
-  reach.value = static_cast<double>(order[static_cast<std::size_t>(reach.value)]);
+  by_mass.reserve(sorted.size());
+  for (const std::size_t i : sorted) by_mass.push_back(candidates[i]);
+  Reach reach = first_to_reach(by_mass, measure, target, order);
+  reach.value = static_cast<double>(sorted[static_cast<std::size_t>(reach.value)]);
   return reach;
 }
 

@@ -17,16 +17,20 @@ std::string governing(const Plan& plan, const StaticCheck& check) {
   return std::string(most->second) + " of " + plan.joints[first].name;
 }
 
-// Newton in logarithms, with the power from the last two.
+// Newton in logarithms, with the power from the last two; a step to where there is no result is halved.
 double factor_for(double target, const std::function<double(double)>& result,
                   const std::function<std::string()>& why_not, double power) {
   double x = 1, f = result(x);
-  for (int i = 0; i < 60 && f > 0 && f < unlimited; ++i) {
+  const auto is_there = [](double value) { return value > 0 && value < unlimited; };
+  for (int i = 0; i < 60 && is_there(f); ++i) {
     const double missing = target / f;
     if (std::abs(missing - 1) < 1e-10) return x;
-    const double step = std::clamp(std::pow(missing, 1 / power), 1.0 / 16, 16.0), next = x * step;
+    double step = std::clamp(std::pow(missing, 1 / power), 1.0 / 16, 16.0), next = x * step, value = 0;
     if (!(next > 1e-12 && next < 1e12)) break;
-    const double value = result(next), seen = std::log(value / f) / std::log(step);
+    for (int halved = 0; !is_there(value = result(next)) && halved < 40; ++halved)
+      step = std::sqrt(step), next = x * step;
+    if (!is_there(value)) break;
+    const double seen = std::log(value / f) / std::log(step);
     if (!(std::abs(seen) > 1e-6)) break;  // something else governs
     power = std::copysign(std::clamp(std::abs(seen), 0.05, 10.0), power);
     x = next;

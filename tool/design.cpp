@@ -19,7 +19,8 @@ struct Options {
   std::string target, by, out;
   std::vector<std::string> among, bodies;
   std::vector<std::string> together;
-  bool each = false, json = false;
+  bool each = false, second_order = false, json = false;
+  Order order() const { return second_order ? Order::second : Order::first; }
 };
 
 struct Target {
@@ -153,7 +154,8 @@ Found from_list(const SceneDef& scene, const std::vector<std::size_t>& bodies, c
     for (const std::size_t i : bodies) change(candidates.back(), i, options.by, name);
   }
   const bool pieces = options.by == "pieces";
-  Reach reach = (pieces ? first_to_reach : lightest)(candidates, target.measure, target.value);
+  Reach reach =
+      (pieces ? first_to_reach : lightest)(candidates, target.measure, target.value, options.order());
   const std::string& name = names[static_cast<std::size_t>(reach.value)];
   if (pieces) return {std::stoi(name), name, std::move(reach)};
   return {name, name, std::move(reach)};
@@ -166,7 +168,7 @@ Found found(const SceneDef& scene, const std::vector<std::size_t>& bodies, const
   if (number == std::end(numbers)) return from_list(scene, bodies, target, options);
   if (!options.among.empty())
     refuse("--among", "does not go with --by " + options.by, "leave it out: any number may be the answer");
-  Reach reached = reach(scene, bodies, number->property, target.measure, target.value);
+  Reach reached = reach(scene, bodies, number->property, target.measure, target.value, options.order());
   return {reached.value, fmt::format("{:.6g}{}", reached.value, number->unit), std::move(reached)};
 }
 
@@ -207,6 +209,10 @@ Found of_least_mass(const SceneDef& scene, const std::vector<std::size_t>& bodie
 
 std::string run(const Options& options) {
   const Target target = target_of(options.target);
+  const bool has_order = ductile::has_order(target.measure);
+  if (options.second_order && !has_order)
+    refuse("--second-order", "does not go with --for " + target.name,
+           "leave it out, or give reserve, collapse, displacement or rotation");
   const std::string text = read_text(options.scene.name);
   if (is_rube(text))
     throw InvalidInput(
@@ -217,19 +223,25 @@ std::string run(const Options& options) {
     return options.each ? of_least_mass(scene, bodies, target, options)
                         : found(scene, bodies, target, options);
   });
-  const double mass = measured(calibrate(answer.reach.scene), Measure::mass);
+  const Plan plan = calibrate(answer.reach.scene);
+  const double mass = measured(plan, Measure::mass);
+  const double critical = has_order ? critical_load(plan).factor : unlimited;
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     write_text(out, edited_scene(text, answer.reach.scene, out.parent_path()));
   }
-  if (options.json)
-    return Json{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}}.dump() + "\n";
+  if (options.json) {
+    Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
+    if (has_order) result["critical_load_factor"] = number(critical);
+    return result.dump() + "\n";
+  }
   std::string of;
   for (const std::size_t i : bodies)
     if (!options.each) of += (of.empty() ? " of " : ", ") + scene.bodies[i].name;
-  return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n", options.scene.name, options.by, answer.shown, of,
+  return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n{}", options.scene.name, options.by, answer.shown, of,
                      target.name, answer.reach.reached, target.unit,
-                     target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass));
+                     target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
+                     has_order ? buckling_line(options.second_order, critical) + '\n' : "");
 }
 
 }  // namespace
@@ -263,6 +275,10 @@ void add_design(CLI::App& app, std::string& output) {
                    "A,B,...: bodies whose depths keep their proportion; may be repeated")
       ->needs(each)
       ->allow_extra_args(false);
+  command
+      ->add_flag("--second-order", options->second_order,
+                 "of the deformed state: reserve, collapse, displacement and rotation")
+      ->excludes(each);
   command->add_option("--out", options->out, "the scene that reaches it, to this file");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });

@@ -53,6 +53,19 @@ TEST(StaticCheck, ASpringSharesTheLoadByItsStiffness) {
   EXPECT_NEAR(at(plan, check, "wall-beam/0").M / (-P * L / (1 + k * f)), 1, 1e-3);
 }
 
+// A cantilever on a foot that turns: P L²/k + P L³/3EI (1 + 1/2n²) at its tip.
+TEST(StaticCheck, ASpringIsInLineWithTheBar) {
+  const double EI = 210e9 / 12, k = 3 * EI / L;
+  SceneDef scene = cantilever(40, P);
+  scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+  scene.bodies.erase(scene.bodies.begin());
+  scene.joints.clear();
+  scene.supports = {{.body = "beam", .at = {0, 0}, .fix_x = true, .fix_y = true, .stiffness_angle = k}};
+  const StaticCheck check = static_check(calibrate(scene));
+  const double tip = check.displacement.back().y + check.turn.back() * L / 80;
+  EXPECT_NEAR(-tip / (P * L * L / k + P * L * L * L / 3 / EI), 1, 1e-3);
+}
+
 // Bending alone P L³/3EI; the pieces' rotations are lumped in joints of ℓ, the root's of ℓ/2: the sum over
 // joints of M_i² ℓ_i/(P EI) differs from the integral by 1/2n² of it, and by n more pieces for shear.
 TEST(StaticCheck, ElasticTipDeflection) {

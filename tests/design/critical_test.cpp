@@ -68,6 +68,20 @@ TEST(CriticalLoad, AColumnClampedByItsSupport) {
   EXPECT_NEAR(critical(free) / (pi * pi * EI / (4 * L * L)), 1, within);
 }
 
+// A column on a foot that turns: φ tan φ = k L/EI.
+TEST(CriticalLoad, AColumnOnASpring) {
+  for (const double k : {0.1, 1., 10., 1000.}) {
+    SceneDef sprung = cantilever(n, 0);
+    sprung.bodies.erase(sprung.bodies.begin());
+    sprung.joints.clear();
+    sprung.supports = {
+        {.body = "beam", .at = {0, 0}, .fix_x = true, .fix_y = true, .stiffness_angle = k * EI / L}};
+    sprung.loads[0].force = {-1, 0};
+    const double phi = root(0.01, pi / 2 - 1e-6, [&](double x) { return x * std::tan(x) - k; });
+    EXPECT_NEAR(critical(sprung) / (phi * phi * EI / (L * L)), 1, within) << k;
+  }
+}
+
 // A stepped column, fixed at its foot: stiff over the lower half. k₁ tan(k₁ L/2) = k₂ cot(k₂ L/2).
 TEST(CriticalLoad, ASteppedColumn) {
   SceneDef scene = cantilever(n / 2, 0);

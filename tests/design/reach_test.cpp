@@ -186,6 +186,43 @@ TEST(Reach, TheSlowestOfAllStructures) {
   EXPECT_NEAR(slowest_mode(plan).frequency / slow, 1, 1e-8);
 }
 
+// A mast that carries P along and H across its tip: with φ = L √(P/EI) the tip moves by H L³/3EI · 3 (tan φ −
+// φ)/φ³ and turns by H L²/2EI · 2 (1 − cos φ)/φ² cos φ (Timoshenko and Gere, Theory of Elastic Stability,
+// 1.11), its corners by half a metre of that besides.
+SceneDef mast(double P, double H) {
+  SceneDef scene = cantilever(20, 0);
+  scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+  scene.bodies[1].material->damping_ratio = 1;
+  scene.loads[0].force = {-P, -H};
+  scene.loads[0].ramp = 8;
+  return scene;
+}
+constexpr double P = 40e6, H = 1e6;
+
+TEST(Reach, ADisplacementOfSecondOrder) {
+  const Reach found =
+      reach(mast(P, H), {1}, Property::youngs_modulus, Measure::displacement, 0.4, Order::second);
+  const double EI = found.value / 12, phi = L * std::sqrt(P / EI);
+  const double moves = H * L * L * L / EI * (std::tan(phi) - phi) / (phi * phi * phi);
+  const double turns = H * L * L / EI * (1 - std::cos(phi)) / (phi * phi * std::cos(phi));
+  EXPECT_NEAR(std::hypot(moves, turns / 2) / 0.4, 1, 2e-3);
+  EXPECT_LT(measured(calibrate(found.scene), Measure::displacement), 0.25) << "of first order";
+  EXPECT_NEAR(moved(at_rest(found.scene)) / 0.4, 1, 0.01);
+}
+
+// The foot's moment, H L tan φ/φ, is M_p = 350e6 b/4.
+TEST(Reach, ACollapseOfSecondOrder) {
+  const Reach found = reach(mast(P, H), {1}, Property::depth, Measure::collapse, 1.5, Order::second);
+  const double phi = L * std::sqrt(1.5 * P / (210e9 / 12 * found.value));
+  EXPECT_NEAR(1.5 * H * L * std::tan(phi) / phi / (350e6 / 4 * found.value), 1, 5e-3);
+  EXPECT_GT(measured(calibrate(found.scene), Measure::collapse), 2) << "of first order";
+  for (const double factor : {0.98, 1.02}) {
+    SceneDef pushed = found.scene;
+    pushed.loads[0].force = 1.5 * factor * pushed.loads[0].force;
+    EXPECT_EQ(moved(at_rest(pushed)) > 2, factor > 1) << factor;
+  }
+}
+
 TEST(Reach, WhatCannotBeSaysSo) {
   EXPECT_THROW(reach(stepped(), both, Property::youngs_modulus, Measure::reserve, 2), InvalidInput);
   EXPECT_THROW(reach(stepped(), both, Property::depth, Measure::reserve, -1), InvalidInput);

@@ -66,8 +66,29 @@ TEST_F(DesignCommand, BadInput) {
         "--for reserve=2 --by profile --among nothing.section.json",
         "--for reserve=2 --by material --among cheese", "--for reserve=2 --by pieces --among 1.5",
         "--for reserve=99 --by material", "--for frequency=50 --by depth",
-        "--for rotation=0.01 --by depth --body wall"})
+        "--for rotation=0.01 --by depth --body wall", "--for mass=100 --by depth --second-order"})
     expect_bad_input(design(wrong));
+}
+
+// Thin enough, a mast bears its loads as drawn and buckles before that: it is told, and --second-order asks
+// for more. By hand, π² EI/4L² = P of a square of 1 m.
+TEST_F(DesignCommand, SaysWhenItBucklesAndAsksForTheDeformedState) {
+  const std::string mast = folder.write("mast.scene.json", R"({"gravity": [0,0],
+  "bodies": [{"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+             {"name": "mast", "outline": [[0,-0.05],[6,-0.05],[6,0.05],[0,0.05]], "depth": 0.1, "material": "S355",
+              "split": {"pieces": 20}, "joint": {"stiffness_axial": null, "stiffness_shear": null}}],
+  "joints": [{"between": ["wall","mast"]}],
+  "loads": [{"body": "mast", "at": [6,0], "force": [-100e3,-200]}]})");
+  const json first = run("design " + mast + " --for collapse=1 --by depth --json").json();
+  const double b = first["value"].get<double>();
+  EXPECT_NEAR(first["critical_load_factor"].get<double>() / (210e9 * b * 1e-3 / 12 * 9.8696 / 144 / 100e3), 1,
+              1e-3);
+  EXPECT_LT(first["critical_load_factor"].get<double>(), 0.5);
+  EXPECT_NE(run("design " + mast + " --for collapse=1 --by depth").out.find("\nfirst order; buckles at 0."),
+            std::string::npos);
+  const Ran second = run("design " + mast + " --for collapse=1 --by depth --second-order");
+  EXPECT_NE(second.out.find("collapse of 1 times the loads"), std::string::npos) << second.err;
+  EXPECT_NE(second.out.find("\nsecond order; buckles at 1."), std::string::npos) << second.out;
 }
 
 // The outer half of a cantilever needs half of what the inner one does: b h²/4 f_y = λ P x.

@@ -60,17 +60,19 @@ Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double 
 /// is within that relative error of what it is without pieces (Richardson's extrapolation from 64 and 128).
 Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, double error);
 
-/// What a scene as a whole shows.
+/// What a scene as a whole shows, of first order, or where that makes a difference of second.
 enum class Measure {
   reserve,       ///< StaticCheck::reserve
-  collapse,      ///< LimitAnalysis::load_factor
+  collapse,      ///< LimitAnalysis::load_factor; of second order Pushover::load_factor
   displacement,  ///< m, the largest of any corner of a piece, under the scene's loads, elastic
   rotation,      ///< rad, the largest elastic rotation of a joint, |M|/k
   frequency,     ///< Hz, Mode::frequency of the slowest of all structures
   damping,       ///< Mode::damping_ratio of the same
   mass,          ///< kg, of all that moves
 };
-double measured(const Plan& plan, Measure measure);
+double measured(const Plan& plan, Measure measure, Order order = Order::first);
+/// Whether it depends on the order: reserve, collapse, displacement and rotation do.
+bool has_order(Measure measure);
 
 /// A scene that reaches a target.
 struct Reach {
@@ -90,13 +92,15 @@ enum class Property {
 /// The scene in which that property of these bodies (indices, at least one), of each in proportion to what it
 /// is, brings the measure to the target, within 1e-9. Throws InvalidInput where no factor does.
 Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Property property, Measure measure,
-            double target);
+            double target, Order order = Order::first);
 
 /// The first of the scenes with at least that reserve, collapse load, frequency or damping; at most that
 /// displacement, rotation or mass. Throws InvalidInput where none is.
-Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target);
+Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target,
+                     Order order = Order::first);
 /// The lightest of them; of equally light ones the first.
-Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target);
+Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target,
+               Order order = Order::first);
 
 /// Bodies of the depths with which a scene weighs least.
 struct LeastMass {
