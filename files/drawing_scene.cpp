@@ -38,16 +38,16 @@ double size_of(const Bounds& bounds) {
   return bounds.empty() ? 0 : std::max(bounds.size().x, bounds.size().y);
 }
 
-/// Where a ring stands on the floor: the middles of its edges there, else its lowest vertex.
+/// Where a ring stands on the floor: the middle of each stretch of vertices there.
 std::vector<Point> feet(const Ring& ring, double floor) {
+  const auto stands = [&](std::size_t i) { return ring[i % ring.size()].y <= floor; };
   std::vector<Point> feet;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    if (ring[i].y <= floor && ring[j].y <= floor)
-      feet.push_back({(ring[i].x + ring[j].x) / 2, (ring[i].y + ring[j].y) / 2});
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (stands(i + ring.size() - 1) || !stands(i)) continue;
+    std::size_t last = i;
+    while (stands(last + 1)) ++last;
+    feet.push_back(0.5 * (ring[i] + ring[last % ring.size()]));
   }
-  const Point lowest =
-      *std::min_element(ring.begin(), ring.end(), [](Point p, Point q) { return p.y < q.y; });
-  if (feet.empty() && lowest.y <= floor) feet.push_back(lowest);
   return feet;
 }
 
@@ -106,6 +106,7 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
 }
 
 bool is_drawing(std::string_view text) {
+  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;  // UTF-16
   const auto first = std::find_if(text.begin(), text.end(), [](unsigned char c) {
     return !std::isspace(c) && c != 0xEF && c != 0xBB && c != 0xBF;  // a byte order mark
   });

@@ -26,26 +26,56 @@ struct Around {
   Point view;
   std::vector<Clip> clips;
   std::vector<std::string> names;
-  int uses = 0, depth = 0;
+  std::vector<Node> uses;  ///< what is shown as a copy
+  int depth = 0;
 };
 
-std::string_view get(const Style& style, std::string_view property) {
-  const auto found = style.find(property);
-  return found == style.end() ? std::string_view() : found->second;
+/// "x y", each a length or a word; percentages and words are of the view.
+Point origin_of(const Style& style, const Point& view) {
+  Point origin = get(style, "transform-origin").empty() ? Point{0, 0} : 0.5 * view;
+  std::string_view text = get(style, "transform-origin");
+  for (int axis = 0; axis < 2 && !text.empty(); ++axis) {
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\n"));
+    text = trimmed(text.substr(word.size()));
+    const bool down = word == "top" || word == "bottom" || (axis == 1 && word != "left" && word != "right");
+    double& at = down ? origin.y : origin.x;
+    const double whole = down ? view.y : view.x;
+    if (word == "left" || word == "top") {
+      at = 0;
+    } else if (word == "right" || word == "bottom") {
+      at = whole;
+    } else if (word != "center") {
+      at = user_length(word, "transform-origin", whole, font_size(style));
+    }
+  }
+  return origin;
 }
 
 /// CSS writes transforms with units; in px and deg they mean what the attribute's plain numbers do.
-Affine transform_of(const Style& style) {
-  if (get(style, "transform-origin") != "" && get(style, "transform") != "") {
-    throw ShapeError("transform-origin", "is not taken", "put the transform into a matrix");
-  }
+Affine transform_of(const Style& style, const Point& view) {
   std::string text(get(style, "transform"));
-  if (text == "none") return {};
+  if (text.empty() || text == "none") return {};
   for (const char* unit : {"px", "deg"}) {
     for (auto at = text.find(unit); at != std::string::npos; at = text.find(unit))
       text.erase(at, std::string_view(unit).size());
   }
-  return parse_transform(text);
+  if (const auto box = get(style, "transform-box"); box != "" && box != "view-box")
+    throw ShapeError("transform-box", "is not taken", "put the transform into a matrix");
+  const Point origin = origin_of(style, view);
+  return Affine{1, 0, 0, 1, origin.x, origin.y} * parse_transform(text) *
+         Affine{1, 0, 0, 1, -origin.x, -origin.y};
+}
+
+/// Does the reader's language fit the element? It is English.
+bool speaks(const Node& node) {
+  std::string_view list = node.attribute("systemLanguage").value();
+  if (!node.attribute("systemLanguage")) return true;
+  while (!list.empty()) {
+    const std::string_view one = trimmed(list.substr(0, list.find(',')));
+    if (one == "en" || one.starts_with("en-")) return true;
+    list.remove_prefix(std::min(list.find(','), list.size() - 1) + 1);
+  }
+  return false;
 }
 
 class Walk {
@@ -97,7 +127,9 @@ void Walk::visit(const Node& node, const Around& around) {
   constexpr int most_depth = 256;
   const std::string_view kind = local_name(node);
   const bool container = among(kind, containers);
-  if (!container && !is_shape(node) && kind != "use" && kind != "symbol" && !among(kind, unlike)) return;
+  if (!container && !is_shape(node) && kind != "use" && !among(kind, unlike) && !(kind == "symbol" && all_))
+    return;
+  if (!speaks(node)) return;
   if (around.depth > most_depth) {
     throw InvalidInput({{place(node), "is more than 256 groups deep", "ungroup them"}});
   }
@@ -119,7 +151,7 @@ void Walk::visit(const Node& node, const Around& around) {
       here.names.emplace_back(name);
   }
   try {
-    here.to = here.to * transform_of(here.style);
+    here.to = here.to * transform_of(here.style, here.view);
     clip(node, here, "clip-path");
     clip(node, here, "mask");
     const std::string_view opacity = get(here.style, "opacity");
@@ -158,12 +190,19 @@ void Walk::enter(const Node& node, Around here, std::string_view kind) {
     return;
   }
   if (kind == "svg" && node != document_.root) {
-    const Point corner{user_length(node, "x", here.view.x), user_length(node, "y", here.view.y)};
-    const Point size{user_length(node, "width", here.view.x, here.view.x),
-                     user_length(node, "height", here.view.y, here.view.y)};
+    const Point corner{user_length(here.style, "x", here.view.x), user_length(here.style, "y", here.view.y)};
+    const Point size{user_length(here.style, "width", here.view.x, here.view.x),
+                     user_length(here.style, "height", here.view.y, here.view.y)};
     frame(node, here, corner, size);
   }
-  for (const Node& child : node.children()) visit(child, here);
+  for (const Node& child : node.children()) {
+    if (kind != "switch") {
+      visit(child, here);
+    } else if (child.type() == pugi::node_element && local_name(child) != "foreignObject" && speaks(child) &&
+               !*child.attribute("requiredExtensions").value()) {
+      return visit(child, here);  // the first that can be shown; foreignObject is HTML
+    }
+  }
 }
 
 /// A view of its own: what is outside of it is cut off, unless it says that it overflows.
@@ -183,25 +222,27 @@ void Walk::frame(const Node& node, Around& here, const Point& corner, const Poin
 }
 
 void Walk::use(const Node& node, const Around& around) {
-  constexpr int most_uses = 16;
   std::string_view reference = node.attribute("href").value();
   if (reference.empty()) reference = node.attribute("xlink:href").value();
   const Node target = document_.target(reference);
-  if (!target || around.uses == most_uses) {
-    throw ShapeError("<use>", "leads nowhere: \"" + std::string(reference) + "\"",
-                     "let it show a shape of the drawing");
+  bool within = std::find(around.uses.begin(), around.uses.end(), target) != around.uses.end();
+  for (Node at = node; at && !within; at = at.parent()) within = at == target;
+  if (!target || within) {
+    throw ShapeError("<use>",
+                     (within ? "shows itself: \"" : "leads nowhere: \"") + std::string(reference) + "\"",
+                     "let it show another shape of the drawing");
   }
   Around here = around;
-  ++here.uses;
-  const Point corner{user_length(node, "x", here.view.x), user_length(node, "y", here.view.y)};
+  here.uses.push_back(target);
+  const Point corner{user_length(here.style, "x", here.view.x), user_length(here.style, "y", here.view.y)};
   const std::string_view kind = local_name(target);
   if (kind == "symbol" || kind == "svg") {
     const Around outside = here;
     here.style = document_.sheet.style(target, here.style);
     if (get(here.style, "display") == "none" && !all_) return;
     const auto side = [&](const char* name, double whole) {
-      const double own = user_length(target, name, whole, whole);
-      return user_length(node, name, whole, own);
+      const double own = user_length(here.style, name, whole, whole);
+      return user_length(around.style, name, whole, own);
     };
     frame(target, here, corner, {side("width", here.view.x), side("height", here.view.y)});
     for (const Node& child : target.children()) visit(child, here);
@@ -278,7 +319,15 @@ Shown Document::shown(const Affine& page) const {
   Around around;
   around.to = page;
   around.view = view();
-  return walk(*this, root, around, false);
+  Shown all = walk(*this, root, around, false);
+  if (const auto& rules = sheet.not_taken; !rules.empty()) {
+    all.not_taken.push_back(
+        {name + ":style",
+         "has rules that are not taken: \"" + rules.front() + "\"" +
+             (rules.size() > 1 ? " and " + std::to_string(rules.size() - 1) + " more" : ""),
+         "give the shapes a class"});
+  }
+  return all;
 }
 
 Shown Document::held(const Node& element, const Affine& page) const {
@@ -287,7 +336,7 @@ Shown Document::held(const Node& element, const Affine& page) const {
   around.view = view();
   for (const Node& node : ancestors(element)) {
     around.style = sheet.style(node, around.style);
-    around.to = around.to * transform_of(around.style);
+    around.to = around.to * transform_of(around.style, around.view);
   }
   return walk(*this, element, around, true);
 }
@@ -298,7 +347,7 @@ Shown Document::shown_in(const Node& element, const Affine& to, const Point& vie
   around.view = view;
   for (const Node& node : ancestors(element)) around.style = sheet.style(node, around.style);
   // The clipPath's own transform comes on top of the coordinates of what it clips.
-  around.to = around.to * transform_of(around.style);
+  around.to = around.to * transform_of(around.style, around.view);
   return walk(*this, element, around, false);
 }
 

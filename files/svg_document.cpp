@@ -12,12 +12,13 @@ namespace {
 
 using Node = pugi::xml_node;
 
-/// A length, and what its unit is in px of 1/96 inch; nothing without a unit that has a size.
+/// A length, and what its unit is in px of 1/96 inch; nothing without a unit that has a size of its own.
 struct Length {
   double value;
   std::optional<double> unit;
-  bool percent = false;
+  char relative = 0;  ///< '%', or 'e': of the font
 };
+constexpr double usual_font = 16;  // px
 
 Length parse_length(std::string_view text, const char* name) {
   static constexpr std::array<std::pair<std::string_view, double>, 7> units{{{"px", 1},
@@ -28,7 +29,7 @@ Length parse_length(std::string_view text, const char* name) {
                                                                              {"pt", 96. / 72},
                                                                              {"pc", 16}}};
   const auto refuse = [&](const std::string& what) {
-    throw ShapeError(name, what, "write a number, or a length in px, in, cm, mm, Q, pt or pc");
+    throw ShapeError(name, what, "write a number, or a length in px, in, cm, mm, Q, pt, pc, em or ex");
   };
   Length length{};
   Numbers in(text);
@@ -39,36 +40,92 @@ Length parse_length(std::string_view text, const char* name) {
   }
   if (in.peek() == '%') {
     in.take();
-    length.percent = true;
+    length.relative = '%';
   }
   const std::string_view unit = in.name();
   if (!in.end()) refuse("is \"" + std::string(text) + "\"");
   if (unit.empty()) return length;
+  if (unit == "em" || unit == "ex" || unit == "rem") {
+    length.relative = 'e';
+    if (unit == "ex") length.value /= 2;
+    return length;
+  }
   const auto known = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == unit; });
   if (known == units.end()) refuse("has the unit \"" + std::string(unit) + "\"");
   length.unit = known->second;
   return length;
 }
 
-/// The root's width or height, where it is a length of its own.
+/// The root's width or height, where it is a length that depends on nothing around the drawing.
 std::optional<Length> page_length(const Node& root, const char* name) {
   const std::string_view text = trimmed(root.attribute(name).value());
-  if (text.empty() || text.back() == '%' || text == "auto") return std::nullopt;
+  if (text.empty() || text == "auto") return std::nullopt;
   const Length length = parse_length(text, name);
+  if (length.relative) return std::nullopt;
   if (!(length.value > 0)) throw ShapeError(name, "is not > 0", "a drawing has a size");
   return length;
 }
 
-}  // namespace
-
-double user_length(std::string_view text, const char* name, double whole) {
-  const Length length = parse_length(text, name);
-  return length.percent ? length.value / 100 * whole : length.value * length.unit.value_or(1);
+/// The text with what its document type declares, <!ENTITY name "value">, put in for &name;: old files of
+/// Illustrator keep their styles there, and pugixml leaves them as they are.
+std::string with_entities(std::string_view text, const std::string& file) {
+  constexpr std::size_t most = std::size_t{64} << 20;
+  const auto type = text.find("<!DOCTYPE"), open = text.find('[', type), close = text.find(']', open);
+  if (type == std::string_view::npos || close == std::string_view::npos || text.find('>', type) < open)
+    return std::string(text);
+  std::map<std::string, std::string, std::less<>> entities;
+  const auto expanded = [&](std::string_view rest) {
+    std::string all;
+    for (std::size_t at = 0; at < rest.size();) {
+      const auto mark = std::min(rest.find('&', at), rest.size()), end = rest.find(';', mark);
+      all += rest.substr(at, mark - at);
+      const auto found = end == std::string_view::npos ? entities.end()
+                                                       : entities.find(rest.substr(mark + 1, end - mark - 1));
+      if (found != entities.end())
+        all += found->second;
+      else if (mark < rest.size())
+        all += '&';
+      at = found != entities.end() ? end + 1 : mark + 1;
+      if (all.size() > most) {
+        throw InvalidInput({{file + ":DOCTYPE", "has entities that become more than 64 MiB",
+                             "write out what they stand for"}});
+      }
+    }
+    return all;
+  };
+  for (auto at = text.find("<!ENTITY", open); at < close; at = text.find("<!ENTITY", at + 1)) {
+    const std::string_view rest = trimmed(text.substr(at + 8, close - at - 8));
+    const std::string_view name = rest.substr(0, rest.find_first_of(" \t\r\n"));
+    const std::string_view value = trimmed(rest.substr(name.size()));
+    const auto end = value.empty() ? std::string_view::npos : value.find(value[0], 1);
+    if (end != std::string_view::npos && (value[0] == '"' || value[0] == '\''))
+      entities.emplace(name, expanded(value.substr(1, end - 1)));
+  }
+  return std::string(text.substr(0, close)) + expanded(text.substr(close));
 }
 
-double user_length(const Node& node, const char* name, double whole, double missing) {
-  const std::string_view text = trimmed(node.attribute(name).value());
-  return text.empty() || text == "auto" ? missing : user_length(text, name, whole);
+}  // namespace
+
+std::string_view get(const Style& style, std::string_view property, std::string_view missing) {
+  const auto found = style.find(property);
+  return found == style.end() ? missing : found->second;
+}
+
+double user_length(std::string_view text, const char* name, double whole, double em) {
+  const Length length = parse_length(text, name);
+  if (length.relative == '%') return length.value / 100 * whole;
+  return length.value * (length.relative ? em : length.unit.value_or(1));
+}
+
+double user_length(const Style& style, const char* name, double whole, double missing) {
+  const std::string_view text = get(style, name);
+  return text.empty() || text == "auto" ? missing : user_length(text, name, whole, font_size(style));
+}
+
+double font_size(const Style& style) {
+  const std::string_view text = get(style, "font-size");
+  const bool number = !text.empty() && text.front() >= '0' && text.front() <= '9';  // not "larger"
+  return number ? user_length(text, "font-size", usual_font, usual_font) : usual_font;
 }
 
 std::optional<std::array<double, 4>> view_box(const Node& node) {
@@ -101,14 +158,15 @@ Affine fit(const std::array<double, 4>& box, const Point& frame, std::string_vie
   return {scale.x, 0, 0, scale.y, shift.x - scale.x * box[0], shift.y - scale.y * box[1]};
 }
 
-Document::Document(std::string_view text, std::string file) : name(std::move(file)) {
+Document::Document(std::string_view data, std::string file) : name(std::move(file)) {
+  const std::string text = with_entities(data, name);
   const auto refuse = [&](const std::string& place, const std::string& what, const std::string& remedy) {
     throw InvalidInput({{name + ":" + place, what, remedy}});
   };
   const auto result = xml.load_buffer(text.data(), text.size());
   if (!result) {
-    const std::string_view before =
-        text.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+    const std::string_view before = std::string_view(text).substr(
+        0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const auto start = before.rfind('\n');
     const auto column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;

@@ -36,6 +36,9 @@ struct Painted {
   std::optional<Problem> problem;  ///< why it cannot be drawn
 };
 
+/// A style's value; else `missing`.
+std::string_view get(const Style& style, std::string_view property, std::string_view missing = {});
+
 struct Shown {
   std::vector<Painted> shapes;     ///< in document order
   std::vector<Problem> not_taken;  ///< text, images, …
@@ -88,10 +91,11 @@ struct Document {
 
 bool is_shape(const pugi::xml_node& node);
 
-/// A length of an element in user units; `whole` is what a percentage is of.
-double user_length(const pugi::xml_node& node, const char* name, double whole, double missing = 0);
-/// The same of a text, such as a style's stroke-width.
-double user_length(std::string_view text, const char* name, double whole);
+/// A length of a style in user units; `whole` is what a percentage is of.
+double user_length(const Style& style, const char* name, double whole, double missing = 0);
+/// The same of a text; `em` is the size of its font.
+double user_length(std::string_view text, const char* name, double whole, double em);
+double font_size(const Style& style);
 
 /// x, y, width, height; nothing where the element has no viewBox. Throws ShapeError where it is none.
 std::optional<std::array<double, 4>> view_box(const pugi::xml_node& node);

@@ -300,6 +300,14 @@ Affine parse_transform(std::string_view text) {
         all = all * Affine{n[0], n[1], n[2], n[3], n[4], n[5]};
       } else if (name == "translate" && has(1, 2)) {
         all = all * Affine{1, 0, 0, 1, n[0], n.size() == 2 ? n[1] : 0};
+      } else if (name == "translateX" && has(1, 1)) {  // CSS has four more
+        all = all * Affine{1, 0, 0, 1, n[0], 0};
+      } else if (name == "translateY" && has(1, 1)) {
+        all = all * Affine{1, 0, 0, 1, 0, n[0]};
+      } else if (name == "scaleX" && has(1, 1)) {
+        all = all * Affine{n[0], 0, 0, 1, 0, 0};
+      } else if (name == "scaleY" && has(1, 1)) {
+        all = all * Affine{1, 0, 0, n[0], 0, 0};
       } else if (name == "scale" && has(1, 2)) {
         all = all * Affine{n[0], 0, 0, n.back(), 0, 0};
       } else if (name == "rotate" && has(1, 3)) {

@@ -1,5 +1,6 @@
 // The area that a shape paints: fill and stroke, within its clips and masks.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,11 +16,6 @@ namespace {
 
 using Node = pugi::xml_node;
 
-std::string_view get(const Style& style, const char* property, std::string_view missing = {}) {
-  const auto found = style.find(property);
-  return found == style.end() ? missing : found->second;
-}
-
 double number(const Style& style, const char* property, double missing) {
   const std::string_view text = get(style, property);
   if (text.empty()) return missing;
@@ -31,48 +27,69 @@ double number(const Style& style, const char* property, double missing) {
 }
 
 /// A length > 0, or the reason why there is no area.
-double extent_of(const Node& node, const char* name, double whole) {
-  const double r = user_length(node, name, whole);
-  if (!(r > 0)) throw ShapeError(name, "is not > 0", "such a shape has no area");
-  return r;
+double positive(const char* name, double length) {
+  if (!(length > 0)) throw ShapeError(name, "is not > 0", "such a shape has no area");
+  return length;
 }
 
-std::vector<Subpath> curves(const Node& node, const Point& view, const Affine& to) {
+std::vector<Subpath> curves(const Painted& shape, const Affine& to) {
+  const Node& node = shape.node;
+  const Style& style = shape.style;
+  const Point& view = shape.view;
   const std::string_view kind = local_name(node);
   const double diagonal = length(view) / std::sqrt(2.);
-  const auto x = [&](const char* name) { return user_length(node, name, view.x); };
-  const auto y = [&](const char* name) { return user_length(node, name, view.y); };
+  const auto x = [&](const char* name) { return user_length(style, name, view.x); };
+  const auto y = [&](const char* name) { return user_length(style, name, view.y); };
   if (kind == "path") return parse_path(node.attribute("d").value(), to);
   if (kind == "circle") {
-    const double r = extent_of(node, "r", diagonal);
+    const double r = positive("r", user_length(style, "r", diagonal));
     return ellipse({x("cx"), y("cy")}, r, r, to);
   }
+  const double one = y("ry"), rx = user_length(style, "rx", view.x, one),  // one of them stands for both
+      ry = user_length(style, "ry", view.y, rx);
   if (kind == "ellipse") {
-    return ellipse({x("cx"), y("cy")}, extent_of(node, "rx", view.x), extent_of(node, "ry", view.y), to);
+    return ellipse({x("cx"), y("cy")}, positive("rx", rx), positive("ry", ry), to);
   }
   if (kind == "rect") {
-    // One of rx and ry stands for both.
-    const bool has_rx = node.attribute("rx"), has_ry = node.attribute("ry");
-    const double rx = std::max(0., has_rx ? x("rx") : y("ry")), ry = std::max(0., has_ry ? y("ry") : x("rx"));
-    return rectangle({x("x"), y("y")}, extent_of(node, "width", view.x), extent_of(node, "height", view.y),
-                     rx, ry, to);
+    return rectangle({x("x"), y("y")}, positive("width", x("width")), positive("height", y("height")),
+                     std::max(0., rx), std::max(0., ry), to);
   }
   if (kind == "line") {
-    std::vector<Subpath> line{{to({x("x1"), y("y1")}), {Line{to({x("x2"), y("y2")})}}, false}};
+    const auto end = [&](const char* name, double whole) {
+      const std::string_view text = trimmed(node.attribute(name).value());
+      return text.empty() ? 0 : user_length(text, name, whole, font_size(style));
+    };
+    const Point from{end("x1", view.x), end("y1", view.y)}, at{end("x2", view.x), end("y2", view.y)};
+    std::vector<Subpath> line{{to(from), {Line{to(at)}}, false}};
     return line;
   }
   return polygon(node.attribute("points").value(), kind == "polygon", to);
 }
 
-bool transparent(std::string_view paint) {
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return result;
+}
+
+bool transparent(std::string_view colour) {
+  const std::string paint = lower(colour);
   if (paint == "none" || paint == "transparent") return true;
   if (paint.starts_with('#')) {
     return (paint.size() == 9 && paint.ends_with("00")) || (paint.size() == 5 && paint.ends_with('0'));
   }
-  if (!paint.starts_with("rgba") && !paint.starts_with("hsla")) return false;
-  const auto last = paint.find_last_of(",/");
-  const std::string_view alpha = last == std::string_view::npos ? "" : trimmed(paint.substr(last + 1));
-  return alpha == "0)" || alpha == "0%)" || alpha == "0.0)";
+  // rgb(r g b / alpha) or rgba(r, g, b, alpha)
+  const auto slash = paint.find('/');
+  const auto before = slash != std::string::npos                         ? slash
+                      : std::count(paint.begin(), paint.end(), ',') == 3 ? paint.rfind(',')
+                                                                         : std::string::npos;
+  if (before == std::string::npos || !paint.ends_with(')')) return false;
+  try {
+    return Numbers(std::string_view(paint).substr(before + 1)).number() == 0;
+  } catch (const std::invalid_argument&) {
+    return false;  // none, calc(…)
+  }
 }
 
 bool even_odd(const Style& style, const char* property) {
@@ -86,8 +103,7 @@ bool even_odd(const Style& style, const char* property) {
 Pen pen_of(const Style& style, const Point& view) {
   Pen pen;
   const double diagonal = length(view) / std::sqrt(2.);
-  if (const auto width = get(style, "stroke-width"); !width.empty())
-    pen.width = user_length(width, "stroke-width", diagonal);
+  pen.width = user_length(style, "stroke-width", diagonal, pen.width);
   const std::string_view cap = get(style, "stroke-linecap"), join = get(style, "stroke-linejoin");
   pen.cap = cap == "round" ? Pen::round_cap : cap == "square" ? Pen::square : Pen::butt;
   pen.join = join == "round" ? Pen::round_join : join == "bevel" ? Pen::bevel : Pen::miter;
@@ -110,8 +126,7 @@ Pen pen_of(const Style& style, const Point& view) {
       throw ShapeError("stroke-dasharray", error.what(), "write lengths");
     }
     if (std::any_of(pen.dashes.begin(), pen.dashes.end(), [](double d) { return d < 0; })) pen.dashes.clear();
-    if (const auto offset = get(style, "stroke-dashoffset"); !offset.empty())
-      pen.dash_offset = user_length(offset, "stroke-dashoffset", diagonal);
+    pen.dash_offset = user_length(style, "stroke-dashoffset", diagonal, pen.dash_offset);
   }
   return pen;
 }
@@ -165,7 +180,7 @@ bool Document::paints(const Style& style, const char* property, std::string_view
 }
 
 double Document::extent(const Painted& shape) const {
-  const auto path = curves(shape.node, shape.view, shape.to);
+  const auto path = curves(shape, shape.to);
   if (path.empty()) return 0;
   Bounds box = box_around(path);
   if (paints(shape.style, "stroke", "none")) {
@@ -183,7 +198,7 @@ std::vector<Ring> Document::painted(const Painted& shape, double tolerance) cons
   std::vector<Layer> layers;
   const bool fill = paints(shape.style, "fill", "black") && local_name(shape.node) != "line";
   if (fill) {
-    layers.push_back({filled_rings(flatten(curves(shape.node, shape.view, shape.to), tolerance), tolerance),
+    layers.push_back({filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance),
                       even_odd(shape.style, "fill-rule")});
   }
   if (paints(shape.style, "stroke", "none")) {
@@ -194,8 +209,7 @@ std::vector<Ring> Document::painted(const Painted& shape, double tolerance) cons
       throw ShapeError("vector-effect", "is not taken", "give the stroke a width in the shape's units");
     const double growth = stretch(shape.to);
     if (pen.width > 0 && growth > 0) {
-      auto rings =
-          stroke(flatten(curves(shape.node, shape.view, {}), tolerance / growth), pen, tolerance / growth);
+      auto rings = stroke(flatten(curves(shape, {}), tolerance / growth), pen, tolerance / growth);
       for (Ring& ring : rings) {
         for (Point& p : ring) p = shape.to(p);
       }
@@ -223,7 +237,7 @@ std::vector<Ring> Document::clip_area(const Clip& clip, const Painted& of, doubl
     if (clip.to.a != of.to.a || clip.to.e != of.to.e || clip.to.f != of.to.f) {
       throw ShapeError("clip-path", "is in units of a group's box", "give it userSpaceOnUse");
     }
-    const Bounds box = box_around(curves(of.node, of.view, {}));
+    const Bounds box = box_around(curves(of, {}));
     around.to = clip.to * Affine{box.high.x - box.low.x, 0, 0, box.high.y - box.low.y, box.low.x, box.low.y};
   }
   std::vector<Ring> area;
@@ -233,18 +247,21 @@ std::vector<Ring> Document::clip_area(const Clip& clip, const Painted& of, doubl
       if (shape.problem) throw ShapeError("clip-path", shape.problem->what, shape.problem->remedy);
       if (clip.mask) {
         // White shows and black hides; what is between is neither there nor gone.
-        const std::string_view paint = get(shape.style, "fill", "black");
-        const bool white = paint == "#fff" || paint == "#ffffff" || paint == "#FFF" || paint == "#FFFFFF" ||
-                           paint == "white" || get(sheet.style(clip.element, {}), "mask-type") == "alpha";
+        const bool filled = paints(shape.style, "fill", "black");
+        const std::string paint =
+            lower(filled ? get(shape.style, "fill", "black") : get(shape.style, "stroke"));
+        const bool white = paint == "#fff" || paint == "#ffffff" || paint == "white" ||
+                           paint == "rgb(255,255,255)" ||
+                           get(sheet.style(clip.element, {}), "mask-type") == "alpha";
         const bool black = paint == "#000" || paint == "#000000" || paint == "black";
-        if (!white && !black && paint != "none")
+        if (!white && !black)
           throw ShapeError("mask", "is half transparent: \"" + std::string(paint) + "\"",
                            "paint it white where it shows");
         auto rings = within(painted(shape, tolerance), shape, tolerance, depth + 1);
         area = overlay({{std::move(area)}, {std::move(rings)}}, white ? Overlay::unite : Overlay::subtract);
         continue;
       }
-      const auto lines = flatten(curves(shape.node, shape.view, shape.to), tolerance);
+      const auto lines = flatten(curves(shape, shape.to), tolerance);
       auto rings =
           overlay({{filled_rings(lines, tolerance), even_odd(shape.style, "clip-rule")}}, Overlay::unite);
       rings = within(std::move(rings), shape, tolerance, depth + 1);
@@ -264,7 +281,7 @@ std::vector<Ring> Document::within(std::vector<Ring> rings, const Painted& shape
 
 std::vector<Outline> Document::areas(const Painted& shape, double tolerance) const {
   auto areas = outlines(without_slivers(within(painted(shape, tolerance), shape, tolerance, 0), tolerance));
-  const auto drawn = filled_rings(flatten(curves(shape.node, shape.view, shape.to), tolerance), tolerance);
+  const auto drawn = filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance);
   constexpr std::size_t few = 1000;  // comparing takes quadratic time
   const auto as_drawn = [&](Ring& ring) {
     const auto same = std::find_if(drawn.begin(), drawn.end(), [&](const Ring& other) {

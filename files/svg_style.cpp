@@ -8,11 +8,12 @@ namespace {
 
 using Node = pugi::xml_node;
 
-constexpr std::array<std::string_view, 14> inherited{"clip-rule",
+constexpr std::array<std::string_view, 15> inherited{"clip-rule",
                                                      "color",
                                                      "fill",
                                                      "fill-opacity",
                                                      "fill-rule",
+                                                     "font-size",
                                                      "stroke",
                                                      "stroke-dasharray",
                                                      "stroke-dashoffset",
@@ -22,9 +23,30 @@ constexpr std::array<std::string_view, 14> inherited{"clip-rule",
                                                      "stroke-opacity",
                                                      "stroke-width",
                                                      "visibility"};
-constexpr std::array<std::string_view, 12> own{
-    "clip-path", "display", "filter",   "marker-end", "marker-mid",       "marker-start",
-    "mask",      "opacity", "overflow", "transform",  "transform-origin", "vector-effect"};
+// Geometry is a matter of style, too (SVG 2 §8.9).
+constexpr std::array<std::string_view, 23> own{"clip-path",
+                                               "cx",
+                                               "cy",
+                                               "display",
+                                               "filter",
+                                               "height",
+                                               "marker-end",
+                                               "marker-mid",
+                                               "marker-start",
+                                               "mask",
+                                               "mask-type",
+                                               "opacity",
+                                               "overflow",
+                                               "r",
+                                               "rx",
+                                               "ry",
+                                               "transform",
+                                               "transform-box",
+                                               "transform-origin",
+                                               "vector-effect",
+                                               "width",
+                                               "x",
+                                               "y"};
 
 bool known(std::string_view property) {
   const auto in = [&](const auto& list) {
@@ -76,6 +98,15 @@ bool has_attribute(const Node& node, std::string_view test) {
   return !attribute.empty() && attribute.value() == value;
 }
 
+/// Of what one points at or has visited, or of what is beside the element: never so on a page at rest.
+bool of_a_moment(std::string_view selector) {
+  static constexpr std::array<std::string_view, 6> states{":hover",   ":active", ":focus",
+                                                          ":visited", ":target", "::"};
+  return std::any_of(states.begin(), states.end(), [&](std::string_view state) {
+    return selector.find(state) != std::string_view::npos && selector.find(":not(") == std::string_view::npos;
+  });
+}
+
 bool fits_part(const Node& node, std::string_view part) {
   if (part == "*") return true;
   switch (part[0]) {
@@ -120,6 +151,7 @@ void StyleSheet::add(std::string_view css) {
     const auto brace = text.find('{');
     const auto semicolon = text.find(';');
     if (text[0] == '@' && semicolon < brace) {  // @import, @charset
+      if (text.starts_with("@import")) not_taken.emplace_back(text.substr(0, semicolon));
       text.remove_prefix(semicolon + 1);
       continue;
     }
@@ -137,7 +169,8 @@ void StyleSheet::add(std::string_view css) {
 
 void StyleSheet::add_rule(std::string_view selectors, std::string_view declarations) {
   while (!selectors.empty()) {
-    std::string_view selector = trimmed(part_until(selectors, ","));
+    const std::string_view whole = trimmed(part_until(selectors, ","));
+    std::string_view selector = whole;
     Rule rule{{}, 0, declarations};
     bool child = false, understood = !selector.empty();
     while (!selector.empty() && understood) {
@@ -150,13 +183,13 @@ void StyleSheet::add_rule(std::string_view selectors, std::string_view declarati
       child = false;
       while (!selector.empty() &&
              std::string_view(" \t\r\n\f>").find(selector[0]) == std::string_view::npos) {
-        const std::size_t end = selector[0] == '['
-                                    ? std::min(selector.find(']'), selector.size() - 1) + 1
-                                    : std::min(selector.find_first_of(" \t\r\n\f>.#[:", 1), selector.size());
+        const std::size_t end =
+            selector[0] == '[' ? std::min(selector.find(']'), selector.size() - 1) + 1
+                               : std::min(selector.find_first_of(" \t\r\n\f>.#[:+~", 1), selector.size());
         const std::string_view part = selector.substr(0, end);
         selector.remove_prefix(end);
         const bool simple = part[0] == '.' || part[0] == '#';
-        understood = understood && (part[0] != ':' || part == ":root") && part != "+" && part != "~" &&
+        understood = understood && (part[0] != ':' || part == ":root") && part[0] != '+' && part[0] != '~' &&
                      !(simple && part.size() == 1) && !(part[0] == '[' && part.back() != ']');
         rule.specificity += part[0] == '#'                                       ? 10000
                             : part[0] == '.' || part[0] == '[' || part[0] == ':' ? 100
@@ -167,7 +200,13 @@ void StyleSheet::add_rule(std::string_view selectors, std::string_view declarati
       rule.selector.push_back(std::move(compound));
       selector = trimmed(selector);
     }
-    if (understood && !rule.selector.empty()) rules_.push_back(std::move(rule));
+    if (understood && !rule.selector.empty()) {
+      rules_.push_back(std::move(rule));
+    } else if (!of_a_moment(whole)) {
+      bool matters = false;
+      each_declaration(declarations, [&](auto, auto, bool) { matters = true; });
+      if (matters) not_taken.emplace_back(whole);
+    }
   }
 }
 

@@ -20,9 +20,12 @@ using Style = std::map<std::string_view, std::string_view>;
 
 class StyleSheet {
  public:
-  /// The rules of a style element's text. Rules within an at-rule, and selectors with a pseudo-class or a
-  /// sibling, never apply: a page that is not interacted with, on no particular medium.
+  /// The rules of a style element's text. Rules within an at-rule, and selectors with a pseudo-class, never
+  /// apply: a page that is not interacted with, on no particular medium.
   void add(std::string_view css);
+
+  /// Selectors that a browser would follow, and sheets that it would import.
+  std::vector<std::string> not_taken;
 
   /// The element's own values for the properties that geometry depends on, over those that it inherits.
   Style style(const pugi::xml_node& node, const Style& parent) const;

@@ -29,6 +29,8 @@ std::string read_text(const fs::path& file) {
     if (text.size() > most) refuse("is larger than 256 MiB", "split it into smaller files");
   }
   if (in.bad()) refuse("cannot be read", "name a readable file");
+  if (text.starts_with("\x1F\x8B"))
+    refuse("is compressed by gzip", "unpack it: gunzip -c FILE.svgz >FILE.svg");
   return text;
 }
 
