@@ -240,12 +240,15 @@ class Automatic {
 
   AutomaticSplit run(Splitter& splitter, const std::string& place) {
     const double extent = line_.back().s;
-    std::vector<PlacedCut> best;
-    double error = std::numeric_limits<double>::infinity();
+    struct Try {
+      std::vector<PlacedCut> cuts;
+      double error;
+    };
+    std::vector<Try> tries;
     // The error falls as 1/n² as long as the shape allows more cuts; and where there are holes, again once
     // pieces are so short that cuts meet them.
     const int patience = outline_.holes.empty() ? 1 : 3;
-    double last = error, last_n = 0;
+    double last = std::numeric_limits<double>::infinity(), last_n = 0;
     int round = 0, stalled = 0;
     for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
       double h = std::max(extent / n, least_side);
@@ -253,9 +256,7 @@ class Automatic {
       for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
       const double own = error_of(cuts), expected = last * (last_n / n) * (last_n / n);
       const bool stalls = own > 1.5 * expected && own > 0.7 * last;
-      // More cuts that hardly help, as in a shape too stout to bend like a beam, are not worth their joints.
-      if (best.empty() || (own < error && (!stalls || own <= margin * target_)))
-        best = std::move(cuts), error = own;
+      tries.push_back({std::move(cuts), own});
       if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
         break;
       last = own;
@@ -264,7 +265,16 @@ class Automatic {
           std::ceil(n * (stalls ? 2.0 : std::min(std::sqrt(own / (margin * target_)), 2.0)));
       n = std::min(std::max(wanted, n + 1 + std::floor(0.05 * round++ * n)), most_parts);
     }
-    return divide(splitter, std::move(best), error, place);
+    // Cuts that hardly help, as in a shape too stout to bend like a beam, are not worth their joints: the
+    // first that come within twice the least error.
+    double least = margin * target_;
+    if (tries.back().error > least) {
+      least = std::numeric_limits<double>::infinity();
+      for (const Try& t : tries) least = std::min(least, 2 * t.error);
+    }
+    const auto best =
+        std::find_if(tries.begin(), tries.end(), [&](const Try& t) { return t.error <= least; });
+    return divide(splitter, std::move(best->cuts), best->error, place);
   }
 
  private:
