@@ -82,6 +82,40 @@ std::vector<Chain> chains_in(b2World& world) {
   return chains;
 }
 
+/// The broad phase's tree of boxes.
+struct Tree {
+  int32 root = 0, node_count = 0, free_node = 0, insertion_count = 0;
+  std::vector<b2TreeNode> nodes;
+
+  void save(b2DynamicTree& of_world);
+  void restore(b2DynamicTree& of_world) const;
+};
+
+void Tree::save(b2DynamicTree& tree) {
+  root = of(tree, b2DynamicTree_m_root{});
+  node_count = of(tree, b2DynamicTree_m_nodeCount{});
+  free_node = of(tree, b2DynamicTree_m_freeList{});
+  insertion_count = of(tree, b2DynamicTree_m_insertionCount{});
+  const b2TreeNode* node = of(tree, b2DynamicTree_m_nodes{});
+  nodes.assign(node, node + of(tree, b2DynamicTree_m_nodeCapacity{}));
+}
+
+void Tree::restore(b2DynamicTree& tree) const {
+  of(tree, b2DynamicTree_m_root{}) = root;
+  of(tree, b2DynamicTree_m_nodeCount{}) = node_count;
+  of(tree, b2DynamicTree_m_freeList{}) = free_node;
+  of(tree, b2DynamicTree_m_insertionCount{}) = insertion_count;
+  b2TreeNode*& node = of(tree, b2DynamicTree_m_nodes{});
+  // Proxies are numbered by nodes, and pairs ordered by those numbers: the capacity decides which number is
+  // next.
+  const auto capacity = static_cast<int32>(nodes.size());
+  if (std::exchange(of(tree, b2DynamicTree_m_nodeCapacity{}), capacity) != capacity) {
+    b2Free(node);
+    node = static_cast<b2TreeNode*>(b2Alloc(capacity * static_cast<int32>(sizeof(b2TreeNode))));
+  }
+  std::copy(nodes.begin(), nodes.end(), node);
+}
+
 b2ContactManager& contacts_of(b2World& world) {
   return const_cast<b2ContactManager&>(world.GetContactManager());  // of a world that is not const
 }
@@ -98,10 +132,9 @@ struct Snapshot::Impl {
   Bytes chunks;
   std::vector<const void*> places;  // of the chunks, which stay where they are as long as the world lives
   FreeLists free_lists;
-  // b2BroadPhase
-  int32 proxy_count = 0, root = 0, node_count = 0, free_node = 0, insertion_count = 0;
-  std::vector<b2TreeNode> nodes;
+  int32 proxy_count = 0;  // of b2BroadPhase
   std::vector<int32> moved;
+  Tree tree;
   std::vector<Chain> chains;
   std::vector<std::pair<Structure::Impl*, Structure::Impl::State>> structures;
 
@@ -151,13 +184,7 @@ void Snapshot::Impl::save(b2World& w) {
   proxy_count = of(phase, b2BroadPhase_m_proxyCount{});
   const int32* buffer = of(phase, b2BroadPhase_m_moveBuffer{});
   moved.assign(buffer, buffer + of(phase, b2BroadPhase_m_moveCount{}));
-  b2DynamicTree& tree = of(phase, b2BroadPhase_m_tree{});
-  root = of(tree, b2DynamicTree_m_root{});
-  node_count = of(tree, b2DynamicTree_m_nodeCount{});
-  free_node = of(tree, b2DynamicTree_m_freeList{});
-  insertion_count = of(tree, b2DynamicTree_m_insertionCount{});
-  const b2TreeNode* node = of(tree, b2DynamicTree_m_nodes{});
-  nodes.assign(node, node + of(tree, b2DynamicTree_m_nodeCapacity{}));
+  tree.save(of(phase, b2BroadPhase_m_tree{}));
 
   chains = chains_in(w);
   structures.clear();
@@ -211,20 +238,7 @@ void Snapshot::Impl::restore(b2World& w) const {
   of(phase, b2BroadPhase_m_proxyCount{}) = proxy_count;
   std::copy(moved.begin(), moved.end(), of(phase, b2BroadPhase_m_moveBuffer{}));  // which never shrinks
   of(phase, b2BroadPhase_m_moveCount{}) = static_cast<int32>(moved.size());
-  b2DynamicTree& tree = of(phase, b2BroadPhase_m_tree{});
-  of(tree, b2DynamicTree_m_root{}) = root;
-  of(tree, b2DynamicTree_m_nodeCount{}) = node_count;
-  of(tree, b2DynamicTree_m_freeList{}) = free_node;
-  of(tree, b2DynamicTree_m_insertionCount{}) = insertion_count;
-  b2TreeNode*& node = of(tree, b2DynamicTree_m_nodes{});
-  // Proxies are numbered by nodes, and pairs ordered by those numbers: capacity tells the number that is
-  // next.
-  const auto capacity = static_cast<int32>(nodes.size());
-  if (std::exchange(of(tree, b2DynamicTree_m_nodeCapacity{}), capacity) != capacity) {
-    b2Free(node);
-    node = static_cast<b2TreeNode*>(b2Alloc(capacity * static_cast<int32>(sizeof(b2TreeNode))));
-  }
-  std::copy(nodes.begin(), nodes.end(), node);
+  tree.restore(of(phase, b2BroadPhase_m_tree{}));
 
   for (const Chain& chain : chains) {
     std::copy(chain.proxies.begin(), chain.proxies.end(), of(*chain.fixture, b2Fixture_m_proxies{}));

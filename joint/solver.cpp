@@ -121,10 +121,10 @@ void Solver::advance() {
   for (Joint& j : own_joints()) {
     // The rate in the rows' direction at the step's start, where it tells what their turning makes of it.
     Rows before_turn{};
-    const bool turns = j.regime != 0 || j.overdamped;
+    const bool turns = j.regime != 0 || j.is_overdamped();
     if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
-    if (keeps_ledger || j.regime != 0 || j.free || j.special) book(j, gap);
+    if (keeps_ledger || j.regime != 0 || j.has_free_row() || j.special) book(j, gap);
     const Rows rate = std::exchange(j.rate, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     for (unsigned i = 0; i < 3; ++i)
       j.trend[i] = j.carry[i] > 0 ? third_difference * h * (j.rate[i] - rate[i]) : 0;

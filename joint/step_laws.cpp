@@ -39,9 +39,7 @@ void StepLaws::take_law(Joint& j, const RowLaw& law) {
   j.G = law.G;
   j.relaxation = law.relaxation;
   j.carry = law.carry;
-  j.overdamped = j.carry[0] < 0 || j.carry[1] < 0 || j.carry[2] < 0;
   j.elastic_range = law.elastic_range();
-  j.free = j.G[0] == 0 || j.G[1] == 0 || j.G[2] == 0;
 }
 
 // The share of all drift that is not taken back in this step. Updates each joint's deferred drift.

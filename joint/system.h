@@ -54,8 +54,6 @@ struct Joint {
   Rows impulse{};                  // s, N s or N m s
   std::uint8_t regime = 0;         // of the law (row.h)
   std::uint8_t factored_flow = 0;  // rows that were flowing in the current factorisation
-  bool free = false;               // some row holds nothing
-  bool overdamped = false;         // some row has δ > 1
   bool special = false;            // some row is driven or goes slack (drive.h)
   int block = -1;                  // of H, when both bodies are free
 
@@ -66,6 +64,10 @@ struct Joint {
   Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
   Frame frame;
 
+  /// Whether some row holds nothing.
+  bool has_free_row() const { return G[0] == 0 || G[1] == 0 || G[2] == 0; }
+  /// Whether some row has δ > 1.
+  bool is_overdamped() const { return carry[0] < 0 || carry[1] < 0 || carry[2] < 0; }
   void keep(Tape& tape) { tape(bias, impulse, regime, factored_flow, rate, trend, neutral); }
 };
 
