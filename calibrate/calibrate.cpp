@@ -767,7 +767,9 @@ class Planner {
       joint.N = own.axial.value_or(unlimited);
       joint.Nc = own.axial_compression.value_or(joint.N);
       joint.Q = own.shear.value_or(unlimited);
-      const Weld weld = def.welded ? weld_of(pieces[0], pieces[i], *def.at, joint.name) : Weld{};
+      const double sprung = own.stiffness_moment.value_or(0) > 0 ? unlimited : 0;
+      const Weld weld = def.welded ? weld_of(pieces[0], pieces[i], *def.at, joint.name)
+                                   : Weld{sprung, sprung, unlimited, ""};
       joint.M = own.moment.value_or(weld.M);
       joint.M_reverse = own.moment_reverse.value_or(own.moment.value_or(weld.M_reverse));
       const double both = gives[0] + gives[i];
@@ -781,7 +783,9 @@ class Planner {
       joint.hold = own.hold.value_or(false);
       joint.node = node;
       joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: " +
-                                       (weld.by.empty() ? "free" : "as " + weld.by));
+                                       (!weld.by.empty() ? "as " + weld.by
+                                        : sprung > 0     ? "unlimited"
+                                                         : "free"));
       plan_.joints.push_back(std::move(joint));
     }
   }

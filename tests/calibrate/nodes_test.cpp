@@ -52,6 +52,22 @@ TEST(Node, JoinsEachBodyToTheFirst) {
   }
 }
 
+TEST(Node, ThatIsGivenAStiffnessAgainstTurningIsNoPin) {
+  SceneDef scene = hanger();
+  scene.joints[1].overrides.stiffness_moment = 3e5;
+  scene.joints[2].overrides.stiffness_moment = unlimited;
+  scene.joints[2].overrides.moment = 2e4;
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.joints.size(), 4u);
+  EXPECT_EQ(plan.joints[0].M, 0);
+  EXPECT_EQ(plan.joints[2].M, unlimited);
+  EXPECT_EQ(plan.joints[2].M_reverse, unlimited);
+  EXPECT_EQ(plan.joints[2].stiffness.M, 3e5);
+  EXPECT_EQ(plan.joints[3].M, 2e4);
+  EXPECT_EQ(plan.joints[3].M_reverse, 2e4);
+  EXPECT_EQ(plan.joints[3].stiffness.M, unlimited);
+}
+
 TEST(Node, CarriesWhatStaticsSays) {
   b2World world({0, 0});
   const Plan plan = calibrate(hanger());

@@ -119,7 +119,7 @@ struct JointBetweenDef {
   double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
   JointOverrides overrides;
   /// m, world axes at t = 0: a node, each body's nearest piece joined to a's there. A pin, rigid, that
-  /// nothing limits but its own overrides.
+  /// nothing limits but its own overrides; `moment` or `stiffness_moment` makes it resist turning.
   std::optional<Point> at;
   std::vector<std::string> others;  ///< further bodies of a node
   /// Of a node: not a pin, but as strong as the sections that end there. Each of its joints has the moments
