@@ -21,10 +21,22 @@ std::vector<Vec3> direction(RandomSystem& r) {
   return d;
 }
 
+// Of the joints between free bodies.
+void add_turn_inertias(RandomSystem& r) {
+  for (const Joint& j : r.system.joints) {
+    if (!r.system.is_free(j.a) || !r.system.is_free(j.b)) continue;
+    const double inertia = r.in(0, 2) * r.system.bodies[z(j.a)].mass;
+    r.system.turn_inertias.push_back({.a = j.a, .b = j.b, .inertia = inertia, .rate = r.in(-1, 1)});
+  }
+}
+
 TEST(Objective, GradientIsItsDerivativeInEveryRegime) {
   unsigned seen = 0;  // regimes' bits
+  std::size_t turn_inertias = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     RandomSystem r(seed);
+    if (seed % 2 == 1) add_turn_inertias(r);
+    turn_inertias += r.system.turn_inertias.size();
     std::vector<Vec3> g(r.system.bodies.size()), scratch = g;
     evaluate(r.system, g);
     for (const Joint& j : r.system.joints) seen |= j.regime;
@@ -44,12 +56,14 @@ TEST(Objective, GradientIsItsDerivativeInEveryRegime) {
     }
   }
   EXPECT_EQ(seen, 64u | 63u) << "every row flowed both ways, and some on yield surfaces";
+  EXPECT_GT(turn_inertias, 60u);
 }
 
 // f − ½|v|²_M is convex: f' along a line grows by at least |d|²_M times the way.
 TEST(Objective, IsStrictlyConvexOnRandomLines) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     RandomSystem r(seed);
+    if (seed % 2 == 1) add_turn_inertias(r);
     std::vector<Vec3> g(r.system.bodies.size());
     const std::vector<Vec3> d = direction(r);
     double curvature = 0;
