@@ -16,6 +16,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double energy_of(const Body& b, const Vec3& v) { return dot(v, momentum(b, v)); }
 
+// ω_b − ω_a
+double turn_rate(const System& system, const TurnInertia& t) {
+  return system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
+}
+
 // The rows of a joint at the present velocities.
 Rows x_of(const System& system, const Joint& j) {
   return biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
@@ -36,6 +41,7 @@ void InteriorPoint::form(const System& system) {
   surface_of_.assign(system.joints.size(), -1);
   surfaces_.reserve(surfaces);
   bounds_.assign(bounds, {});
+  turns_.reserve(system.joints.size());
   impulses_.assign(system.joints.size(), {});
   best_.assign(system.joints.size(), {});
   d_.assign(system.bodies.size(), {});
@@ -56,6 +62,10 @@ double InteriorPoint::balance(System& system) {
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
     add_transposed(j, impulses_[k], d_[z(j.a)], d_[z(j.b)]);
+  }
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    d_[z(system.turn_inertias[k].a)].w -= turns_[k].s;
+    d_[z(system.turn_inertias[k].b)].w += turns_[k].s;
   }
   double scale = 0;
   for (std::size_t i = 0; i < system.free; ++i) {
@@ -82,6 +92,7 @@ void InteriorPoint::start(const System& system) {
   surface_of_.resize(count);
   impulses_.resize(count);
   surfaces_.clear();
+  turns_.assign(system.turn_inertias.size(), {});
   std::span<SurfaceRows::Bound> room = bounds_;
   for (std::size_t k = 0; k < count; ++k) {
     const Joint& j = system.joints[k];
@@ -134,6 +145,15 @@ bool InteriorPoint::follow_friction(System& system, double energy, double mu) {
 Distance InteriorPoint::measure(const System& system) {
   Distance d;
   each([&](std::size_t k, auto& rows) { rows.measure(x_of(system, system.joints[k]), d); });
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const TurnInertia& t = system.turn_inertias[k];
+    TurnRow& r = turns_[k];
+    const double inverse = system.bodies[z(t.a)].inverse_inertia + system.bodies[z(t.b)].inverse_inertia;
+    if (!(t.inertia * inverse > 0)) continue;
+    r.lack = turn_rate(system, t) - t.rate - r.s / t.inertia;
+    d.lack += t.inertia * r.lack * r.lack / 2;
+    d.rounding += last_bits(t.inertia, 1 / inverse) * r.s * r.s;
+  }
   return d;
 }
 
@@ -157,6 +177,11 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
     const Rows ds = rows.aim(mu, second_order);
     add_transposed(j, {-ds[0], -ds[1], -ds[2]}, d_[z(j.a)], d_[z(j.b)]);
   });
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const TurnInertia& t = system.turn_inertias[k];
+    d_[z(t.a)].w += t.inertia * turns_[k].lack;
+    d_[z(t.b)].w -= t.inertia * turns_[k].lack;
+  }
   for (std::size_t i = 0; i < d_.size(); ++i) {
     if (i >= system.free) d_[i] = {};
     if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
@@ -167,6 +192,10 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
     const Joint& j = system.joints[k];
     rows.direct(relative_velocity(j, d_[z(j.a)], d_[z(j.b)]), told);
   });
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const TurnInertia& t = system.turn_inertias[k];
+    turns_[k].ds = t.inertia * (turns_[k].lack + d_[z(t.b)].w - d_[z(t.a)].w);
+  }
   return told;
 }
 
@@ -175,6 +204,7 @@ void InteriorPoint::move(double step) {
     rows.move(step);
     impulses_[k] = rows.impulse();
   });
+  for (TurnRow& r : turns_) r.s += step * r.ds;
 }
 
 InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Evaluation& at) {
@@ -206,6 +236,7 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     if (now.gap() < outcome.gap) {
       outcome.gap = now.gap();
       best_ = impulses_;
+      for (TurnRow& r : turns_) r.best = r.s;
     }
     outcome.tolerance = tolerance * scale + now.rounding;
     if (outcome.gap <= goal * scale + now.rounding || !std::isfinite(now.gap())) break;
@@ -241,7 +272,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   return outcome;
 }
 
-// With impulses τ s the step adds −Σ τ s·(x − τ s/G) − ½ |v − v*|²_M at most to kinetic and elastic energy.
+// With impulses τ s the step adds −Σ τ s·(x − τ s/G) − ½ |v − v*|²_M at most to kinetic and elastic energy;
+// turn inertia stores nothing.
 double InteriorPoint::share_without_gain(System& system) {
   double given = 0, taken = 0;  // s·(J v* + b) and ½ |v − v*|²_M + sᵀ G⁻¹ s
   for (const Joint& j : system.joints) {
@@ -251,6 +283,8 @@ double InteriorPoint::share_without_gain(System& system) {
       if (j.G[i] > 0) taken += j.impulse[i] * j.impulse[i] / j.G[i];
     }
   }
+  for (std::size_t k = 0; k < turns_.size(); ++k)
+    given += turns_[k].s * turn_rate(system, system.turn_inertias[k]);
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
     const double change = energy_of(b, b.v - b.v_free);
@@ -281,6 +315,7 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
     at.flows |= j.regime != 0;
     at.curved |= j.regime == on_surface;
   });
+  for (TurnRow& r : turns_) r.s = r.best;
   const auto take = [&] {
     for (std::size_t k = 0; k < impulses_.size(); ++k) impulses_[k] = system.joints[k].impulse;
     balance(system);
@@ -293,8 +328,14 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
       j.regime = on_surface;  // whatever each row gives way by is booked
       j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
     }
+    for (TurnRow& r : turns_) r.s = std::isfinite(r.s) ? share * r.s : 0;
     at.flows = true;
     take();
+    for (std::size_t k = 0; k < turns_.size(); ++k) {
+      TurnInertia& t = system.turn_inertias[k];
+      // So that its moment is this one.
+      if (t.inertia > 0) t.rate = turn_rate(system, t) - turns_[k].s / t.inertia;
+    }
   }
   for (std::size_t k = 0; k < system.joints.size(); ++k) system.records[k].x = x_of(system, system.joints[k]);
   for (std::size_t i = 0; i < system.free; ++i) {

@@ -98,6 +98,13 @@ class InteriorPoint {
   std::vector<SurfaceRows::Bound> bounds_;  // of the surfaces
   std::vector<Rows> impulses_;              // of the joints
   std::vector<Rows> best_;  // from start_from() on where to start, from then on the best so far
+  /// Of an inertia against changes of relative turn: a row without caps, of G = C, that is rigidly at rest at
+  /// the rate w.
+  struct TurnRow {
+    double s = 0, ds = 0, lack = 0;  // N m s, N m s, rad/s
+    double best = 0;
+  };
+  std::vector<TurnRow> turns_;  // of the system's turn inertias
   bool start_known_ = false;
   std::vector<Vec3> d_;
   std::vector<Row4> rows_;

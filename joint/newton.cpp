@@ -25,8 +25,6 @@ void Newton::form(const System& system) {
   for (auto* v : {&g_, &d_, &z_}) v->assign(system.bodies.size(), {});
   interior_point.form(system);
   pushed_.assign(system.free, 0);
-  paused_.clear();
-  paused_.reserve(system.joints.size());
 }
 
 // ∇f = M (v − v*) + …, and v is where the last evaluation was.
@@ -172,14 +170,10 @@ void Newton::start_from_lower(System& system, Evaluation& at) {
   at = evaluate(system, g_);
 }
 
-// Its result is taken as it is: evaluating f there would only find what a rigid row makes of rounding. It
-// knows no turn inertia: for this step there is none, and afterwards it exerts nothing.
+// Its result is taken as it is: evaluating f there would only find what a rigid row makes of rounding.
 Evaluation Newton::solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report) {
   Evaluation at;
-  system.turn_inertias.swap(paused_);
   const InteriorPoint::Outcome outcome = interior_point.solve(system, hessian, at);
-  system.turn_inertias.swap(paused_);
-  for (TurnInertia& t : system.turn_inertias) t.rate = system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
   report.factorisations += outcome.factorisations;
   report.unsolved |= !outcome.reached;
   if (!outcome.reached) hessian.forget();

@@ -82,9 +82,8 @@ class Newton {
   void start_from_lower(System& system, Evaluation& at);
   Evaluation solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report);
 
-  std::vector<Vec3> g_;              // ∇f at the bodies' v, from a solve to the pushes after it
-  std::vector<Vec3> d_, z_;          // 0 for bodies whose velocities are prescribed
-  std::vector<TurnInertia> paused_;  // of the system, while the interior point method solves
+  std::vector<Vec3> g_;      // ∇f at the bodies' v, from a solve to the pushes after it
+  std::vector<Vec3> d_, z_;  // 0 for bodies whose velocities are prescribed
   // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
   std::vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;

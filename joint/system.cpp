@@ -13,6 +13,7 @@ void System::form(std::size_t free_bodies) {
   free = free_bodies;
   turn_inertias.clear();
   turn_inertias.reserve(joints.size());
+  clumps.assign(free_bodies, {});
   for (JointRecord& r : records) r.turn_inertia = -1;
   mass = 0;
   for (std::size_t i = 0; i < free; ++i) {

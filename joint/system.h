@@ -88,6 +88,12 @@ struct TurnInertia {
   void keep(Tape& tape) { tape(inertia, rate, highest, unneeded); }
 };
 
+/// Free bodies that turn as one: each is part of another, up to the one that has the mass of all.
+struct Clump {
+  int part_of = 0;
+  double mass = 0;  // kg
+};
+
 template <>
 inline constexpr bool all_doubles<PlasticFlow> = true;
 
@@ -150,6 +156,7 @@ struct System {
   std::vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them
+  std::vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
   std::vector<int> driven;                 // joints
   std::vector<Link> links;                 // whose rows follow the structure's own joints
   std::vector<Contact> contacts;           // whose rows follow those

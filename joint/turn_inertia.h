@@ -14,6 +14,10 @@
 // and with α = s h² T/(4 l) the step is stable where s ≥ 1. A resolved mode of ωh = φ is slowed by s² φ⁴/128
 // of its frequency. Rigid pieces have less mass in their shortest waves, m (1 − x (¼ − I/ml²)) for
 // eigenvalues x ≤ 4 of L: the same square with α + m (¼ − I/ml²), or the bound at x = 4 where that is larger.
+//
+// Pieces that rigid rows hold to each other turn as one, a clump. What is ϱ times as long and as heavy as its
+// pieces has T and all of the above with ϱ l and ϱ m; C of short pieces would be ϱ times what it needs, and
+// what swings on it too slow for its load.
 #pragma once
 
 #include <span>

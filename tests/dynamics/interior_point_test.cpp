@@ -473,6 +473,48 @@ TEST(InteriorPoint, FindsWhatBruteForceFinds) {
   EXPECT_GT(flowing_rows, 150);
 }
 
+// Inertia C against a change of relative turn is a row of G = C without caps that is at rest at its rate.
+// Velocities of both are good to the root of twice their gaps.
+TEST(InteriorPoint, KnowsTurnInertias) {
+  int compared = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    Problem turns = random_structure(seed, static_cast<Laws>(seed % 3));
+    Problem rows = random_structure(seed, static_cast<Laws>(seed % 3));
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const std::vector<Joint> joints = turns.system.joints;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const Joint& j = joints[k];
+      const double m_eff = turns.system.records[k].m_eff[2];
+      if (j.block < 0 || !(m_eff > 0) || random() % 2 == 0) continue;
+      const double C = m_eff * std::pow(10.0, normal(random)), rate = normal(random);
+      turns.system.turn_inertias.push_back(
+          {.a = j.a, .b = j.b, .block = j.block, .inertia = C, .rate = rate});
+      Joint row = j;
+      row.bias = {0, 0, -rate};
+      row.impulse = {};
+      rows.system.joints.push_back(row);
+      JointRecord& r = rows.system.records.emplace_back();
+      r.m_eff = turns.system.records[k].m_eff;
+      r.law.h = turns.system.records[k].law.h;
+      r.law.G = {0, 0, C};
+      r.law.cap = r.law.cap_reverse = {0, 0, infinity};
+    }
+    if (turns.system.turn_inertias.empty()) continue;
+    rows.form();
+    const InteriorPoint::Outcome a = turns.solve(), b = rows.solve();
+    if (!a.reached || !b.reached) continue;
+    ++compared;
+    double off = 0;
+    for (std::size_t i = 0; i < turns.system.free; ++i) {
+      const Vec3 d = turns.system.bodies[i].v - rows.system.bodies[i].v;
+      off += dot(d, momentum(turns.system.bodies[i], d));
+    }
+    EXPECT_LE(std::sqrt(off), std::sqrt(2 * a.gap) + std::sqrt(2 * b.gap)) << "seed " << seed;
+  }
+  EXPECT_GT(compared, 300);
+}
+
 // Where the rounds are cut off, kinetic and elastic energy are no more than before, and every row is booked.
 TEST(InteriorPoint, WhatIsCutOffAddsNoEnergy) {
   int cut = 0, holding = 0;

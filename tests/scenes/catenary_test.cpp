@@ -49,10 +49,8 @@ class Catenary : public testing::TestWithParam<std::tuple<int, int, bool, double
 // With N and M of a full rectangle, n² + m = 1, the sag is w h with 1 + w² = P/P_c up to w = 1, and 2 w =
 // P/P_c beyond, where nothing bends any more (R. M. Haythornthwaite, Engineering 183, 1957); with caps of
 // their own 1 + 2 w = P/P_c. Both for small slopes: the steepest here, w h/half = 0.13, is a cosine of 1 %.
-//
-// A step knows of the slope at its start: what a step's load is more than the last one's moves the mechanism,
-// two bars that turn, freely for a step and is stopped in the next. That is 2 ΔP dt²/(mass/3): 0.06 h at 60
-// Hz and twice the collapse load, 6e-5 h at 600 Hz.
+// What hangs takes hold only once it sags: the first step moves freely. From then on tension that turns with
+// its bars slows what swings on it to what the step resolves (joint/turn_inertia.h).
 TEST_P(Catenary, Sags) {
   const auto [pieces, hertz, interaction, times] = GetParam();
   Simulation run(calibrate(beam(pieces, interaction, times * collapse)), JointSolver::direct,
@@ -63,8 +61,7 @@ TEST_P(Catenary, Sags) {
   while (run.time() < ramp + 2) run.step();
   const double w = (h / 2 - run.piece(static_cast<std::size_t>(middle - all.begin())).position.y) / h;
   const double expected = !interaction ? (times - 1) / 2 : times <= 2 ? std::sqrt(times - 1) : times / 2;
-  const double mass = 7800 * 2 * half * h * depth, more = times * collapse / (ramp * hertz);
-  EXPECT_NEAR(w, expected, 0.03 * expected + 2 * more / (hertz * hertz) / (mass / 3) / h);
+  EXPECT_NEAR(w, expected, 0.03 * expected);
   EXPECT_TRUE(std::all_of(all.begin(), all.end(), [&](const Piece& p) {
     return std::abs(run.piece(static_cast<std::size_t>(&p - all.data())).position.y) < 2 * h + h / 2;
   })) << "torn";
