@@ -26,5 +26,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # The command runs without these; programs that link the libraries are built with them.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libbox2d-dev, libpugixml-dev, libgmp-dev, libfmt-dev, libglpk-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libbox2d-dev, libpugixml-dev, zlib1g-dev, libgmp-dev, libfmt-dev, libglpk-dev")
 include(CPack)

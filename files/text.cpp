@@ -1,8 +1,10 @@
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -19,18 +21,21 @@ std::string read_text(const fs::path& file) {
   };
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) refuse("is a folder", "name a file");
-  std::ifstream in(file, std::ios::binary);
+  errno = 0;
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
   if (!in)
     refuse("cannot be opened (" + std::generic_category().message(errno) + ")", "name a readable file");
   std::string text;
   std::string block(std::size_t{1} << 16, '\0');
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
+  int got = 0;
+  while ((got = gzread(in.get(), block.data(), static_cast<unsigned>(block.size()))) > 0) {
+    text.append(block, 0, static_cast<std::size_t>(got));
     if (text.size() > most) refuse("is larger than 256 MiB", "split it into smaller files");
   }
-  if (in.bad()) refuse("cannot be read", "name a readable file");
-  if (text.starts_with("\x1F\x8B"))
-    refuse("is compressed by gzip", "unpack it: gunzip -c FILE.svgz >FILE.svg");
+  int error = Z_OK;
+  const std::string said = gzerror(in.get(), &error);
+  if (error == Z_ERRNO) refuse("cannot be read", "name a readable file");
+  if (error != Z_OK) refuse("cannot be unpacked (" + said + ")", "pack it anew with gzip");
   return text;
 }
 

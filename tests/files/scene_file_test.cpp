@@ -455,6 +455,17 @@ TEST(SceneFile, NamesAllProblemsAtOnce) {
   }
 }
 
+TEST(Text, OfGzipIsUnpacked) {  // RFC 1952: "hello" by GNU gzip, and the same cut off
+  const std::string packed("\x1F\x8B\x08\0\0\0\0\0\0\x03\xCB\x48\xCD\xC9\xC9\x07\0\x86\xA6\x10\x36\x05\0\0\0",
+                           25);
+  const fs::path file = fs::temp_directory_path() / ("ductile_gzip_" + std::to_string(::getpid()));
+  write_text(file, packed);
+  EXPECT_EQ(read_text(file), "hello");
+  write_text(file, packed.substr(0, 14));
+  EXPECT_THROW(read_text(file), InvalidInput);
+  fs::remove(file);
+}
+
 TEST(Text, IsWrittenWholeOrNotAtAll) {
   const fs::path folder = fs::temp_directory_path() / ("ductile_text_" + std::to_string(::getpid()));
   fs::create_directories(folder);

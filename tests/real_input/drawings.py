@@ -108,9 +108,11 @@ def box_of(file):
     root = ElementTree.parse(file).getroot()
     if "viewBox" in root.attrib:
         return [float(x) for x in re.split(r"[\s,]+", root.attrib["viewBox"].strip())]
-    size = [float(re.match(r"[\d.]+", root.attrib.get(side, missing))[0])
-            for side, missing in (("width", "300"), ("height", "150"))]
-    return [0, 0, *size]
+    def pixels(text):  # CSS Values and Units §6.2
+        number, unit = re.match(r"([\d.]+)\s*([a-z]*)", text).groups()
+        return float(number) * {"in": 96, "cm": 96 / 2.54, "mm": 96 / 25.4, "pt": 96 / 72, "pc": 16}.get(unit, 1)
+
+    return [0, 0, pixels(root.attrib.get("width", "300")), pixels(root.attrib.get("height", "150"))]
 
 
 def drawn_again(scene, box, file):

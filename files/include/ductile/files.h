@@ -104,7 +104,7 @@ struct DrawnScene {
 /// it.
 DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit = 0);
 
-/// The file's bytes. A problem when it cannot be read, or is larger than 256 MiB.
+/// The file's bytes, unpacked where gzip packed them. A problem when it cannot be read, or is larger than 256 MiB.
 std::string read_text(const std::filesystem::path& file);
 
 /// A file that appears whole or not at all: written beside its place, and put there by keep(). What is there
