@@ -37,7 +37,10 @@ constexpr std::array families{
     Family{"SHS", Shape::rectangular_tube, {}, "SHS 100x5"},
 };
 
-/// Upper case, without blanks, x for ×.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Upper case, without blanks, x for ×; as the tables have it what EN 10365 calls HE 200 A and DIN 1026-1 U
+/// 200.
 std::string plain(std::string_view name) {
   std::string letters;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -51,6 +54,9 @@ std::string plain(std::string_view name) {
       letters += static_cast<char>(std::toupper(c));
     }
   }
+  if (letters.size() > 1 && letters[0] == 'U' && is_digit(letters[1])) return "UPN" + letters.substr(1);
+  if (letters.size() > 3 && letters.starts_with("HE") && is_digit(letters[2]) && !is_digit(letters.back()))
+    return "HE" + letters.substr(letters.size() - 1) + letters.substr(2, letters.size() - 3);
   return letters;
 }
 
@@ -123,7 +129,16 @@ Rolled tube(const Family& family, std::string_view name, std::string_view plain_
 
 }  // namespace
 
-bool names_a_profile(std::string_view name) { return family_of(plain(name)) != nullptr; }
+bool names_a_profile(std::string_view name) {
+  const std::string letters = plain(name);
+  const std::size_t digits = std::min(letters.find_first_of("0123456789"), letters.size());
+  if (digits == 0 || digits > 3 || digits == letters.size()) return false;
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const bool is_point = letters[i] == '.' && i + 1 < letters.size() && is_digit(letters[i + 1]);
+    if (!is_point && std::isalnum(static_cast<unsigned char>(letters[i])) == 0) return false;
+  }
+  return true;
+}
 
 Rolled rolled(std::string_view name) {
   const std::string wanted = plain(name);
@@ -142,8 +157,7 @@ Rolled rolled(std::string_view name) {
   for (const Dimensions& row : family->table) {
     const std::string known = plain(row.name);
     if (known == wanted) return from_table(row, family->shape);
-    if (known.starts_with(family->prefix) &&
-        std::isdigit(static_cast<unsigned char>(known[family->prefix.size()])))
+    if (known.starts_with(family->prefix) && is_digit(known[family->prefix.size()]))
       sizes += " " + known.substr(family->prefix.size());
   }
   unknown(name, "there are " + std::string(family->prefix) + sizes);

@@ -223,8 +223,12 @@ TEST(Rolled, NamesMayBeWrittenAnyWay) {
   EXPECT_EQ(rolled("chs168.3×5").h, 0.1683);
   EXPECT_EQ(rolled("SHS 100x5").b, rolled("shs100x100x5").h);
   EXPECT_EQ(rolled("RHS 200x100x5").b, 0.1);
-  EXPECT_TRUE(names_a_profile("L 100x100x10"));
-  for (const char* file : {"ipe.section.json", "level.json", "L", "", "HEZ200", "shs.svg"})
+  EXPECT_EQ(rolled("HE 200 A").name, "HEA 200");
+  EXPECT_EQ(rolled("he1000m").name, "HEM 1000");
+  EXPECT_EQ(rolled("U 200").name, "UPN 200");
+  for (const char* name : {"L 100x100x10", "CHS 168.3x5", "IPN200", "W12x26", "HE 200 Z"})
+    EXPECT_TRUE(names_a_profile(name)) << name;
+  for (const char* file : {"ipe.section.json", "level.json", "L", "", "beams/IPE300", "shs.svg", "ipe1.json"})
     EXPECT_FALSE(names_a_profile(file)) << file;
 }
 

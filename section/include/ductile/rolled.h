@@ -25,14 +25,15 @@ struct Rolled {
   double u = 0;         ///< from a tapered flange's tip to where it is tf thick
 };
 
-/// The profile of that name; blanks, case and × for x do not matter ("ipe300", "SHS100x5"). Throws
-/// InvalidInput that lists what there is. In tables: IPE 80 … 600, HEA, HEB, HEM 100 … 1000, UB 127x76x13 …
-/// 914x419x388 and UC 152x152x23 … 356x406x634 (EN 10365), PFC 100x50x10 … 430x100x64, UPE 80 … 400 and UPN
-/// 80 … 400 (EN 10365), L (EN 10056-1). Of any size: CHS D x t, RHS H x B x t and SHS B x t (EN 10210-2,
-/// corners of 1.5 t outside and t inside).
+/// The profile of that name; blanks, case and × for x do not matter ("ipe300", "SHS100x5"), and HE 200 A is
+/// HEA 200, U 200 is UPN 200. Throws InvalidInput that lists what there is. In tables: IPE 80 … 600, HEA,
+/// HEB, HEM 100 … 1000, UB 127x76x13 … 914x419x388 and UC 152x152x23 … 356x406x634 (EN 10365), PFC 100x50x10
+/// … 430x100x64, UPE 80 … 400 and UPN 80 … 400 (EN 10365), L (EN 10056-1). Of any size: CHS D x t, RHS H x B
+/// x t and SHS B x t (EN 10210-2, corners of 1.5 t outside and t inside).
 Rolled rolled(std::string_view name);
 
-/// Whether a name begins as those do: a profile rather than a file.
+/// Whether a name is written as those are, whether or not there is such a profile: letters, then a size,
+/// which no name of a file with a suffix is.
 bool names_a_profile(std::string_view name);
 
 /// All profiles of the tables.
