@@ -110,6 +110,7 @@ struct Case {
 };
 
 /// A new case is one of these, and its name in the list of report.cpp.
-extern const Case benchmarks, sections, joints, discretisation, stability, interaction, leaving_out, growth;
+extern const Case benchmarks, sections, joints, discretisation, stability, interaction, leaving_out, growth,
+    peers, extremes;
 
 }  // namespace ductile::report

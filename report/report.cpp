@@ -45,8 +45,8 @@ static void to_json(Json& j, const Claim& c) {
 
 namespace {
 
-const Case* const cases[] = {&benchmarks, &sections,    &joints,      &discretisation,
-                             &stability,  &interaction, &leaving_out, &growth};
+const Case* const cases[] = {&benchmarks, &joints,   &peers,       &sections,    &discretisation,
+                             &stability,  &extremes, &interaction, &leaving_out, &growth};
 
 std::string csv(const Json& table) {
   const auto cell = [](const Json& value) {

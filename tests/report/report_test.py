@@ -71,6 +71,28 @@ class Report(unittest.TestCase):
                 for words in ("source", "read", "input"):
                     self.assertTrue(row[words], row)
 
+    def test_peers_stand_beside_on_the_same_scene(self):
+        out = Path(self.folder.name) / "peers"
+        self.assertEqual(report(out, only="peers").returncode, 0)
+        data = json.loads((out / "data" / "peers.json").read_text())
+        self.assertEqual([c["holds"] for c in data["claims"] if not c["by_clock"]], [True, True])
+        rows = next(t["rows"] for t in data["tables"] if t["name"] == "cantilever")
+        # planck is Box2D 2.4 in doubles: it errs as stock does, or the scenes are not the same.
+        error = {row[0]: row[4] for row in rows if row[2:4] == [60, "10 iterations"]}
+        planck = [e for engine, e in error.items() if engine.startswith("planck")]
+        for e in planck:
+            self.assertAlmostEqual(e, error["Box2D 2.4.1"], delta=0.1 * abs(e))
+        if not planck:
+            self.assertIn("planck", " ".join(data["text"]))
+
+    def test_extremes_within_a_promise_are_kept(self):
+        out = Path(self.folder.name) / "extremes"
+        self.assertEqual(report(out, only="extremes").returncode, 0)
+        data = json.loads((out / "data" / "extremes.json").read_text())
+        self.assertTrue(data["claims"][0]["holds"], data["claims"][0])
+        # A promise without an edge promises nothing.
+        self.assertEqual({row[2] for row in data["tables"][0]["rows"]}, {"yes", "beyond"})
+
     def test_the_direct_solver_stands(self):
         out = Path(self.folder.name) / "stability"
         self.assertEqual(report(out, only="stability").returncode, 0)
