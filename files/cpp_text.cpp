@@ -112,8 +112,8 @@ constexpr const char* tools = R"(
     def.filter.groupIndex = group;
     of->CreateFixture(&def)->SetDensity(density);  // for later: the mass is set below
   };
-  [[maybe_unused]] const auto mass = [](b2Body* of, float mass, float inertia) {
-    const b2MassData data{mass, {0, 0}, inertia};
+  [[maybe_unused]] const auto mass = [](b2Body* of, float kilograms, float inertia) {
+    const b2MassData data{kilograms, {0, 0}, inertia};
     of->SetMassData(&data);
   };
 )";
