@@ -254,11 +254,12 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     const double reach = 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
     const Direction predictor = find_direction(system, hessian, 0, 0);
     const double affine = predictor.step_within(reach);
-    const double left = predictor.products(now.products, affine) / now.products;
+    const double left = now.products > 0 ? predictor.products(now.products, affine) / now.products : 0;
     const double remains = std::max(std::min(left, 1.0), 1 - affine);
     const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
-    // With contacts not below what the goal allows: as they open, Σ z p may vanish before the rest settles.
-    const double least = alone ? 0 : 0.1 * goal * scale;
+    // Not below what the goal allows: Σ z p may vanish before the rest settles, the more so with contacts
+    // that open, and no step is possible then.
+    const double least = (alone ? 1e-3 : 0.1) * goal * scale;
     const Direction corrector = find_direction(
         system, hessian, std::max(centring * now.products, least) / count, stalls ? 0 : affine * affine);
     move(corrector.step_within(reach));

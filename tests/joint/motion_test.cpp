@@ -108,6 +108,90 @@ TEST(Motion, ColumnsBuckleAtEulersLoad) {
   }
 }
 
+// A cantilever that its own weight, set in at once, bends beyond yield: the root's plastic rotation, and the
+// rotation of the chord at yield, M_p L/3EI.
+struct Bent {
+  double plastic, elastic;
+};
+
+Bent bent(int pieces, double share, double rate) {
+  BeamDef def{.pieces = pieces, .youngs_modulus = 210e9, .gravity = 10};
+  def.moment_cap = share * def.density * def.height * def.gravity * def.length * def.length / 2;
+  const double inertia = std::pow(def.height, 3) / 12, mass = def.density * def.height;
+  const double bending = def.youngs_modulus * inertia;
+  def.damping_time = 2 * 0.02 * std::sqrt(mass * std::pow(def.length, 4) / bending) / first_mode;
+  Beam beam(def);
+  beam.run(3, 1 / rate);
+  return {beam.joints[0]->accumulated_rotation(), def.moment_cap * def.length / (3 * bending)};
+}
+
+// Plastic moments as shares of the static one. What is less than the elastic rotation is known to a share of
+// that.
+TEST(Motion, AnElasticPlasticCantileverRotatesAsAtSmallSteps) {
+  for (const int pieces : {6, 20}) {
+    for (const double share : {1.05, 1.1, 1.2, 1.5, 1.7}) {
+      const Bent exact = bent(pieces, share, 4000);
+      EXPECT_GT(exact.plastic, 1e-4);
+      EXPECT_NEAR(bent(pieces, share, 60).plastic, exact.plastic,
+                  std::max(0.05 * exact.plastic, 0.02 * exact.elastic))
+          << pieces << " " << share << ": " << exact.plastic << " " << exact.elastic;
+    }
+  }
+}
+
+// Period of the first vibration of a string of n rigid pieces, as a share of that of a continuous one, 2 L
+// √(μ/T); T is `share` of μ l²/h², so that the wave runs l √share in a step.
+double period_of_string(int n, double share, double rate) {
+  const double h = 1 / rate, l = 1, mass = 100, tension = share * mass * l / (h * h);
+  b2World world(b2Vec2_zero);
+  Structure structure(world);
+  world.SetAllowSleeping(false);
+  b2BodyDef def;
+  b2Body* last = world.CreateBody(&def);
+  def.type = b2_dynamicBody;
+  std::vector<b2Body*> pieces;
+  for (int i = 0; i <= n; ++i) {
+    def.position.Set(static_cast<float>((i + 0.5) * l), 0);
+    if (i == n) def.type = b2_staticBody;
+    b2Body* piece = world.CreateBody(&def);
+    if (i < n) {
+      const b2MassData data{static_cast<float>(mass), {0, 0}, static_cast<float>(mass * l * l / 12)};
+      piece->SetMassData(&data);
+      const double at = pi / n, to = (i + 1) * at, from = i * at;
+      piece->SetLinearVelocity({0, static_cast<float>(0.01 * (std::sin(from) + std::sin(to)) / 2)});
+      piece->SetAngularVelocity(static_cast<float>(0.01 * (std::sin(to) - std::sin(from)) / l));
+      pieces.push_back(piece);
+    }
+    ElasticPlasticJointDef joint;
+    joint.Initialize(last, piece, {static_cast<float>(i * l), 0}, {1, 0});
+    joint.rows[axial].stiffness = 1e3 * tension / l;
+    joint.state.elastic[axial] = 1e-3 * l;
+    joint.rows[rotation].cap = joint.rows[rotation].cap_reverse = 0;
+    structure.create_joint(joint);
+    last = piece;
+  }
+  std::vector<double> crossings;
+  const double period = 2 * n * l * std::sqrt(mass / l / tension);
+  double y = 0;
+  for (int i = 0; crossings.size() < 4 && i * h < 5 * period; ++i) {
+    world.Step(static_cast<float>(h), 8, 3);
+    structure.update();
+    const double now = pieces[static_cast<std::size_t>(n / 2)]->GetWorldCenter().y;
+    if (y < 0 && now >= 0) crossings.push_back(i - now / (now - y));
+    y = now;
+  }
+  return crossings.size() < 4 ? 0 : (crossings[3] - crossings[0]) * h / 3 / period;
+}
+
+// Beyond a share of 1/3 a chain that knows of its tension at the step's start only would blow up.
+TEST(Motion, ATautStringVibratesAtItsFrequency) {
+  for (const double rate : {30.0, 60.0}) {
+    for (const double share : {0.05, 0.2, 1.0, 4.0}) {
+      EXPECT_NEAR(period_of_string(20, share, rate), 1, 0.02) << rate << " " << share;
+    }
+  }
+}
+
 // A mass on an elastic-plastic spring, and the force that sets in at once: Biggs, Introduction to Structural
 // Dynamics (1964), 2.7: ductility 1/(2 (1 − F/R)) for F ≥ R/2.
 struct Oscillator {
