@@ -93,7 +93,7 @@ class BlockLdlt {
   struct RightFactor {
     double row[3][4];
   };
-  std::vector<RightFactor> unscaled_;  // the column at hand before it is divided by D
+  std::vector<RightFactor> unscaled_;  // the current column before its division by D
 };
 
 }  // namespace ductile::dynamics

@@ -2,7 +2,7 @@
 // game.
 //
 // A row's impulse s belongs to the middle of its force, half a step before a step's start and half a step
-// after it (row.h). Where the structure is struck in between, the row knows nothing of it in the first half.
+// after it (row.h). Where the structure is struck in between, the row did not act on it in the first half.
 // So it may take the mean of its force before, R₋, and of its cap,
 //   −h (F⁻ − R₋)/2 ≤ s ≤ h (F⁺ + R₋)/2
 // and on a yield surface that is used to the share g by R₋, s is within (1 + g)/2 of it. With all of the cap

@@ -58,7 +58,7 @@ struct Touch {
   b2Body* b() const { return contact->GetFixtureB()->GetBody(); }
 };
 
-/// The contacts of the island at hand; none where an assumption does not hold.
+/// The contacts of the island that is being solved; none where an assumption does not hold.
 class IslandContacts {
  public:
   void read(b2World& world, const b2SolverData& data);
@@ -71,7 +71,7 @@ class IslandContacts {
   void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
-  /// Where the island at hand has a body that can move.
+  /// The index of a body that can move in the island that is being solved.
   static std::size_t place_of(const b2Body& body);
   /// Whether what holds the body was looked for: `follow` was called.
   bool is_followed(const b2Body& body) const;

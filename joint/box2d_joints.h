@@ -1,4 +1,4 @@
-// Box2D's own joints that hold a structure: which of the island at hand they are, what rows they are of the
+// Box2D's own joints that hold a structure: which joints of the island they are, what rows they are of the
 // structure's problem, and how their impulses are handed back. Written against Box2D 2.4.1.
 //
 // Solved by Box2D, such a joint would see the mass of the piece that it holds, not of the structure: a motor
@@ -40,7 +40,7 @@ struct StockRows {
   bool near = true;  // its rows close its gaps; otherwise Box2D's iterations of positions do
 };
 
-/// A stock joint of the island at hand.
+/// A stock joint of the island that is being solved.
 struct StockJoint {
   b2Joint* joint = nullptr;
   std::uint32_t member = 0, place = 0;  // beside which of the structure's joints it was found, and when
@@ -76,7 +76,7 @@ bool as_it_is(b2Joint& joint, const Visit& visit) {
   }
 }
 
-/// Whether a joint is one whose rows are known, and in the island at hand.
+/// Whether a joint is one whose rows are known, and in the island that is being solved.
 bool is_stock(b2Joint& joint);
 
 /// Rows of a joint whose bodies are at these places, relative to an origin, in a step of h seconds; with the

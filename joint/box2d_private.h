@@ -12,8 +12,8 @@ DUCTILE_REVEAL(b2World, m_inv_dt0, float);
 DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
 DUCTILE_REVEAL(b2Body, m_flags, uint16);
 DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
-// The index in the island at hand. b2WeldJoint::InitVelocityConstraints would fetch it at the cost of a sine,
-// a cosine and a matrix inverse per joint; so it is a load per body.
+// The index of a body in the island that is being solved. b2WeldJoint::InitVelocityConstraints would fetch it
+// at the cost of a sine, a cosine and a matrix inverse per joint; so it is a load per body.
 DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);

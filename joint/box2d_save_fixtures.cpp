@@ -113,7 +113,7 @@ void WorldArchive::fixture(Archive& a, b2Body& body, b2Fixture* fixture) {
   a("filter", def.filter.categoryBits, def.filter.maskBits, def.filter.groupIndex);
   if (!(def.density >= 0)) a.refuse("density", "must be >= 0");
   if (fixture == nullptr) {
-    // The body's mass is told, and not to be made of what may be no shape with an area.
+    // The body's mass is stored, since it cannot be computed of a shape that may have no area.
     const float density = std::exchange(def.density, 0);
     fixture = body.CreateFixture(&def);
     fixture->SetDensity(density);

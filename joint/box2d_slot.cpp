@@ -39,7 +39,7 @@ ElasticPlasticJoint::~ElasticPlasticJoint() {
   if (member_ != nullptr) member_->structure->forget(*member_);
 }
 
-// A joint whose structure is gone goes on as the weld that it was.
+// A joint whose structure is gone behaves as the weld that it was.
 void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
   // An island that is given no velocity iterations moves without us; what that parts is brought together when
@@ -61,7 +61,7 @@ bool ElasticPlasticJoint::SolvePositionConstraints(const b2SolverData& data) {
   return true;
 }
 
-// ~b2World runs no joint destructors, but those of all shapes: a shape of ours in the world tells when it is
+// ~b2World runs no joint destructors, but those of all shapes: a shape of ours in the world learns when it is
 // gone. It hangs on a disabled static body, which no query, ray or contact sees, at the end of the list of
 // bodies, so that where all are destroyed it goes after their joints.
 class WorldWatch : public b2CircleShape {

@@ -132,7 +132,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   solver.form(free_bodies);
   solver.locate();
   // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint
-  // took back what turning has parted, they would strain each other.
+  // closed the gaps that turning has opened, they would strain each other.
   const bool hold =
       held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->own.fresh; });
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -144,7 +144,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
       continue;
     }
-    // Bodies that were moved meanwhile are brought back to the gap that the joint last saw. What rounding to
+    // Bodies that were moved meanwhile return to the gap that the joint last saw. What rounding to
     // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
     const Rows& seen = members[i]->own.record.gap;
     bool moved = false;

@@ -30,8 +30,8 @@ std::vector<Structure::Impl*> structures_in(b2World& world);
 
 namespace ductile::dynamics {
 
-/// Whether its velocity is the solver's to find; all others hold or move as they are told, a dynamic body
-/// without mass among them.
+/// Whether the velocity of a body is an unknown of the solver; those of all others are prescribed, a dynamic
+/// body without mass among them.
 inline bool is_free(const b2Body* body) { return body->GetType() == b2_dynamicBody && body->GetMass() > 0; }
 
 /// Two bodies that touch, or that a stock joint holds.

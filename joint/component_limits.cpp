@@ -1,5 +1,5 @@
 // Box2D's limits of speed: where a structure is too fast for them, it is slowed as a whole, and what they
-// took all the same is told to the ledger.
+// took all the same is booked in the ledger.
 #include <algorithm>
 #include <cmath>
 #include <utility>

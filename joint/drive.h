@@ -1,9 +1,9 @@
-// Rows that do not just hold or flow: driven ones, whose neutral position moves as it is told, and ropes and
-// struts, which go slack.
+// Rows that do not just hold or flow: driven ones, whose neutral position moves at a prescribed rate, and
+// ropes and struts, which go slack.
 //
 // A neutral position that moves at n turns J v and the rate w of the row's law into J v − n and w − n, both
 // of the elastic part alone: what moves evenly without force stays without it. Where a cap does not hold it,
-// a driven row slips and goes on from there.
+// a driven row slips, and its drive continues from there.
 //
 // A slack row keeps its neutral position. Its strain e is then beyond it, which no spring was strained by:
 // with w = 2e/h, e half a step ago is 0, so what was stored is 0 (see ledger.h), and the row takes hold in

@@ -1,4 +1,4 @@
-// Which joints yield, flow and break in a step, and who is told of it after the step.
+// Which joints yield, flow and break in a step, and how update() delivers these events after it.
 
 #include <bit>
 #include <utility>
@@ -76,8 +76,8 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
   }
 }
 
-// The handler may destroy anything: joints are looked up by id each time. It may throw: what it was told is
-// told.
+// The handler may destroy anything: joints are looked up by id each time. It may throw: an event that
+// it got is not delivered again.
 void Structure::Impl::tell() {
   struct Telling {
     bool& telling;

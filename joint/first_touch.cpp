@@ -1,4 +1,4 @@
-// First touch: bodies that are fast reach far into a piece, or through it, before a contact tells of them,
+// First touch: bodies that are fast reach far into a piece, or through it, before there is a contact,
 // and the manifold of so deep a touch has a normal of its own. So after each step a guest that met a piece on
 // its way is put back to where it did, and the next step finds a contact as it should be.
 //

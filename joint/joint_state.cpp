@@ -21,7 +21,7 @@ std::vector<std::string> wrong_in(const JointState& state) {
   return wrong;
 }
 
-// A joint that was never solved has no gap yet: its neutral position is told from where that will be.
+// A joint that was never solved has no gap yet: its neutral position is relative to where that will be.
 void Member::set_state(const JointState& s) {
   Joint& j = data();
   JointRecord& r = record();

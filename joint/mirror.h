@@ -1,5 +1,5 @@
-// A body of a component beside Box2D's own: what Box2D was given of it last, what it brings, and whether it
-// is still what the component was formed for.
+// A body of a component beside Box2D's own: the pose and velocity that Box2D was given last and those that it
+// has now, and whether it is still what the component was formed for.
 #pragma once
 
 #include <box2d/box2d.h>

@@ -15,7 +15,7 @@
 
 namespace ductile::dynamics {
 
-/// What one evaluation tells.
+/// The norms and regimes that one evaluation finds.
 struct Evaluation {
   double gradient2 = 0;                    // |∇f|² in the norm of M⁻¹, J
   double impulse2 = 0;                     // |v − v*|²_M, the square of the impulses' norm, J

@@ -97,7 +97,7 @@ struct RowLaw {
     tape(G, cap, cap_reverse, h, after_yield, spring, damping, delta, third, relaxation, carry);
   }
 
-  /// No row flows while all |G x| are within these; below 0 where a yield surface has to tell.
+  /// No row flows while all |G x| are within these; below 0 where a yield surface decides.
   Rows elastic_range() const;
 };
 

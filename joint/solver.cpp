@@ -77,7 +77,7 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
-  // Friction knows its caps a round late. At rest and in even motion the first is right.
+  // Coulomb's cap is that of the round before. At rest and in even motion the first is right.
   for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);
     if (round == 8) break;
@@ -119,7 +119,7 @@ void Solver::advance() {
   remember_turn_rates(*this, turned_);
   if (predicted_) prediction_.fit();
   for (Joint& j : own_joints()) {
-    // The rate in the rows' direction at the step's start, where it tells what their turning makes of it.
+    // The rate in the rows' direction at the step's start, where it shows what their turning makes of it.
     Rows before_turn{};
     const bool turns = j.regime != 0 || j.is_overdamped();
     if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);

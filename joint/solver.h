@@ -1,5 +1,5 @@
 // One time step of a whole structure as one convex problem (objective.h), without an engine. This is the
-// façade: it holds the parts and says in which order they work.
+// façade: it holds the parts and states the order in which they may be called.
 //
 //   call             may follow                         does
 //   form(n)          filling in bodies, joints,         inverse masses, effective masses, pattern of H;

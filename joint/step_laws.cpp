@@ -17,7 +17,7 @@ constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
 constexpr double delta_time = 0.5;  // s that δ is kept beyond its need
 
-// What a row is strained beyond what its force tells, m or rad.
+// The strain of a row beyond that of its force, m or rad.
 double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
   return r.gap[i] - j.neutral[i] - j.impulse[i] / (r.law.h * r.law.spring[i]);
 }

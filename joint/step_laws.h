@@ -32,7 +32,7 @@ class StepLaws {
     for (unsigned i = 0; i < 3; ++i)
       j.bias[i] = j.relaxation[i] * (gap[i] - j.neutral[i] + j.trend[i]) - j.carry[i] * j.rate[i];
   }
-  /// What a joint has of its law at hand.
+  /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) { tape(h_, known_, delta_, unneeded_, drift_time); }
   /// A joint's law anew, of this step, as its material was changed.

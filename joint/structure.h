@@ -12,7 +12,7 @@
 
 namespace ductile::dynamics {
 
-/// A body that is in a node keeps a mark, by which it is told from another one that was made at its address.
+/// Marks a body as one of a node: a body that is made later at the same address has no mark.
 void mark(b2Body& body);
 
 /// The island that b2World is solving, and what of it is one problem.
@@ -24,7 +24,7 @@ struct Island {
   std::vector<StockJoint> stock;  // that hold its pieces, and what touches these
 };
 
-/// What the game is told and asked.
+/// Events that wait for update(), and the handlers of the game.
 struct Events {
   std::function<void(const JointEvent&)> handler;
   std::function<bool(const ElasticPlasticJoint&)> veto;
@@ -67,7 +67,8 @@ struct Structure::Impl {
   /// With its world, or with all bodies of it, or alone.
   void watch_is_gone(bool with_world);
   std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
-  /// Whose joints a body has: no two structures share one, so its first tells. Null: nobody's.
+  /// The structure whose joints a body has, by its first one, as no two structures share a body; null where
+  /// there is none.
   static const Impl* structure_of(const b2Body& body);
   /// Whether a structure has joints on the body that is not this one.
   bool is_of_another(const b2Body& body) const;
@@ -90,12 +91,12 @@ struct Structure::Impl {
   void update();
   void shift_origin(const b2Vec2& new_origin, dynamics::Member& caller);
   std::size_t bytes() const;
-  /// update() has told and done all of the last step.
+  /// Whether update() has delivered all events of the last step and removed what broke.
   bool told_all() const;
   /// All bodies of the world go, unannounced.
   void clear();
   JointEnergy energy() const;
-  /// Plastic work that no joint tells any more, J.
+  /// Books plastic work that no joint reports any more, J.
   void count_as_gone(double dissipated) { gone_.dissipated += dissipated; }
 
   b2World* world;  // nullptr once it is gone, as far as known: that takes a watch
@@ -109,7 +110,7 @@ struct Structure::Impl {
   dynamics::Events events;
   dynamics::Reports reports;
   dynamics::Nodes nodes;
-  /// Stops a body of the island at hand whose velocity is no finite number: it would spread to all that hangs
+  /// Stops a body of the island whose velocity is no finite number: it would spread to all that hangs
   /// together, for good.
   void stop_if_not_finite(b2Body& body, const b2SolverData& data);
 

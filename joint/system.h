@@ -214,7 +214,7 @@ inline double strain_of_bias(const Joint& j, unsigned i) {
 
 /// The elastic strain at the end of the last step, m or rad: that of the biases; in implicit rows R/k, beside
 /// heavy dampers no more than R/k. The gap itself may be more there: turning bodies part along their tangents
-/// in a step, by r(ωh)²/2, before the next one brings them back.
+/// in a step, by r(ωh)²/2, before the next step closes them.
 inline double elastic_strain(const Joint& j, const JointRecord& r, unsigned i) {
   if (!(j.relaxation[i] > 0) || is_slack(j, r, i)) return 0;
   if (r.law.delta[i] < 1) return strain_of_bias(j, i);

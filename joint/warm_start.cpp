@@ -81,7 +81,7 @@ void LinearPrediction::fit() {
   }
 }
 
-// L D Lᵀ; a trifle on the diagonal keeps terms out that rounding alone tells apart. False where nothing
+// L D Lᵀ; a trifle on the diagonal keeps terms out that differ by rounding alone. False where nothing
 // moves, or nothing is finite.
 bool LinearPrediction::solve(int n, double (&a)[terms]) const {
   double l[terms][terms], inverse[terms], x[terms] = {};
@@ -103,7 +103,7 @@ bool LinearPrediction::solve(int n, double (&a)[terms]) const {
     for (int k = i + 1; k < n; ++k) x[i] -= l[k][i] * x[k];
   }
   // What was thrown out of a standstill became a huge multiple of what it was, and will not do that again.
-  // Where modes are told from each other, the a_k are of the order of 1.
+  // Where modes can be distinguished, the a_k are of the order of 1.
   const bool sane = std::all_of(x, x + n, [](double value) { return std::abs(value) <= 100; });
   if (sane) std::copy_n(x, n, a);
   return true;

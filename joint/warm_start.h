@@ -3,7 +3,7 @@
 // What swings freely or is driven steadily is a sum of few modes, each a geometric sequence from step to
 // step:
 //   v_next = v + Σ a_k ∇ᵏv   with k = 0 … 6 and ∇ the difference from the step before.
-// The a_k are those that would have told best what the last steps became: least squares in the norm of
+// The a_k are those that would have predicted the last steps best: least squares in the norm of
 // kinetic energy, each step counting half as much as the one after it. Of v itself instead of its differences
 // the normal equations would be singular to rounding. Polynomials (all a_k = 1) miss what swings by its (ωh)
 // to the power of their order, and a solve that starts there needs more rounds, or a factor, than this costs.
@@ -38,7 +38,7 @@ class LinearPrediction {
  private:
   /// With 5, a step of a swaying frame of 2000 joints costs a fifth more.
   static constexpr int terms = 7;
-  static constexpr std::size_t sampled = 4;  // bodies, or a tenth of them, tell of the few a_k what all would
+  static constexpr std::size_t sampled = 4;  // bodies, or a tenth of them, determine the few a_k as all would
   struct Sample {
     std::size_t body;
     Vec3 mass;

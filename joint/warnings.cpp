@@ -1,4 +1,4 @@
-// What a designer should be told, in words.
+// Warnings to a designer: what went wrong, and what to do about it.
 
 #include <algorithm>
 #include <cstdarg>

@@ -27,7 +27,7 @@ class WorldArchive {
   // In this order; joints between contacts and motion.
   void settings(Archive& archive);
   void bodies(Archive& archive);
-  /// Before joints: these tell bodies not to collide.
+  /// Must come before the joints, which may keep bodies from colliding.
   void contacts(Archive& archive);
   /// A joint of Box2D's, as number `index`; made where it is read.
   void stock_joint(Archive& archive, b2Joint* joint);
@@ -35,7 +35,7 @@ class WorldArchive {
   void motion(Archive& archive);
 
   b2World& world() { return world_; }
-  /// Destroys all bodies but watches, and tells nobody.
+  /// Destroys all bodies but watches, without calling a listener.
   static void clear(b2World& world);
   std::vector<b2Body*> all_bodies;
   std::vector<b2Joint*> all_joints;

@@ -127,7 +127,7 @@ struct LeaveOut {
   double impact = 0;        ///< J that may hit a structure beside what is loose in the scene
   double seconds = 0;  ///< of the runs that confirm it; 0: 5 s more than until all loads have come and gone
   Stepping stepping = {};
-  std::function<void(double share, const std::string& what)> progress = {};  ///< told now and then
+  std::function<void(double share, const std::string& what)> progress = {};  ///< called from time to time
 };
 
 /// A plan that does without what its scene does not need, and what to run it with.

@@ -25,8 +25,8 @@ struct Level {
 };
 
 /// Makes a level in `world` and sets the world's gravity: a scene file with the drawings that it names, or a
-/// R.U.B.E. scene (docs/files/rube.md) whose bodies name materials. Files are told apart by what is in them.
-/// Throws InvalidInput with every problem, before the world has changed.
+/// R.U.B.E. scene (docs/files/rube.md) whose bodies name materials. The content of a file decides which it
+/// is. Throws InvalidInput with every problem, before the world has changed.
 Level load(b2World& world, const std::filesystem::path& file, const StructureDef& def = {});
 /// The same from memory; `name` is what problems call it, `folder` what the files that it names are relative
 /// to.

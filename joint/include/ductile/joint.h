@@ -35,8 +35,8 @@ struct JointRecord;
 struct Member;
 }  // namespace dynamics
 
-/// What a joint has been through: to keep it with a level, to begin with a bent bridge, to damage and to
-/// repair. By row: m, m, rad.
+/// The state of a joint: to store it with a level, to begin with a bent bridge, to damage and to repair. By
+/// row: m, m, rad.
 struct JointState {
   double elastic[3] = {};  ///< strain that its force stands for
   double plastic[3] = {};  ///< net offset of B against A
@@ -89,7 +89,7 @@ struct ElasticPlasticJointDef : b2JointDef {
 /// just work, and so do its base class's calls; GetType() says e_weldJoint (use ElasticPlasticJoint::cast).
 class ElasticPlasticJoint : public b2WeldJoint {
  public:
-  /// The joint as what it is, or nullptr when it is another one.
+  /// The joint as an elastic-plastic one; nullptr where it is another.
   static ElasticPlasticJoint* cast(b2Joint* joint);
 
   std::uint32_t id() const;  ///< unique in its structure, never used again
@@ -103,8 +103,8 @@ class ElasticPlasticJoint : public b2WeldJoint {
 
   // Deformation.
   double elastic(Row row) const;  ///< m, m, rad: the elastic part now
-  /// m, m, rad: the row's coordinate (u, v, θ) where it is without force: the length of a rope, how far a
-  /// drive has got.
+  /// m, m, rad: the row's coordinate (u, v, θ) where it is without force: the length of a rope, the
+  /// position of a drive.
   double neutral(Row row) const;
   double plastic(Row row) const;        ///< m, m, rad: net plastic offset, b against a
   double accumulated_rotation() const;  ///< rad: Σ|plastic rotation|
@@ -203,7 +203,7 @@ struct JointEvent {
   double energy = 0;                     ///< J dissipated by the joint so far
   double worked = 0;                     ///< J of plastic work of the joint since its last event
   double released = 0;  ///< J: elastic energy of the joint that its breaking has set free; else 0
-  b2Vec2 at{0, 0};      ///< m, world: the joint's anchor when told
+  b2Vec2 at{0, 0};      ///< m, world: the joint's anchor when the event is delivered
 };
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -218,7 +218,7 @@ struct StructureDef {
 
 /// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
 /// the bodies since the start is elastic + dissipated + damping + numerical, of which `driven` came from
-/// bodies that move as they are told.
+/// drives and from bodies of prescribed velocity.
 struct JointEnergy {
   double elastic = 0;  ///< stored now: ½ Σ k e²
   double dissipated =
@@ -237,14 +237,14 @@ struct StepReport {
   int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
   int factorisations = 0;
   int projections = 0;  ///< pushes by contacts that were spread through the structure
-  int bounds_hit = 0;   ///< solves and pushes that did not end in time; 0 in every scene that we know of
-  int parted = 0;       ///< of them, pushes that no pose could follow: the joints' neutral positions did
+  int bounds_hit = 0;   ///< solves and projections that ended at their bound of iterations; 0 in every scene
+  int parted = 0;       ///< of these the projections: their gaps became the joints' neutral positions
   double residual = 0;  ///< largest relative residual of a solve
   double slowed = 0;    ///< share of a component's kinetic energy that Box2D's speed limits took, at most
 };
 
-/// The joints of one world that are kept honest together. It finds by itself which bodies hang together, and
-/// anew when joints break, come or go and when bodies change. Make one per world, before its joints; destroy
+/// The joints of one world, solved together. The structure finds which bodies hang together, and does so
+/// again when joints break, come or go and when bodies change. Make one per world, before its joints; destroy
 /// it before the world or after it, as you like. A world may have several, but a dynamic body joints of one.
 ///
 /// In the world it keeps one disabled static body without user data, the last in the list of bodies, by which
@@ -290,7 +290,7 @@ class Structure {
 
   /// Call after b2World::Step: delivers events, destroys broken joints and joins nodes anew. Within a handler
   /// it does nothing. Throws std::logic_error while the world is stepping, and what a handler throws: then
-  /// the events that are left are told, and broken joints destroyed, by the next call.
+  /// the next call delivers the remaining events and destroys broken joints.
   void update();
 
   /// Called by update() for every event. It may destroy any joint or body.
@@ -321,7 +321,7 @@ class Structure {
 /// A world at one moment with all that is in it, its structures too: for rollback netcode, rewinding and
 /// undo. After restore() the world runs on as it did after save(), to the bit, whatever happened in between:
 /// what was made since is gone, what went is back at its address (bodies, fixtures, contacts, broken joints).
-/// Nobody is told: no listener is called, and what a game keeps beside the world is the game's to bring back.
+/// No listener is called, and the game restores what it keeps beside the world itself.
 ///
 /// Costs a copy of the world's memory. Chain shapes and structures must be the same at both moments.
 class Snapshot {

@@ -14,7 +14,7 @@ struct ReportOptions {
   bool quick = false;         ///< fewer sizes and shorter runs: at most a minute
   std::string only;           ///< the name of one case; empty: all
   std::string plotly;         ///< the text of plotly.js, which goes into the page
-  std::function<void(const std::string& what, double share)> progress;  ///< told now and then; may be empty
+  std::function<void(const std::string& what, double share)> progress;  ///< called now and then; or empty
 };
 
 /// The text of plotly.js, basic bundle: from the user's cache, where npm brings it the first time. Throws

@@ -1,5 +1,5 @@
 // For programs that hold their outlines as CGAL polygons. Optional: nothing else in ductile includes this, so
-// nobody else waits for CGAL to compile. Any kernel; its coordinates are rounded to double. LGPL parts of
+// only code that includes it compiles CGAL. Any kernel; its coordinates are rounded to double. LGPL parts of
 // CGAL only.
 #pragma once
 
