@@ -472,6 +472,18 @@ TEST(InteriorPoint, FindsWhatBruteForceFinds) {
   EXPECT_GT(flowing_rows, 150);
 }
 
+// What no cap limits has no Σ z p that a round could be judged by.
+TEST(InteriorPoint, SolvesWhatNothingLimits) {
+  Problem problem = random_structure(40677, Laws::caps);
+  for (const JointRecord& r : problem.system.records) {
+    for (unsigned i = 0; i < 3; ++i) ASSERT_TRUE(r.law.G[i] == 0 || std::isinf(r.law.cap[i]));
+  }
+  const InteriorPoint::Outcome outcome = problem.solve();
+  const Certificate c = certify(problem);
+  EXPECT_TRUE(outcome.reached);
+  EXPECT_LE(c.gap, 1e-12 * c.scale + c.rounding);
+}
+
 // Inertia C against a change of relative turn is a row of G = C without caps that is at rest at its rate.
 // Velocities of both are good to the root of twice their gaps.
 TEST(InteriorPoint, KnowsTurnInertias) {
