@@ -176,6 +176,18 @@ class Replay(unittest.TestCase):
             dark.click(*dark.middle("#theme"))
             self.assertEqual(dark.evaluate(ground), light)
 
+    def test_fits_a_telephone(self):
+        """Nothing is wider than the screen, and every control is on it."""
+        with Page(self.file, width=390, height=844, scale=2) as page:
+            page.wait_for(READY)
+            boxes = page.evaluate("""[...document.querySelectorAll('footer button, footer select, footer input, #scene')].map(
+                (control) => { const r = control.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; })""")
+            self.assertGreater(len(boxes), 8)
+            for left, top, right, bottom in boxes:
+                self.assertTrue(0 <= left < right <= 390 and 0 <= top < bottom <= 844, (left, top, right, bottom))
+            self.assertEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
+            self.assertGreater(page.evaluate("document.getElementById('scene').clientHeight"), 844 / 3)
+
     def test_could_not_ask_if_it_wanted_to(self):
         with Page(self.file) as page:
             page.wait_for(READY)
