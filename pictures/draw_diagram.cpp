@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "diagram.h"
 #include "ductile/plane.h"
+#include "ductile/strips.h"
 
 namespace ductile::picture {
 namespace {

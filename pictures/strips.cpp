@@ -1,4 +1,4 @@
-#include "diagram.h"
+#include "ductile/strips.h"
 
 #include <algorithm>
 #include <cmath>
