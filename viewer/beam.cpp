@@ -46,7 +46,8 @@ BeamStyle style_of(const BodyDef& beam) {
           .height = height_of(beam),
           .depth = beam.depth,
           .profile = beam.profile_name,
-          .pieces = beam.pieces};
+          .pieces = beam.pieces,
+          .solid = beam.collides};
 }
 
 void lay(BodyDef& beam, const Axis& axis, const BeamStyle& style) {
@@ -62,6 +63,7 @@ void lay(BodyDef& beam, const Axis& axis, const BeamStyle& style) {
   beam.material = style.material;
   beam.depth = style.depth;
   beam.pieces = style.pieces;
+  beam.collides = style.solid;
   lay(beam, axis, height);
 }
 

@@ -29,6 +29,7 @@ struct BeamStyle {
   double height = 0.2, depth = 0.1;  ///< m, of a rectangle, in the plane and out of it
   std::string profile;               ///< the name of a profile instead; empty: a rectangle
   int pieces = 6;
+  bool solid = true;  ///< false: everything passes it, as what runs on a bridge passes its truss
 };
 
 /// The axis of a body that is a beam, a rectangle that begins at its own origin; nothing of another.

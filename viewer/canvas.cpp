@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ductile/colours.h"
+#include "ductile/picture.h"
 #include "quantity.h"
 
 namespace ductile::viewer {
@@ -53,6 +54,8 @@ void Canvas::draw(ImDrawList& to, const Workbench& bench, const Camera& camera, 
   pieces();
   thrown();
   joints();
+  collapse();
+  if (look.diagram) diagram();
   if (look.loads) loads();
   if (look.forces || look.moments) forces();
   chosen(pointed);
@@ -84,6 +87,12 @@ void Canvas::prepare(const Workbench& bench) {
   }
 }
 
+double Canvas::shown_stage(std::size_t joint) const {
+  const Frame& frame = bench_->frame();
+  const bool peak = look_.peaks && !frame.peaks.empty();
+  return peak ? static_cast<double>(frame.peaks[joint]) : stage(frame.joints[joint]);
+}
+
 void Canvas::pieces() {
   const Frame& frame = bench_->frame();
   for (std::size_t i = 0; i < skins_.size(); ++i) {
@@ -91,7 +100,7 @@ void Canvas::pieces() {
     const PieceReading& now = frame.pieces[i];
     double worst = 0;
     for (const std::size_t j : skin.joints) {
-      if (!frame.joints[j].broken) worst = std::max(worst, stage(frame.joints[j]));
+      if (look_.peaks || !frame.joints[j].broken) worst = std::max(worst, shown_stage(j));
     }
     const ImU32 fill = skin.moves ? rgb(stage_colour(worst)) : ink::fixed;
     const float width = f(ui_);
@@ -140,7 +149,8 @@ void Canvas::thrown() {
     if (list[i].square) {
       points_.clear();
       for (const Point corner : {Point{-1, -1}, Point{1, -1}, Point{1, 1}, Point{-1, 1}}) {
-        points_.push_back(px(camera_.to_screen(centre + half * (turn * corner))));
+        const Point at = half * Point{corner.x, list[i].flat * corner.y};
+        points_.push_back(px(camera_.to_screen(centre + turn * at)));
       }
       to_->AddConvexPolyFilled(points_.data(), 4, fill);
       to_->AddPolyline(points_.data(), 4, ink::edge, ImDrawFlags_Closed, f(ui_));
@@ -169,7 +179,7 @@ void Canvas::joints() {
       }
       continue;
     }
-    const ImU32 colour = rgb(stage_colour(stage(joint)));
+    const ImU32 colour = rgb(stage_colour(shown_stage(i)));
     if (const PlannedJoint& line = bench_->plan().joints[i]; line.end) {
       const Point from = camera_.to_screen(carried(bench_->plan(), line.a, line.anchor, frame));
       const Point to = camera_.to_screen(carried(bench_->plan(), line.b, *line.end, frame));
@@ -190,6 +200,33 @@ void Canvas::joints() {
       to_->AddCircleFilled(px(at), radius, colour);
       to_->AddCircle(px(at), radius, ink::edge, 0, f(ui_));
     }
+  }
+}
+
+// Where a collapse takes the pieces, about a tenth of the structure far, and the joints that flow in it.
+void Canvas::collapse() {
+  const LimitAnalysis* found = bench_->collapse();
+  if (!found || bench_->run().cursor() > 0) return;
+  const Plan& plan = bench_->plan();
+  const double times = exaggeration(plan, found->mechanism);
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    const Motion& motion = found->mechanism[i];
+    constexpr double still = 1e-6;  // of the largest, which is 1
+    if (std::abs(motion.turn) < still && length(motion.along) < still) continue;
+    const Point centre = plan.pieces[i].center + times * motion.along;
+    for (const Ring& ring : skins_[i].edges) {
+      points_.clear();
+      // To first order, as the mechanism is: what turns by a small angle moves at a right angle to its arm.
+      for (const Point p : ring)
+        points_.push_back(px(camera_.to_screen(centre + p + times * motion.turn * left(p))));
+      to_->AddPolyline(points_.data(), static_cast<int>(points_.size()), ink::accent, ImDrawFlags_Closed,
+                       f(1.5 * ui_));
+    }
+  }
+  for (const int hinge : found->hinges) {
+    const ImVec2 at = px(camera_.to_screen(placed_[static_cast<std::size_t>(hinge)].anchor));
+    to_->AddCircleFilled(at, f(6 * ui_), ink::ground);
+    to_->AddCircle(at, f(6 * ui_), rgb(stage_colour(1.9)), 0, f(2.5 * ui_));
   }
 }
 

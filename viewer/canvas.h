@@ -12,6 +12,8 @@ namespace ductile::viewer {
 /// What of the scene is drawn.
 struct Look {
   bool forces = false, moments = false, loads = true, names = false;
+  bool peaks = false;          ///< colours tell the farthest that each joint has been so far, not where it is
+  std::optional<Row> diagram;  ///< of what pieces carry between their joints
   double force_scale = 1, moment_scale = 1;
   enum class Numbers { none, selected, all } numbers = Numbers::selected;
   enum class As { value, share } as = As::share;
@@ -25,8 +27,12 @@ class Canvas {
 
  private:
   void prepare(const Workbench& bench);
+  /// What the colour of a joint tells.
+  double shown_stage(std::size_t joint) const;
   void pieces();
   void joints();
+  void collapse();
+  void diagram();
   void forces();
   void loads();
   void thrown();

@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <optional>
 
+#include "crossing.h"
 #include "pick.h"
 #include "quantity.h"
 
@@ -214,10 +215,13 @@ void Desk::centre(const Bounds& box) {
   canvas_.draw(to, bench_, camera_, look_, hand_, ui_, pointed);
   constexpr std::array solvers{"direct", "iterative", "stock"};
   const std::string title =
-      fmt::format("{}{}   {:.3f} s   {} solver{}", bench_.file().filename().string(),
+      fmt::format("{}{}   {:.3f} s   {} solver{}{}", bench_.file().filename().string(),
                   bench_.changed() ? " (changed)" : "", bench_.frame().time,
-                  solvers[static_cast<std::size_t>(bench_.solver())], placing_ ? "   click: a mass" : "");
+                  solvers[static_cast<std::size_t>(bench_.solver())], look_.peaks ? "   peaks so far" : "",
+                  placing_ ? "   click: a mass" : "");
   to.AddText(px(box.low + ui_ * Point{12, 10}), ink::edge, title.c_str());
+  if (!making)
+    to.AddText(px(box.low + ui_ * Point{12, 28}), ink::edge, crossing_text(bench_.frame()).c_str());
   if (making) draw_making(to);
   // Beside a tool it would cover what is being made.
   const bool asks = maker_.tool() == Maker::Tool::none || (!maker_.start() && rests_ > 0.8);

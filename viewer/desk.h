@@ -69,6 +69,9 @@ class Desk {
   void copy();
   void cut();
   void line_style();
+  void block_style();
+  void size_for_reserve(const BodyDef& body);
+  void body_type(SceneDef& scene, BodyDef& body);
   void beam_style(BeamStyle& style);
   bool section_style(BeamStyle& style);
   void beam_section(const SceneDef& scene, const BodyDef& beam);
@@ -124,6 +127,7 @@ class Desk {
   double rests_ = 0;         // s since the pointer moved
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
+  double reserve_ = 1.5;  // that a body is sized for
   bool placing_ = false, helping_ = false, exporting_ = false;
   enum class Panel { view, details, time, scene } panel_ = Panel::view;  // that has the keys
   bool popup_ = false;                                                   // a list or menu has them

@@ -86,6 +86,14 @@ void Desk::draw_making(ImDrawList& to) const {
   for (const SupportDef& support : scene.supports)
     draw_support(to, support, camera_.to_screen(support.at), ui_);
   const Point cursor = maker_.cursor(), at = camera_.to_screen(cursor);
+  if (const Ring& corners = maker_.corners(); !corners.empty()) {
+    for (const Point corner : corners) {
+      to.PathLineTo(px(camera_.to_screen(corner)));
+      to.AddCircleFilled(px(camera_.to_screen(corner)), f(4), ink::accent);
+    }
+    to.PathLineTo(px(at));
+    to.PathStroke(ink::accent, 0, f(2));
+  }
   const Point across{7 * ui_, 0}, up{0, 7 * ui_};
   to.AddLine(px(at - across), px(at + across), ink::accent, f(2));
   to.AddLine(px(at - up), px(at + up), ink::accent, f(2));

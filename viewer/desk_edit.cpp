@@ -9,6 +9,7 @@
 #include "desk.h"
 #include "quantity.h"
 #include "rows.h"
+#include "sizing.h"
 
 namespace ductile::viewer {
 
@@ -41,6 +42,7 @@ void Desk::edit() {
   }
   tip("body", "Which body is edited; a click on one in the scene chooses it too.");
   BodyDef& body = scene.bodies[at];
+  body_type(scene, body);
   material(scene, body);
   if (axis_of(body)) {
     beam_section(scene, body);
@@ -54,9 +56,38 @@ void Desk::edit() {
     tip("pieces", "Into how many equal pieces the body is split.");
     commit(changed, scene);
   }
+  size_for_reserve(scene.bodies[at]);
   ImGui::Separator();
   limits(scene);
   ImGui::PopItemWidth();
+}
+
+void Desk::body_type(SceneDef& scene, BodyDef& body) {
+  int type = static_cast<int>(body.type);
+  if (!choose("type", "Whether it stands still, moves, or goes its way whatever hits it.", type,
+              {"stands still", "moves", "goes its way"}))
+    return;
+  body.type = static_cast<BodyType>(type);
+  if (!body.material) body.material = materials::S355;
+  commit(true, scene);
+}
+
+// What carries the loads with something to spare.
+void Desk::size_for_reserve(const BodyDef& body) {
+  if (body.type != BodyType::dynamic_body) return;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.3f);
+  slide("##reserve", reserve_, 0.1, 100, "%.3g times");
+  tip("reserve", "The factor on all loads that is to bring the first joint to yield.");
+  ImGui::SameLine();
+  if (!button("Size for it", "size for reserve",
+              "Gives the body the depth with which that factor on all loads is the first to make anything "
+              "yield; one with a rolled profile, the lightest of its series that bears it."))
+    return;
+  attempt(bench_, [&] {
+    Sized sized = with_reserve(bench_.scene(), body.name, reserve_);
+    bench_.edit(std::move(sized.scene));
+    tell(sized.what);
+  });
 }
 
 void Desk::beam_section(const SceneDef& scene, const BodyDef& beam) {

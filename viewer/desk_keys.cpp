@@ -4,6 +4,7 @@
 #include <array>
 
 #include "controls.h"
+#include "crossing.h"
 #include "desk.h"
 #include "pick.h"
 
@@ -73,6 +74,10 @@ void Desk::keys() {
   const Point target = over ? camera_.to_world(mouse) : camera_.centre;
   if (key(GLFW_KEY_SPACE)) hand_.throw_at(bench_, camera_, target);
   if (key(GLFW_KEY_M)) hand_.put(bench_, target);
+  if (key(GLFW_KEY_V)) {
+    take(Maker::Tool::none);
+    send_across(bench_, hand_.mass, hand_.size, hand_.drive);
+  }
   if (key(GLFW_KEY_LEFT_BRACKET)) bench_.open_neighbour(-1);
   if (key(GLFW_KEY_RIGHT_BRACKET)) bench_.open_neighbour(1);
   if (key(GLFW_KEY_Z, true)) camera_.zoom(1 / 1.1, camera_.screen.middle());
@@ -86,6 +91,19 @@ void Desk::keys() {
   if (key(GLFW_KEY_HOME)) camera_.show(extent(bench_.plan()));
   if (key(GLFW_KEY_F)) look_.forces = !look_.forces;
   if (key(GLFW_KEY_T)) look_.moments = !look_.moments;
+  if (key(GLFW_KEY_I)) {  // none, N, Q, M, none
+    const int next = look_.diagram ? static_cast<int>(*look_.diagram) + 1 : 0;
+    look_.diagram = next > static_cast<int>(rotation) ? std::nullopt : std::optional(static_cast<Row>(next));
+  }
+  if (key(GLFW_KEY_U)) look_.peaks = !look_.peaks;
+  if (key(GLFW_KEY_K)) {
+    if (bench_.collapse()) {
+      bench_.forget_collapse();
+      bench_.message.clear();
+    } else {
+      bench_.find_collapse();
+    }
+  }
   if (key(GLFW_KEY_N)) look_.numbers = static_cast<Look::Numbers>((static_cast<int>(look_.numbers) + 1) % 3);
   if (key(GLFW_KEY_H) || key(GLFW_KEY_F1)) helping_ = !helping_;
   if (key(GLFW_KEY_ESCAPE) && !made) {
@@ -118,9 +136,11 @@ void Desk::help() {
       Row{"Home", "all of the scene"},
       Row{"space", "throw a bomb at the pointer"},
       Row{"M", "put a mass at the pointer"},
+      Row{"V", "a vehicle that is to get across"},
       Row{"A  S  D", "drive on, brake, drive back"},
       Row{"F  T  N", "forces, moments, numbers"},
-      Row{"1 … 9", "look; beam, support, load; move; delete; line, weld; choose"},
+      Row{"U  K  I", "peaks of the run; how it collapses; N, Q, M diagrams"},
+      Row{"1 … 9  0", "look; beam, support, load; move; delete; line, weld; choose; block"},
       Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
       Row{"Enter", "with a tool: what a press and a release do"},
       Row{"Delete", "delete what is chosen or at the cursor, or the body"},

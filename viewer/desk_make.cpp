@@ -35,7 +35,9 @@ constexpr std::array tools{
     ToolButton{Tool::node, "8 weld", "tool node", "On a node: its beams are welded; once more: pinned (8)."},
     ToolButton{Tool::choose, "9 choose", "tool choose",
                "Drag a box around bodies, or click on one, to copy, mirror, turn, move or delete them; "
-               "shift: more (9)."}};
+               "shift: more (9)."},
+    ToolButton{Tool::block, "0 block", "tool block",
+               "Click corner after corner of a polygon, and its first or last one once more (0)."}};
 
 }  // namespace
 
@@ -69,6 +71,8 @@ void Desk::make() {
     tip("load force", "Of the next load, downwards.");
   } else if (maker_.tool() == Tool::line) {
     line_style();
+  } else if (maker_.tool() == Tool::block) {
+    block_style();
   } else {
     beam_style(maker_.style);
   }
@@ -130,6 +134,19 @@ void Desk::line_style() {
   tip("jack speed", "How fast it does.");
 }
 
+void Desk::block_style() {
+  BlockStyle& block = maker_.block;
+  int moves = block.fixed ? 0 : 1;
+  if (choose("block", "Whether the next polygon stands still, as a bank or a pier, or moves.", moves,
+             {"stands", "moves"}))
+    block.fixed = moves == 0;
+  if (block.fixed) return;
+  choose_material(block.material);
+  tip("block material", "Of the next polygon.");
+  slide("depth", block.depth, 0.001, 10, "%.3g m");
+  tip("block depth", "Of the next polygon, out of the plane.");
+}
+
 void Desk::start_new() {
   if (bench_.try_new()) take(Tool::beam);
 }
@@ -148,7 +165,7 @@ void Desk::take(Tool tool) {
 // True where a key was the tool's in the hand and nobody else's.
 bool Desk::make_keys() {
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (key(GLFW_KEY_1 + static_cast<int>(i))) take(tools[i].tool);
+    if (key(i < 9 ? GLFW_KEY_1 + static_cast<int>(i) : GLFW_KEY_0)) take(tools[i].tool);
   }
   if (maker_.tool() == Tool::none) {
     if (!key(GLFW_KEY_DELETE) || !bench_.body || !bench_.editable()) return false;
@@ -170,7 +187,8 @@ bool Desk::make_keys() {
     maker_.press(bench_);
     take(before);
   }
-  if (key(GLFW_KEY_ESCAPE)) maker_.start() ? maker_.cancel(bench_) : take(Tool::none);
+  if (key(GLFW_KEY_ESCAPE))
+    maker_.start() || !maker_.corners().empty() ? maker_.cancel(bench_) : take(Tool::none);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "controls.h"
+#include "crossing.h"
 #include "desk.h"
 #include "ductile/files.h"
 #include "exporting.h"
@@ -132,6 +133,13 @@ void Desk::show() {
   ImGui::SameLine();
   ImGui::Checkbox("names", &look_.names);
   tip("names", "Writes the joints' names beside them.");
+  ImGui::SameLine();
+  ImGui::Checkbox("peaks", &look_.peaks);
+  tip("peaks", "Colours tell how far each joint has ever been in this run, not where it is now (U).");
+  int diagram = look_.diagram ? 1 + static_cast<int>(*look_.diagram) : 0;
+  if (choose("diagram", "What the pieces carry between their joints, loads at their full size (I).", diagram,
+             {"none", "axial force N", "shear force Q", "moment M"}))
+    look_.diagram = diagram == 0 ? std::nullopt : std::optional(static_cast<Row>(diagram - 1));
   int numbers = static_cast<int>(look_.numbers), as = static_cast<int>(look_.as);
   if (choose("numbers", "Writes N, Q and M beside the joints (N). What would cover another is left out.",
              numbers, {"none", "selected", "all"})) {
@@ -161,6 +169,17 @@ void Desk::throwing() {
   if (button("Add mass", "add mass", "Then click where it is put (M: at the pointer).")) {
     placing_ = true;
   }
+  if (button("Vehicle", "vehicle",
+             "The run starts again with a vehicle of that mass and size (from wheel to wheel) on the left "
+             "end of what "
+             "moves; it is to get to the right end (V).")) {
+    take(Maker::Tool::none);
+    send_across(bench_, hand_.mass, hand_.size, hand_.drive);
+  }
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+  slide("drive", hand_.drive, 0.1, 50, "%.3g m/s");
+  tip("drive", "How fast the vehicle gets across.");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
   slide("grip", hand_.strength, 1, 1e5, "%.0f m/s²");
   tip("grip", "Greatest pull of the pointer on a body that is dragged, over its mass.");

@@ -76,7 +76,10 @@ bool Desk::choose_profile(std::string& profile) {
 }
 
 bool Desk::section_style(BeamStyle& style) {
-  bool changed = choose_profile(style.profile);
+  bool changed = ImGui::Checkbox("solid", &style.solid);
+  tip("beam solid",
+      "Things run on it and hit it. Where it is not, all passes it, as it passes a truss beside a road.");
+  changed |= choose_profile(style.profile);
   tip("beam section", "A rectangle, or a profile by its name.");
   if (!style.profile.empty()) return changed;
   changed |= slide("height", style.height, 0.01, 10, "%.3g m");

@@ -99,12 +99,17 @@ ViewCost view(const ViewDef& def) {
   std::vector<double> cost;
   ViewCost result;
   std::string title;
+  double looked = 0;  // at the disk, s of glfwGetTime()
   for (long frame = 0; !counted || frame <= def.frames; ++frame) {
     if (window.closing()) {
       if (bench.may_discard("close the window")) break;
       window.stay();
     }
     window.begin(!counted && !def.trace && !bench.playing && !bench.run().busy());
+    if (const double now = glfwGetTime(); !counted && now > looked + 0.5) {
+      looked = now;
+      bench.read_again_if_written();
+    }
     const ImGuiIO& io = ImGui::GetIO();
     if (counted) {
       if (frame > 0) bench.tick(bench.run().stepping().dt, 1e9);  // one step a frame

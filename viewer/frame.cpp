@@ -4,7 +4,7 @@ namespace ductile::viewer {
 
 std::size_t Frame::size() const {
   return sizeof *this + pieces.capacity() * sizeof pieces[0] + joints.capacity() * sizeof joints[0] +
-         thrown.capacity() * sizeof thrown[0];
+         peaks.capacity() * sizeof peaks[0] + thrown.capacity() * sizeof thrown[0];
 }
 
 Frame see(Simulation& simulation) {

@@ -1,6 +1,7 @@
 // What there was to see after a step: enough to draw the scene and to read every number of it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ductile/ledger.h"
@@ -14,14 +15,27 @@ struct Pose {
   double angle = 0;
 };
 
+/// How far the first vehicle that was sent across has come.
+struct Crossing {
+  double share = 0;  ///< of the way, from 0 to 1
+  enum class State {
+    on_its_way,
+    across,
+    down  ///< on its roof, or its middle deeper below the lowest point of its road as drawn than half its
+          ///< length
+  } state = State::on_its_way;
+};
+
 struct Frame {
   double time = 0;  ///< s
   std::vector<PieceReading> pieces;
   std::vector<JointReading> joints;
-  std::vector<Pose> thrown;  ///< bodies that a user added while it ran
-  Energy energy;             ///< with the direct solver all of it, else what is stored and dissipated
-  StepReport report;         ///< zero with stock joints
-  double step_us = 0;        ///< µs: b2World::Step alone
+  std::optional<Crossing> crossing;  ///< once across or down, it stays so
+  std::vector<float> peaks;          ///< of each joint, the farthest stage (colours.h) so far
+  std::vector<Pose> thrown;          ///< bodies that a user added while it ran
+  Energy energy;                     ///< with the direct solver all of it, else what is stored and dissipated
+  StepReport report;                 ///< zero with stock joints
+  double step_us = 0;                ///< µs: b2World::Step alone
 
   /// Bytes of memory.
   std::size_t size() const;

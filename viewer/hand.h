@@ -11,6 +11,7 @@ class Hand {
  public:
   /// What is thrown next.
   double mass = 1000, size = 1, speed = 20;  ///< kg, m, m/s
+  double drive = 5;                          ///< m/s: how fast a vehicle gets across
   /// Greatest force on what is dragged, over its mass, m/s².
   double strength = 1000;
 

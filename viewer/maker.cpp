@@ -30,6 +30,7 @@ Point Maker::snapped(const Workbench& bench, Point at, double reach) const {
     nearest = p;
   };
   for (const Point node : nodes(scene)) offer(node);
+  for (const Point corner : corners_) offer(corner);
   if (nearest) return *nearest;
   const Point on_grid{grid * std::round(at.x / grid), grid * std::round(at.y / grid)};
   const bool on_things = tool_ == Tool::support || tool_ == Tool::load || tool_ == Tool::remove ||
@@ -88,6 +89,8 @@ void Maker::press(Workbench& bench) {
     case Tool::move:
     case Tool::choose:
       return begin(bench);
+    case Tool::block:
+      return attempt(bench, [&] { add_corner(bench); });
     case Tool::paste:
     case Tool::mirror:
     case Tool::turn:
@@ -121,6 +124,19 @@ void Maker::click(Workbench& bench) const {
   }
   if (tool_ == Tool::node) bench.edit(with_weld_or_pin(scene, cursor_));
   if (tool_ == Tool::remove) bench.edit(without(scene, cursor_));
+}
+
+// Another one at the first or the last corner closes the polygon.
+void Maker::add_corner(Workbench& bench) {
+  if (corners_.empty() || !(is_same(cursor_, corners_.front()) || is_same(cursor_, corners_.back()))) {
+    corners_.push_back(cursor_);
+    return;
+  }
+  if (corners_.size() < 3) {
+    if (corners_.size() > 1) corners_.pop_back();
+    return;
+  }
+  bench.edit(with_block(bench.scene(), std::exchange(corners_, {}), block));
 }
 
 bool Maker::interrupted(const Workbench& bench) {
@@ -203,6 +219,7 @@ void Maker::choose_between(const Workbench& bench, bool add) {
 }
 
 void Maker::cancel(Workbench& bench) {
+  corners_.clear();
   if (!start_ || interrupted(bench)) return;
   if (drawn_) bench.undo();
   start_.reset();

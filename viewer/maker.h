@@ -14,10 +14,11 @@ namespace ductile::viewer {
 
 class Maker {
  public:
-  enum class Tool { none, beam, support, load, move, remove, line, node, choose, paste, mirror, turn };
+  enum class Tool { none, beam, support, load, move, remove, line, node, choose, block, paste, mirror, turn };
 
   BeamStyle style;
   LineStyle line;
+  BlockStyle block;
   double force = 100e3;    ///< N, downwards
   double stiffness = 1e6;  ///< N/m, of the next springs
   double grid = 0.5;       ///< m
@@ -30,6 +31,9 @@ class Maker {
   Point cursor() const { return cursor_; }
   /// Where what is being drawn or moved was begun.
   std::optional<Point> start() const { return start_; }
+
+  /// Corners of the polygon that is being drawn, so far.
+  const Ring& corners() const { return corners_; }
 
   /// The cursor goes to the node nearest to a point within `reach`, m, or else to the nearest point of the
   /// grid; with a tool that needs something there, to the nearest beam within `reach` where nothing is at
@@ -65,6 +69,7 @@ class Maker {
   SceneDef drawn(std::vector<std::string>& chosen) const;
   SceneDef without_chosen(SceneDef scene) const;
   void click(Workbench& bench) const;
+  void add_corner(Workbench& bench);
   void choose_between(const Workbench& bench, bool add);
   /// Another scene, an undo or a restart has come between: what was being drawn is no more.
   bool interrupted(const Workbench& bench);
@@ -77,6 +82,7 @@ class Maker {
   bool drawn_ = false;   // it is on the bench
   int edition_ = 0;      // of the bench, since the press or the last drawing
   std::string problem_;  // why it is not
+  Ring corners_;
   std::vector<std::string> chosen_;
   SceneDef copied_;
 };

@@ -78,6 +78,25 @@ SceneDef with_beam(SceneDef scene, const Axis& axis, const BeamStyle& style) {
   return scene;
 }
 
+SceneDef with_block(SceneDef scene, const Ring& corners, const BlockStyle& style) {
+  BodyDef block;
+  block.name = unused_name(scene, "block");
+  block.outline.outer = corners;
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area += cross(corners[i], corners[(i + 1) % corners.size()]);
+  if (area < 0) std::reverse(block.outline.outer.begin(), block.outline.outer.end());
+  block.depth = style.depth;
+  block.material = style.material;
+  if (style.fixed) block.type = BodyType::static_body;
+  scene.bodies.push_back(block);
+  if (!style.fixed) return scene;
+  for (const Point node : nodes(scene)) {
+    if (covers(block, node)) pin(scene, node);
+  }
+  return scene;
+}
+
 SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
   JointBetweenDef joint;
   const std::string remedy = "begin and end it on beams, bodies or the ground";

@@ -19,6 +19,13 @@ struct LineStyle {
   double speed = 0.1;    ///< m/s, of a jack
 };
 
+/// What a polygon is made of.
+struct BlockStyle {
+  bool fixed = true;  ///< it stands still: a bank, a pier, a wall
+  Material material = materials::S355;
+  double depth = 1;  ///< m, out of the plane
+};
+
 /// A floor, and nothing else.
 SceneDef empty_scene();
 
@@ -31,6 +38,9 @@ std::string unused_name(const SceneDef& scene, std::string stem);
 
 /// One beam more, which touches no other but is pinned to all that are at its ends, and to static bodies.
 SceneDef with_beam(SceneDef scene, const Axis& axis, const BeamStyle& style);
+/// A body more, of these corners in either sense, which touches no other; one that stands still holds the
+/// beams whose ends are in it.
+SceneDef with_block(SceneDef scene, const Ring& corners, const BlockStyle& style);
 /// A line from the body at one point to that at another, free to turn at both.
 SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style);
 /// The body at a point is held there: first by a hinge, then by a roller that lets it slide along, then
@@ -38,7 +48,8 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style);
 SceneDef with_next_support(SceneDef scene, Point at, double stiffness);
 /// A force on the body at a point instead of the one that is there; none: no more.
 SceneDef with_load(SceneDef scene, Point at, Point force);
-/// The bodies of a node are welded, where they were pinned, or pinned again.
+/// The bodies of a node are welded, where they were pinned, or pinned again. Elsewhere two bodies that touch
+/// at a point, at least one of which moves, are joined along their edges, or no more.
 SceneDef with_weld_or_pin(SceneDef scene, Point at);
 /// A beam is of another section or material.
 SceneDef with_style(SceneDef scene, const std::string& beam, const BeamStyle& style);

@@ -36,16 +36,44 @@ Opened level_of(std::string_view text, const std::filesystem::path& file) {
           file,
           "A level is run and looked into here; what it is made of is edited where it comes from.",
           parse_plan(text, file.string(), file.parent_path()),
+          {},
           {}};
+}
+
+/// Files that a scene's strings name, with or without a shape of them: "crane.svg#jib".
+std::vector<std::filesystem::path> named_in(std::string_view text, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (std::size_t open = text.find('"'); open != text.npos;) {
+    const std::size_t close = text.find('"', open + 1);
+    if (close == text.npos) break;
+    const std::string_view word = text.substr(open + 1, close - open - 1),
+                           name = word.substr(0, word.find('#'));
+    std::error_code none;
+    if ((name.ends_with(".svg") || name.ends_with(".json")) && std::filesystem::exists(folder / name, none) &&
+        std::find(files.begin(), files.end(), folder / name) == files.end())
+      files.push_back(folder / name);
+    open = text.find('"', close + 1);
+  }
+  return files;
 }
 
 }  // namespace
 
 Opened open_file(const std::filesystem::path& file, double metres_per_unit) {
   const std::string text = read_text(file);
-  if (is_drawing(text)) return scene_of(Drawing(text, file.string()), file, metres_per_unit);
-  if (is_rube(text)) return level_of(text, file);
-  return {parse_scene(text, file.string(), file.parent_path()), file, "", {}, text};
+  Opened opened;
+  if (is_drawing(text)) {
+    opened = scene_of(Drawing(text, file.string()), file, metres_per_unit);
+  } else if (is_rube(text)) {
+    opened = level_of(text, file);
+  } else {
+    opened.scene = parse_scene(text, file.string(), file.parent_path());
+    opened.file = file;
+    opened.text = text;
+    opened.sources = named_in(text, file.parent_path());
+  }
+  opened.sources.push_back(file);
+  return opened;
 }
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {

@@ -16,6 +16,8 @@ struct Opened {
   std::string note;            ///< what a user should know of how it was read
   std::optional<Plan> level;   ///< of a R.U.B.E. level, which has no scene to edit
   std::string text;            ///< of the scene file; empty for others
+  /// Where it was read from: the file itself, and the drawings and sections beside it that a scene names.
+  std::vector<std::filesystem::path> sources;
 };
 
 /// A scene file, a R.U.B.E. level, or a drawing, whose shapes become steel bodies above a floor. Throws

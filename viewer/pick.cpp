@@ -58,7 +58,9 @@ std::optional<std::size_t> thrown_at(const Timeline& run, Point at) {
     const Pose& pose = run.frame().thrown[i];
     const Point p = Rotation(pose.angle).inverse(at - pose.position);
     const double half = thrown[i].size / 2;
-    if (thrown[i].square ? std::max(std::abs(p.x), std::abs(p.y)) <= half : length(p) <= half) return i;
+    if (thrown[i].square ? std::max(std::abs(p.x), std::abs(p.y) / thrown[i].flat) <= half
+                         : length(p) <= half)
+      return i;
   }
   return std::nullopt;
 }

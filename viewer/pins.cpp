@@ -49,7 +49,27 @@ SceneDef with_weld_or_pin(SceneDef scene, Point at) {
     joint.welded = false;
     return scene;
   }
-  throw InvalidInput({{"node", "nothing is pinned here", "put it where beams meet"}});
+  std::vector<std::string> touching;
+  bool moves = false;
+  for (const BodyDef& body : scene.bodies) {
+    if (!covers(body, at)) continue;
+    touching.push_back(body.name);
+    moves |= body.type == BodyType::dynamic_body;
+  }
+  if (touching.size() != 2 || !moves)
+    throw InvalidInput({{"node", "nothing is pinned here, and no two bodies touch",
+                         "put it where beams meet, or on the edge that two bodies share"}});
+  const auto is_same_pair = [&](const JointBetweenDef& joint) {
+    return !joint.at && !joint.line && joint.others.empty() &&
+           ((joint.a == touching[0] && joint.b == touching[1]) ||
+            (joint.a == touching[1] && joint.b == touching[0]));
+  };
+  if (std::erase_if(scene.joints, is_same_pair) > 0) return scene;
+  JointBetweenDef joint;
+  joint.a = touching[0];
+  joint.b = touching[1];
+  scene.joints.push_back(std::move(joint));
+  return scene;
 }
 
 }  // namespace ductile::viewer

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "ductile/colours.h"
 
 namespace ductile::viewer {
 namespace {
@@ -14,6 +17,26 @@ struct Overloaded : F... {
 };
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;  // which Clang 14 does not find by itself
+
+std::optional<Crossing> crossing(const std::vector<Timeline::Entry>& acts, const Frame& frame) {
+  std::size_t box = 0;  // of Frame::thrown
+  for (const Timeline::Entry& entry : acts) {
+    if (std::holds_alternative<act::Throw>(entry.act)) ++box;
+    const auto* vehicle = std::get_if<act::Vehicle>(&entry.act);
+    if (!vehicle) continue;
+    if (box >= frame.thrown.size()) return std::nullopt;  // it has not come yet
+    const Pose& pose = frame.thrown[box];
+    const double way = vehicle->to - vehicle->at.x, depth = vehicle->lowest - pose.position.y;
+    Crossing found{.share = std::clamp((pose.position.x - vehicle->at.x) / way, 0., 1.)};
+    if (std::cos(pose.angle) < 0 || depth > vehicle->size / 2) {
+      found.state = Crossing::State::down;
+    } else if (found.share == 1) {
+      found.state = Crossing::State::across;
+    }
+    return found;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -42,6 +65,9 @@ std::vector<act::Throw> Timeline::thrown() const {
   std::vector<act::Throw> list;
   for (const Entry& entry : acts_) {
     if (const auto* thrown = std::get_if<act::Throw>(&entry.act)) list.push_back(*thrown);
+    if (const auto* vehicle = std::get_if<act::Vehicle>(&entry.act)) {
+      for (const act::Throw& part : act::parts(*vehicle)) list.push_back(part);
+    }
   }
   return list;
 }
@@ -129,6 +155,13 @@ void Timeline::keep() {
   for (const b2Body* body : thrown_) {
     frame.thrown.push_back({{body->GetWorldCenter().x, body->GetWorldCenter().y}, body->GetAngle()});
   }
+  for (std::size_t i = 0; i < frame.joints.size(); ++i) {
+    const auto now = static_cast<float>(stage(frame.joints[i]));
+    frame.peaks.push_back(frames_.empty() ? now : std::max(now, frames_.back().peaks[i]));
+  }
+  frame.crossing = frames_.empty() ? std::nullopt : frames_.back().crossing;
+  if (!frame.crossing || frame.crossing->state == Crossing::State::on_its_way)
+    frame.crossing = crossing(acts_, frame);
   if (step == last_kept()) {
     used_ -= frames_.back().size();
     frames_.pop_back();
@@ -140,6 +173,44 @@ void Timeline::keep() {
     frames_.pop_front();
     ++first_kept_;
   }
+}
+
+std::array<act::Throw, 3> act::parts(const Vehicle& vehicle) {
+  const double wheel = vehicle.size / 2, half = vehicle.size / 2;
+  const Point axle = vehicle.at + Point{0, wheel / 2};
+  const double share = 0.1;
+  Throw box{.at = axle + Point{0, 0.2 * vehicle.size},
+            .mass = (1 - 2 * share) * vehicle.mass,
+            .size = 1.2 * vehicle.size,
+            .square = true,
+            .flat = 1. / 3};
+  const Throw left{.at = axle - Point{half, 0}, .mass = share * vehicle.mass, .size = wheel};
+  Throw right = left;
+  right.at = axle + Point{half, 0};
+  return {box, left, right};
+}
+
+b2Body& Timeline::add(const act::Throw& thrown) {
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  def.position = to_box2d(thrown.at);
+  def.linearVelocity = to_box2d(thrown.velocity);
+  def.bullet = true;
+  def.allowSleep = plan().sleep;
+  const auto half = static_cast<float>(thrown.size / 2);
+  b2PolygonShape square;
+  square.SetAsBox(half, static_cast<float>(thrown.flat) * half);
+  b2CircleShape disc;
+  disc.m_radius = half;
+  b2FixtureDef fixture;
+  fixture.shape = thrown.square ? static_cast<const b2Shape*>(&square) : &disc;
+  b2MassData unit;
+  fixture.shape->ComputeMass(&unit, 1);
+  fixture.density = static_cast<float>(thrown.mass) / unit.mass;
+  fixture.friction = 0.3f;
+  thrown_.push_back(simulation_->world().CreateBody(&def));
+  thrown_.back()->CreateFixture(&fixture);
+  return *thrown_.back();
 }
 
 void Timeline::apply(const Act& what) {
@@ -172,26 +243,24 @@ void Timeline::apply(const Act& what) {
             if (grip_) static_cast<b2MouseJoint*>(grip_)->SetTarget(to_box2d(pull.to));
           },
           [&](const act::Release&) { release(); },
-          [&](const act::Throw& thrown) {
-            b2BodyDef def;
-            def.type = b2_dynamicBody;
-            def.position = to_box2d(thrown.at);
-            def.linearVelocity = to_box2d(thrown.velocity);
-            def.bullet = true;
-            def.allowSleep = plan().sleep;
-            const auto half = static_cast<float>(thrown.size / 2);
-            b2PolygonShape square;
-            square.SetAsBox(half, half);
-            b2CircleShape disc;
-            disc.m_radius = half;
-            b2FixtureDef fixture;
-            fixture.shape = thrown.square ? static_cast<const b2Shape*>(&square) : &disc;
-            b2MassData unit;
-            fixture.shape->ComputeMass(&unit, 1);
-            fixture.density = static_cast<float>(thrown.mass) / unit.mass;
-            fixture.friction = 0.3f;
-            thrown_.push_back(world.CreateBody(&def));
-            thrown_.back()->CreateFixture(&fixture);
+          [&](const act::Throw& thrown) { add(thrown); },
+          [&](const act::Vehicle& vehicle) {
+            const std::array parts = act::parts(vehicle);
+            b2Body& box = add(parts[0]);
+            for (const std::size_t i : {1, 2}) {
+              b2Body& wheel = add(parts[i]);
+              wheel.GetFixtureList()->SetFriction(1);
+              b2WheelJointDef def;
+              def.Initialize(&box, &wheel, wheel.GetPosition(), {0, 1});
+              b2LinearStiffness(def.stiffness, def.damping, 4, 0.7f, &box, &wheel);  // as Box2D's testbed
+              // Both wheels together push with at most 0.4 of its weight on earth: less than what tips it
+              // back.
+              const double radius = parts[i].size / 2;
+              def.enableMotor = true;
+              def.motorSpeed = static_cast<float>(-vehicle.speed / radius);
+              def.maxMotorTorque = static_cast<float>(0.2 * 9.81 * vehicle.mass * radius);
+              world.CreateJoint(&def);
+            }
           },
           [&](const act::Drive& drive) {
             float brake = 0;

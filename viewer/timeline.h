@@ -5,6 +5,7 @@
 // input gives the same bits, so what is seen the second time is what was seen the first time.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -33,7 +34,19 @@ struct Throw {
   double mass = 1000;  ///< kg
   double size = 2;     ///< m: diameter of a disc, side of a square
   bool square = false;
+  double flat = 1;  ///< height over width of a square
 };
+/// A new vehicle: a box on two driven wheels, which is to get to the right as far as `to`.
+struct Vehicle {
+  Point at;            ///< m: on the ground below its middle
+  double mass = 5000;  ///< kg, of which each wheel has a tenth
+  double size = 2;     ///< m: from wheel to wheel
+  double speed = 5;    ///< m/s
+  double to = 0;       ///< m, x: beyond `at`
+  double lowest = 0;   ///< m, y: of its road as drawn
+};
+/// Its box, then its wheels.
+std::array<Throw, 3> parts(const Vehicle& vehicle);
 /// The motors of the wheels that have one: 1 as planned, −1 the other way, 0 stops.
 struct Drive {
   int direction = 0;
@@ -42,7 +55,7 @@ struct Set {
   Stepping stepping;
 };
 }  // namespace act
-using Act = std::variant<act::Grab, act::Pull, act::Release, act::Throw, act::Drive, act::Set>;
+using Act = std::variant<act::Grab, act::Pull, act::Release, act::Throw, act::Vehicle, act::Drive, act::Set>;
 
 struct TimelineEvent {
   long step = 0;
@@ -103,6 +116,7 @@ class Timeline {
   void arrive();
   void keep();
   void apply(const Act& what);
+  b2Body& add(const act::Throw& thrown);
 
   std::unique_ptr<Simulation> simulation_;
   std::size_t events_told_ = 0;  // of simulation_, which tells them again when it starts again

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "crossing.h"
 #include "ductile/colours.h"
 
 namespace ductile::viewer {
@@ -51,6 +52,8 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
                    {"chosen", desk.maker().chosen(bench)},
                    {"usage", usage},
                    {"broken", broken},
+                   {"crossing", crossing_text(bench.frame())},
+                   {"collapse", bench.collapse() ? Json(bench.collapse()->load_factor) : Json()},
                    {"centre", {desk.camera().centre.x, desk.camera().centre.y}},
                    {"scale", desk.camera().scale},
                    {"view", {view.low.x, view.low.y, view.high.x, view.high.y}},

@@ -9,7 +9,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/scene_list.h"
 #include "making.h"
@@ -47,6 +46,39 @@ Workbench::Workbench(std::vector<std::filesystem::path> scenes)
 
 void Workbench::open(const std::filesystem::path& file, double metres_per_unit) {
   put(open_file(file, metres_per_unit), file);
+  metres_per_unit_ = metres_per_unit;
+}
+
+void Workbench::watch(const std::vector<std::filesystem::path>& files) {
+  watched_.clear();
+  for (const std::filesystem::path& file : files) {
+    std::error_code none;
+    watched_.push_back({file, std::filesystem::last_write_time(file, none)});
+  }
+}
+
+void Workbench::read_again_if_written() {
+  std::string written;
+  for (Watched& watched : watched_) {
+    std::error_code gone;
+    const auto now = std::filesystem::last_write_time(watched.file, gone);
+    if (gone || now == watched.written) continue;
+    watched.written = now;
+    written = watched.file.filename().string();
+  }
+  if (written.empty()) return;
+  if (changed()) {
+    message = written +
+              " has been written by another program; what is edited here and not saved is kept. Open " +
+              source_.filename().string() + " to have it anew.";
+    return;
+  }
+  try {
+    open(source_, metres_per_unit_);
+    message = written + " has been written by another program: read again.";
+  } catch (const std::exception& error) {  // it may be half written
+    message = written + " has been written by another program, and cannot be read:\n" + error.what();
+  }
 }
 
 void Workbench::put(Opened opened, const std::filesystem::path& source) {
@@ -67,6 +99,8 @@ void Workbench::put(Opened opened, const std::filesystem::path& source) {
   version_ = saved_ = 0;
   warned_.clear();
   file_ = std::move(opened.file);
+  source_ = source;
+  watch(opened.sources);
   text_ = std::move(opened.text);
   message = std::move(opened.note);
   selected.clear();
@@ -127,7 +161,12 @@ void Workbench::save(const std::filesystem::path& file) {
   std::string text = edited_scene(text_, scene(), file.parent_path());
   write_text(file, text);
   text_ = std::move(text);
-  file_ = file;
+  file_ = source_ = file;
+  metres_per_unit_ = 0;
+  std::vector<std::filesystem::path> sources{file};
+  for (const Watched& watched : watched_)
+    if (watched.file != file) sources.push_back(watched.file);
+  watch(sources);
   saved_ = version_;
   before_ = plan();
 }
@@ -207,7 +246,37 @@ void Workbench::check_at_rest(bool on) {
   check();
 }
 
+void Workbench::find_collapse() {
+  playing = false;
+  if (run_->cursor() > 0) restart();
+  try {
+    collapse_ = limit_analysis(plan());
+  } catch (const InvalidInput& error) {
+    message = "It has no collapse load: " + error.problems().front().what + ".";
+    return;
+  }
+  if (collapse_->hinges.empty()) {
+    message = "No factor on its loads makes it collapse.";
+    return collapse_.reset();
+  }
+  message = fmt::format("It collapses at {:.4g} times its loads, by", collapse_->load_factor);
+  constexpr std::size_t most = 6;  // names that a message has room for
+  for (std::size_t i = 0; i < std::min(most, collapse_->hinges.size()); ++i) {
+    message += (i == 0 ? " " : ", ") + plan().joints[static_cast<std::size_t>(collapse_->hinges[i])].name;
+  }
+  if (collapse_->hinges.size() > most)
+    message += fmt::format(" and {} more", collapse_->hinges.size() - most);
+  message += '.';
+  try {
+    if (const CriticalLoad buckling = critical_load(plan()); buckling.factor < unlimited)
+      message += fmt::format(" As an elastic structure it buckles at {:.4g} times.", buckling.factor);
+  } catch (const InvalidInput&) {  // what collapses is no mechanism yet may have no stiffness to buckle
+  }
+}
+
 void Workbench::check() {
+  if (collapse_) message.clear();  // it told of that
+  collapse_.reset();
   at_rest_.reset();
   verdict_.clear();
   const Frame* start = run_->kept(0);

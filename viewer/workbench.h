@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/design.h"
 #include "open.h"
 #include "timeline.h"
 
@@ -30,6 +31,9 @@ class Workbench {
   bool may_discard(const std::string& what);
   /// The next or the previous of the list, around its ends.
   void open_neighbour(int by);
+  /// Reads the scene again where its file, or a drawing or section that it names, has been written since by
+  /// another program. What has been edited here and is not saved stays, with a message.
+  void read_again_if_written();
   /// A scene with nothing but a floor, in the place of this one, to be saved beside it under a name that no
   /// file has yet. As try_open() it does not lose edits unless asked again.
   bool try_new();
@@ -95,6 +99,12 @@ class Workbench {
   /// Empty: not shown.
   const std::string& verdict() const { return verdict_; }
 
+  /// How the scene as drawn collapses under its loads, where that has been asked for.
+  const LimitAnalysis* collapse() const { return collapse_ ? &*collapse_ : nullptr; }
+  /// Asks for it, at the start of the run; the load at which it does, or why there is none, is the message.
+  void find_collapse();
+  void forget_collapse() { collapse_.reset(); }
+
   // --- what the user looks at ---
   std::set<std::size_t> selected;    ///< joints
   std::optional<std::size_t> focus;  ///< the joint whose details show
@@ -110,10 +120,18 @@ class Workbench {
   void start_stock();
   void check();
   void require_editable() const;
+  void watch(const std::vector<std::filesystem::path>& files);
 
   std::vector<std::filesystem::path> scenes_;
   std::filesystem::path file_;
-  std::string text_;  // as it was opened or saved; empty: it was no scene file
+  std::string text_;              // as it was opened or saved; empty: it was no scene file
+  std::filesystem::path source_;  // it was opened from
+  double metres_per_unit_ = 0;
+  struct Watched {
+    std::filesystem::path file;
+    std::filesystem::file_time_type written;
+  };
+  std::vector<Watched> watched_;
   std::vector<SceneDef> versions_;
   std::size_t version_ = 0, saved_ = 0;
   bool editable_ = true;
@@ -124,8 +142,9 @@ class Workbench {
   bool checks_ = false;
   std::optional<Frame> at_rest_;  // with the forces of the static check; none where nothing decides them
   std::string verdict_;
-  bool drawing_ = false;  // the plan has no dampers
-  double owed_ = 0;       // s of the scene that are to be shown
+  std::optional<LimitAnalysis> collapse_;  // of this edition
+  bool drawing_ = false;                   // the plan has no dampers
+  double owed_ = 0;                        // s of the scene that are to be shown
 };
 
 /// Does what may be refused: the reason becomes the bench's message.

@@ -222,6 +222,53 @@ class Bridge(driven.Window):
         # EN 10365: flanges of 100 by 10 mm, a web of 6 mm, fillets of 12 mm.
         self.is_the_bridge(load=0, area=2 * 0.1 * 0.01 + 0.08 * 0.006 + (4 - math.pi) * 0.012**2)
 
+    def test_a_road_between_banks_that_a_vehicle_is_to_cross(self):
+        """A beam of 0.2 by 0.1 m and 8 m between two polygons, of S355; what it bears by M = b h²/4 f_y."""
+        span, plastic = 8, 0.1 * 0.2**2 / 4 * 355e6
+        weight = 9.81 * 7850 * 0.2 * 0.1
+        self.control("tab make")
+        self.control("new")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.control("tool block")
+        for side in -1, 1:
+            corners = [(4 * side, 0), (8 * side, 0), (8 * side, 3), (4 * side, 3)]
+            for corner in corners + corners[-1:]:
+                self.click(self.at(*corner))
+        self.assertEqual(self.bodies(), {"block1", "block2"})
+        self.control("tool beam")
+        self.drag(self.at(-4, 3), self.at(4, 3))
+        self.assertTrue(self.state["verdict"].startswith("yields at"), self.state["verdict"])
+        self.key("k")
+        self.assertAlmostEqual(self.state["collapse"] / (plastic / (weight * span**2 / 8)), 1, 6)
+        self.key("k")
+        self.assertIsNone(self.state["collapse"])
+        self.key("i")  # diagrams
+        self.key("u")  # and peaks
+        # It bears what is a tenth of its own weight, and not what is much heavier.
+        self.key("v")
+        self.assertEqual(self.state["tool"], 0)
+        self.wait(lambda: self.state["crossing"] == "the vehicle is across")
+        self.assertEqual(self.state["events"], 0)
+        self.control("mass", 0.53)  # some 100 t
+        self.control("vehicle")
+        self.wait(lambda: self.state["crossing"] == "the vehicle is down")
+        self.assertGreater(self.state["events"], 0)
+        self.control("restart")
+        self.assertEqual(self.state["crossing"], "")
+        # As deep as it must be under a load in its middle.
+        self.key("4")
+        self.click(self.at(0, 3))
+        self.key("1")
+        self.click(self.at(-2, 3))
+        self.control("tab edit")
+        self.control("size for reserve")
+        self.assertIn("has a reserve of 1.5", self.state["message"])
+        self.key("s", "Control_L")
+        depth = next(body["depth"] for body in json.loads((self.path / "new.scene.json").read_text())["bodies"]
+                     if body["name"] == "beam1")
+        bears, asks = plastic / 0.1, 1.5 * weight / 0.1 * span**2 / 8  # N m for each m of depth
+        self.assertAlmostEqual(depth / (1.5 * 100e3 * span / 4 / (bears - asks)), 1, 6)
+
     def test_copied_pasted_and_cut(self):
         self.key("n", "Control_L")
         self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))

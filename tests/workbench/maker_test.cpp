@@ -86,6 +86,33 @@ TEST(Maker, GivesUpWithoutATrace) {
   EXPECT_TRUE(bench.message.empty());
 }
 
+TEST(Maker, DrawsAPolygonCornerByCorner) {
+  Workbench bench;
+  Maker maker;
+  maker.choose(bench, Tool::block);
+  const auto click = [&](Point at) {
+    maker.point(bench, at, 0.1);
+    maker.press(bench);
+    maker.release(bench);
+  };
+  for (const Point p : {Point{-3, 0}, Point{-1, 0}, Point{-2, 2}}) click(p);
+  EXPECT_EQ(maker.corners().size(), 3u);
+  maker.cancel(bench);
+  EXPECT_TRUE(maker.corners().empty());
+  EXPECT_EQ(bench.scene().bodies.size(), 1u);
+  for (const Point p : {Point{-3, 0}, Point{-1, 0}, Point{-2, 2}, Point{-2.05, 2.03}})
+    click(p);  // its last once more
+  ASSERT_EQ(bench.scene().bodies.size(), 2u);
+  EXPECT_EQ(bench.scene().bodies[1].outline.outer.size(), 3u);
+  EXPECT_TRUE(maker.corners().empty());
+  for (const Point p : {Point{3, 0}, Point{1, 0}, Point{2, 2}, Point{2, 3}, Point{3.05, 0}})
+    click(p);  // its first
+  ASSERT_EQ(bench.scene().bodies.size(), 3u);
+  EXPECT_EQ(bench.scene().bodies[2].outline.outer.size(), 4u);
+  bench.undo();
+  EXPECT_EQ(bench.scene().bodies.size(), 2u);
+}
+
 TEST(Maker, SaysWhatTheStaticCheckSays) {
   Workbench bench;
   Maker maker;

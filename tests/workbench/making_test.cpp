@@ -25,6 +25,38 @@ TEST(Making, BeamsArePinnedWhereTheyMeetAndToWhatIsStatic) {
   EXPECT_THROW(static_check(calibrate(with_load(scene, {-2, 3}, {1, 0}))), InvalidInput);  // it sways
 }
 
+TEST(Making, BlocksThatStandHoldWhatEndsInThem) {
+  const Ring pier{{-1, 3}, {1, 3}, {1, 1}, {-1, 1}};  // clockwise
+  SceneDef scene = with_beam(empty_scene(), {{-4, 3}, {0, 3}}, {});
+  scene = with_block(scene, pier, {});
+  EXPECT_EQ(scene.joints.size(), 1u);  // the beam that was there
+  scene = with_beam(scene, {{0.5, 3}, {4, 3}}, {});
+  ASSERT_EQ(scene.joints.size(), 2u);
+  EXPECT_EQ(scene.joints[1].a, "block1");
+  EXPECT_EQ(scene.joints[1].b, "beam2");
+  EXPECT_GT(calibrate(scene).joints.size(), 2u);
+  scene = with_block(scene, {{5, 0}, {6, 0}, {6, 1}}, {.fixed = false});  // beside: nothing holds it
+  EXPECT_EQ(scene.joints.size(), 2u);
+  EXPECT_EQ(scene.bodies.back().type, BodyType::dynamic_body);
+  EXPECT_THROW(calibrate(with_block(scene, {{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {})), InvalidInput);
+}
+
+// A block on the floor with a force at its top: joined along its foot it bears up to M = b h²/4 f_y there.
+TEST(Making, BlocksThatTouchAreJoinedAndParted) {
+  const double width = 0.5, force = 1e6, rise = 4;
+  const Ring post{{0, 0}, {width, 0}, {width, rise}, {0, rise}};
+  BlockStyle style{.fixed = false, .depth = 0.1};
+  style.material.density = 1e-6;
+  SceneDef scene = with_block(empty_scene(), post, style);
+  const Point foot{width / 2, 0};
+  EXPECT_THROW(with_weld_or_pin(scene, {width / 2, rise}), InvalidInput);  // nothing touches there
+  scene = with_load(with_weld_or_pin(scene, foot), {width, rise}, {force, 0});
+  ASSERT_EQ(scene.joints.size(), 1u);
+  const double reserve = style.depth * width * width / 4 * 355e6 / (force * rise);
+  EXPECT_NEAR(static_check(calibrate(scene)).reserve / reserve, 1, 1e-6);
+  EXPECT_TRUE(with_weld_or_pin(scene, foot).joints.empty());
+}
+
 // A truss of two equal bars on hinges, half-span a and rise h, with a force P at its top: N = −P/(2 sin α) in
 // both, and the bars' own weight is left out by making them light.
 TEST(Making, TwoBarsCarryALoadAsStaticsSays) {

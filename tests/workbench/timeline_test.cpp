@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
+#include "ductile/colours.h"
 #include "scenes.h"
 
 namespace ductile::viewer {
@@ -52,6 +54,29 @@ TEST(Timeline, StartsWithTheFirstFrame) {
   EXPECT_EQ(run.frame().time, 0);
   EXPECT_EQ(run.frame().pieces.size(), 5u);
   EXPECT_FALSE(run.busy());
+}
+
+// Of every step the largest stage up to it; what is forgotten is not remembered.
+TEST(Timeline, KeepsThePeaksOfTheRun) {
+  Timeline run(bending());
+  play_with(run);
+  run.go_to(60);
+  const auto are_kept = [&run] {
+    std::vector<float> most(run.plan().joints.size(), 0);
+    for (long step = 0; step <= run.last(); ++step) {
+      const Frame& frame = *run.kept(step);
+      for (std::size_t i = 0; i < most.size(); ++i) {
+        most[i] = std::max(most[i], static_cast<float>(stage(frame.joints[i])));
+      }
+      ASSERT_EQ(frame.peaks, most) << step;
+    }
+  };
+  are_kept();
+  EXPECT_GT(run.frame().peaks[0], static_cast<float>(stage(run.kept(0)->joints[0])));
+  run.go_to(10);
+  run.act(act::Set{{.dt = 1. / 240}});
+  run.go_to(30);
+  are_kept();
 }
 
 TEST(Timeline, LooksBackWithoutSimulatingAgain) {

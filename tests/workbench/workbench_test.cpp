@@ -4,11 +4,13 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 
 #include "ductile/definitions.h"
 #include "ductile/files.h"
+#include "making.h"
 #include "open.h"
 #include "pick.h"
 #include "scenes.h"
@@ -382,6 +384,67 @@ TEST(Place, TheAxisOfAJointTurnsWithItsBodies) {
   EXPECT_NEAR(placed.axis.y, std::sin(angle), 1e-12);
   EXPECT_NEAR(placed.anchor.x, 0, 1e-2);
   EXPECT_NEAR(placed.anchor.y, 0.5, 1e-2);
+}
+
+// The root bears 6e6 N m and its own weight asks 4e6 of it (scenes.h).
+TEST(Workbench, TellsAtWhatLoadItCollapsesAndHow) {
+  Workbench bench;
+  bench.edit(cantilever(4, 6e6));
+  bench.step_by(3);
+  bench.find_collapse();
+  ASSERT_TRUE(bench.collapse());
+  EXPECT_EQ(bench.run().cursor(), 0);
+  EXPECT_NEAR(bench.collapse()->load_factor, 1.5, 1e-6);
+  EXPECT_NE(bench.message.find("1.5 times its loads, by wall-bar/0."), std::string::npos) << bench.message;
+  bench.edit(cantilever(4, 8e6));
+  EXPECT_FALSE(bench.collapse());
+  bench.edit(empty_scene());
+  bench.find_collapse();
+  EXPECT_FALSE(bench.collapse());
+  EXPECT_NE(bench.message.find("no collapse load"), std::string::npos) << bench.message;
+}
+
+TEST(Workbench, ReadsAgainWhatAnotherProgramHasWritten) {
+  const Folder folder;
+  const fs::path file = folder / "a.scene.json", drawing = folder / "beam.svg";
+  const auto draw = [&](const char* width, int seconds) {
+    write_text(
+        drawing,
+        std::string(
+            R"(<svg xmlns="http://www.w3.org/2000/svg" width="400cm" height="400cm" viewBox="0 0 4 4">)") +
+            "<rect id='beam' x='0' y='1' width='" + width + "' height='0.2'/></svg>");
+    fs::last_write_time(drawing, fs::file_time_type::clock::now() + std::chrono::seconds(seconds));
+  };
+  draw("2", 0);
+  write_text(file, R"({"bodies": [{"name": "beam", "outline": "beam.svg#beam", "material": "S355"}]})");
+  Workbench bench;
+  bench.open(file);
+  const auto mass = [&] { return bench.plan().pieces.at(0).mass; };
+  const double before = mass();
+  bench.read_again_if_written();
+  EXPECT_TRUE(bench.message.empty()) << bench.message;
+  draw("3", 10);
+  bench.read_again_if_written();
+  EXPECT_NEAR(mass() / before, 1.5, 1e-9);
+  EXPECT_NE(bench.message.find("beam.svg"), std::string::npos);
+
+  draw("nothing", 20);  // it stays as it was
+  bench.read_again_if_written();
+  EXPECT_NEAR(mass() / before, 1.5, 1e-9);
+  EXPECT_NE(bench.message.find("cannot be read"), std::string::npos) << bench.message;
+
+  SceneDef edited = bench.scene();
+  edited.bodies[0].depth *= 2;
+  bench.edit(edited);
+  draw("1", 30);
+  bench.read_again_if_written();
+  EXPECT_NEAR(mass() / before, 3, 1e-9);
+  EXPECT_NE(bench.message.find("kept"), std::string::npos) << bench.message;
+
+  bench.save(file);  // its own writing is nobody else's
+  bench.message.clear();
+  bench.read_again_if_written();
+  EXPECT_TRUE(bench.message.empty()) << bench.message;
 }
 
 }  // namespace
