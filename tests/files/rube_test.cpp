@@ -79,6 +79,19 @@ json level() {
   return scene;
 }
 
+// A beam of four pieces on a wall.
+SceneDef beam_on_wall() {
+  SceneDef scene;
+  scene.bodies = {
+      {.name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}, {}}},
+      {.name = "beam",
+       .outline = {{{0, 0}, {8, 0}, {8, 1}, {0, 1}}, {}},
+       .material = materials::oak,
+       .pieces = 4}};
+  scene.joints = {{.a = "wall", .b = "beam"}};
+  return scene;
+}
+
 TEST(Rube, NamingAMaterialCalibratesAWeld) {
   const json scene = json::parse(calibrated_rube(level().dump()));
   const json& joint = scene["joint"][0];
@@ -264,15 +277,8 @@ TEST(Rube, ARevoluteJointIsAPinAtItsAnchor) {
 }
 
 TEST(Rube, LoadsAreProperties) {
-  SceneDef scene;
+  SceneDef scene = beam_on_wall();
   scene.gravity_ramp = 2;
-  scene.bodies = {
-      {.name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}, {}}},
-      {.name = "beam",
-       .outline = {{{0, 0}, {8, 0}, {8, 1}, {0, 1}}, {}},
-       .material = materials::oak,
-       .pieces = 4}};
-  scene.joints = {{.a = "wall", .b = "beam"}};
   scene.loads = {{.body = "beam", .at = {7.5, 1}, .force = {3, -4}, .from = 1, .ramp = 2, .to = 9},
                  {.body = "beam", .at = {1, 0.5}, .moment = 5}};
   const Plan written = calibrate(scene), read = parse_plan(rube_text(written));
@@ -350,15 +356,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WhatWeWrite, testing::Values("car", "frame", "c
 
 // The two last of four pieces of a beam, as one rigid body.
 TEST(Rube, PiecesThatShareABodyAreOne) {
-  SceneDef scene;
-  scene.bodies = {
-      {.name = "wall", .type = BodyType::static_body, .outline = {{{-1, -1}, {0, -1}, {0, 2}, {-1, 2}}, {}}},
-      {.name = "beam",
-       .outline = {{{0, 0}, {8, 0}, {8, 1}, {0, 1}}, {}},
-       .material = materials::oak,
-       .pieces = 4}};
-  scene.joints = {{.a = "wall", .b = "beam"}};
-  Plan plan = calibrate(scene);
+  Plan plan = calibrate(beam_on_wall());
   Piece& third = plan.pieces[3];
   ASSERT_EQ(third.name, "beam/2");
   plan.pieces[4].part_of = 3;
