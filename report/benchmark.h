@@ -25,6 +25,8 @@ std::vector<Benchmark> static_benchmarks(const Context& context);
 std::vector<Benchmark> frame_benchmarks();
 /// Frames that programs are calibrated with: by plastic zones, which hinges at points stand for.
 std::vector<Benchmark> calibration_benchmarks();
+/// The factor on all loads at which his frame collapses, each bar in so many parts.
+double vogels_six_storeys(int parts);
 /// Hinges in their order, and loads that come and go.
 std::vector<Benchmark> repeated_benchmarks();
 /// In motion, at small steps and at 60 Hz.

@@ -126,24 +126,6 @@ double vogels_portal(int parts) {
   return frame.collapse();
 }
 
-double vogels_six_storeys(int parts) {
-  constexpr double storey = 3.75, bay = 6;  // m
-  constexpr const char* outer[] = {"HEB 220", "HEB 220", "HEB 220", "HEB 220", "HEB 160", "HEB 160"};
-  constexpr const char* inner[] = {"HEB 260", "HEB 260", "HEB 260", "HEB 240", "HEB 200", "HEB 200"};
-  constexpr const char* girder[] = {"IPE 400", "IPE 360", "IPE 330", "IPE 300", "IPE 300", "IPE 240"};
-  CalibrationFrame frame(1. / 450, parts);
-  for (int i = 0; i < 6; ++i) {
-    const double y = storey * i, top = storey * (i + 1);
-    for (int c = 0; c < 3; ++c) frame.member(c == 1 ? inner[i] : outer[i], {bay * c, y}, {bay * c, top});
-    for (int b = 0; b < 2; ++b) {
-      frame.member(girder[i], {bay * b, top}, {bay * (b + 1), top});
-      frame.spread(i == 5 ? 31.7e3 : 49.1e3);
-    }
-    frame.load({0, top}, {i == 5 ? 10.23e3 : 20.44e3, 0});
-  }
-  return frame.collapse();
-}
-
 // Darvall and Mendis: a portal on fixed feet, one load on its girder; of bending alone.
 struct LoadedPortal {
   static constexpr double L = 3.048, at = 0.55 * L, A = 0.103, I = 0.001, E = 20.68e9;  // m, m², m⁴, Pa
@@ -283,6 +265,24 @@ struct Hysteresis {
 };
 
 }  // namespace
+
+double vogels_six_storeys(int parts) {
+  constexpr double storey = 3.75, bay = 6;  // m
+  constexpr const char* outer[] = {"HEB 220", "HEB 220", "HEB 220", "HEB 220", "HEB 160", "HEB 160"};
+  constexpr const char* inner[] = {"HEB 260", "HEB 260", "HEB 260", "HEB 240", "HEB 200", "HEB 200"};
+  constexpr const char* girder[] = {"IPE 400", "IPE 360", "IPE 330", "IPE 300", "IPE 300", "IPE 240"};
+  CalibrationFrame frame(1. / 450, parts);
+  for (int i = 0; i < 6; ++i) {
+    const double y = storey * i, top = storey * (i + 1);
+    for (int c = 0; c < 3; ++c) frame.member(c == 1 ? inner[i] : outer[i], {bay * c, y}, {bay * c, top});
+    for (int b = 0; b < 2; ++b) {
+      frame.member(girder[i], {bay * b, top}, {bay * (b + 1), top});
+      frame.spread(i == 5 ? 31.7e3 : 49.1e3);
+    }
+    frame.load({0, top}, {i == 5 ? 10.23e3 : 20.44e3, 0});
+  }
+  return frame.collapse();
+}
 
 std::vector<Benchmark> calibration_benchmarks() {
   constexpr int parts = 12;

@@ -172,8 +172,8 @@ Result run_peers(const Context& context) {
             "Lower left is better. Each mark is an engine at 60, 120 or 240 steps a second and 10 or 40 "
             "iterations; point at it for which, for how far its tip is from where it was drawn after a "
             "minute, and for its largest gap. planck and phaser-box2d run in JavaScript, "
-            "box2d3-wasm and MuJoCo in WebAssembly, the others as machine code: of their times, "
-            "that is a factor of two to ten.",
+            "box2d3-wasm and MuJoCo in WebAssembly, the others as machine code: what their runtime takes "
+            "is in their times.",
         .x = {"time per joint and step [us]", true},
         .y = {"error of the root's moment, relative", true},
         .floor = floor};

@@ -60,7 +60,7 @@ class Report(unittest.TestCase):
         self.assertEqual([c["holds"] for c in data["claims"]], [True, False, True])
         for table in data["tables"]:
             columns = [c["name"] for c in table["columns"]]
-            for row in table["rows"]:
+            for row in table["rows"] if "reference" in columns else []:
                 row = dict(zip(columns, row))
                 allowed = row["allowed [%]"] / 100
                 # Of hinges at points: they overrate columns near their yield force, and the report says so.
