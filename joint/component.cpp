@@ -75,8 +75,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   solver.bodies.resize(ordered.size());
   solver.places.resize(ordered.size());
   goal_.resize(ordered.size());
-  account.began.resize(ordered.size());
-  account.lost.resize(ordered.size());
+  account.began.assign(ordered.size(), {{0, 0}, 0});  // b2Vec2 does not make itself 0
+  account.lost = account.began;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number(body) = static_cast<int>(i);
