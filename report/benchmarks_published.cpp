@@ -293,7 +293,7 @@ std::vector<Benchmark> calibration_benchmarks() {
                         "S235, E = 205 GPa, N and M on the surface; {} parts to a bar, hinges "
                         "at points, no residual stress",
                         parts);
-  return {{"Vogel's portal", vogel, read,
+  return {{"Vogel's portal", vogel, read + "; the frame and its loads likewise",
            "columns HEB 300 of 5 m on fixed feet, girder HEA 340 of 4 m, 2800 kN on each column, 35 kN "
            "across, out of plumb by 1/400; " +
                steel,
