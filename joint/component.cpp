@@ -77,6 +77,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   goal_.resize(ordered.size());
   account.began.assign(ordered.size(), {{0, 0}, 0});  // b2Vec2 does not make itself 0
   account.lost = account.began;
+  parts_.bodies.resize(free_bodies);
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     b2Body* body = ordered[i];
     number(body) = static_cast<int>(i);
@@ -193,7 +194,7 @@ bool Component::fits_bodies() const {
 
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
-  tape(origin, displaced_, struck_, rests, mirrors, solver);
+  tape(origin, displaced_, struck_, rests, mirrors, parts_, solver);
   rest_ = rests ? Rest::expected : Rest::none;
 }
 

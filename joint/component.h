@@ -58,6 +58,31 @@ struct Component {
     expected,  // the next step will be this one if nothing else touches the bodies
     kept       // this step is the last one again
   };
+  /// The steps of a blow are solved in parts.
+  struct Parts {
+    int count = 1;          // of the step that the solver's laws are for
+    double since_blow = 0;  // s
+    bool advanced = false;  // this step was solved so: poses have moved
+    struct OfBody {         // velocities in world axes
+      Pose start;
+      Vec3 before;        // at the step's start
+      Vec3 given;         // by gravity and loads in a part
+      Vec3 sum;           // of the means of all parts
+      double energy = 0;  // that a blow gives it, J
+    };
+    std::vector<OfBody> bodies;
+    struct OfContact {
+      double normal = 0, tangent = 0;  // N s
+      double work = 0;                 // on the bodies, J
+      double gap = 0;                  // m, since the step's start
+    };
+    std::vector<OfContact> sums;
+
+    void keep(Tape& tape) {
+      tape(count, since_blow);
+      if (count < 1) tape.refuse(), count = 1;
+    }
+  };
   /// What the ledger needs of a step, when one is kept. Velocities are those of the bodies.
   struct Account {
     bool open = false;              // until close_ledger()
@@ -81,6 +106,8 @@ struct Component {
   /// Whether nothing else can change its bodies' velocities in this step.
   bool whole() const { return coupling_ != Coupling::partly; }
   bool rests() const { return rest_ == Rest::kept; }
+  /// Whether this step was solved in parts, and poses have moved.
+  bool advanced() const { return parts_.advanced; }
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
@@ -120,6 +147,7 @@ struct Component {
   bool knows(int a, int b) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
+  static float closing_speed(const Touch& touch, const PointConstraint& at);
   bool parts(const Joint& joint) const;
   /// By what velocities must change at once for a blow, m/s.
   static constexpr float blow_speed = 0.1f;
@@ -132,6 +160,27 @@ struct Component {
   void return_ties();
   bool is_anchored() const;
   void solve(const b2SolverData& data);
+  void solve_direct();
+  // component_parts.cpp
+  bool may_divide(const b2SolverData& data) const;
+  bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
+  bool is_strained() const;
+  bool strikes_hard();
+  void solve_in_parts(const b2SolverData& data, bool blow);
+  void begin_parts();
+  void solve_part(double h, bool first, bool blow);
+  void end_parts(const b2SolverData& data);
+  double work(const Touch& touch, const PointConstraint& at, double normal, double tangent) const;
+  /// Calls visit(row, touch, point) for each contact that is a row.
+  template <class Visit>
+  void each_point(const Visit& visit) const {
+    std::size_t row = 0;
+    for (const Touch& t : outside_.touches) {
+      if (t.at_seam) continue;
+      for (int32 k = 0; k < t.velocity->count; ++k) visit(row++, t, t.velocity->points[k]);
+    }
+  }
+  void book_parts();
   bool weaken_what_breaks();
   void project(bool try_goal);
   void give(const b2SolverData& data);
@@ -142,6 +191,7 @@ struct Component {
   std::vector<Pose> goal_;  // of a projection
   bool displaced_ = false;  // bodies were moved apart while their joint was in no island
   bool struck_ = false;     // velocities were changed between the steps
+  Parts parts_;
   Coupling coupling_ = Coupling::partly;
   Rest rest_ = Rest::none;
 };

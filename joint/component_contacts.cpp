@@ -139,20 +139,21 @@ void Component::return_contacts() {
   }
 }
 
+// Of the velocities at the step's start, m/s; below 0 it closes.
+float Component::closing_speed(const Touch& t, const PointConstraint& p) {
+  const auto at = [](const b2Body* body, const b2Vec2& arm) {
+    return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
+  };
+  return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
+}
+
 // Whether velocities jump at the start of this step: of pieces, or as something closes with them.
 bool Component::is_blow() const {
-  if (struck_) return true;
-  for (const Touch& t : outside_.touches) {
-    if (t.at_seam) continue;
-    const VelocityConstraint& v = *t.velocity;
-    for (int32 k = 0; k < v.count; ++k) {
-      const auto at = [](const b2Body* body, const b2Vec2& arm) {
-        return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
-      };
-      if (b2Dot(at(t.b(), v.points[k].rb) - at(t.a(), v.points[k].ra), v.normal) < -blow_speed) return true;
-    }
-  }
-  return false;
+  bool blow = struck_;
+  each_point([&blow](std::size_t, const Touch& t, const PointConstraint& p) {
+    blow |= closing_speed(t, p) < -blow_speed;
+  });
+  return blow;
 }
 
 }  // namespace ductile::dynamics

@@ -115,6 +115,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 }
 
 void Component::first_velocity(const b2SolverData& data) {
+  parts_.advanced = false;
   if (!alone() && is_whole()) coupling_ = Coupling::whole;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
   if (expected && outside_.ties.empty() && touched_as_before() && as_before(data)) {
@@ -155,7 +156,12 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     start_from(i);
   }
-  solver.begin(data.step.dt);
+  const bool in_parts = goes_on_in_parts(data, moved);
+  if (!in_parts) {
+    if (parts_.count > 1) solver.unite(std::exchange(parts_.count, 1));
+    parts_.since_blow = 0;
+    solver.begin(data.step.dt);
+  }
   if (moved) {
     // Continuous collision, SetTransform, a re-enabled body: the structure follows without being strained by
     // it. Joint by joint, the sweeps do that.
@@ -186,16 +192,21 @@ void Component::first_velocity(const b2SolverData& data) {
       const b2Velocity v =
           account.began[i] = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
-      account.lost[i] = {{0, 0}, 0};  // b2Vec2 does not make itself 0
+      account.lost[i] = {{0, 0}, 0};
     }
     account.open = true;
   }
   if (!direct()) solver.warm_start();
   enter_ties();
   enter_contacts();
-  if (direct() && is_blow()) solver.strike();
+  const bool blow = direct() && is_blow();
   struck_ = false;
-  solve(data);
+  if (in_parts) return solve_in_parts(data, blow);
+  if (!blow) return solve(data);
+  solver.strike();
+  solve_direct();
+  if (may_divide(data) && (is_strained() || strikes_hard())) return solve_in_parts(data, true);
+  give(data);
 }
 
 void Component::next_velocity(const b2SolverData& data) {
@@ -252,16 +263,19 @@ bool Component::weaken_what_breaks() {
 }
 
 void Component::solve(const b2SolverData& data) {
-  SolveReport solved;
   if (direct()) {
-    solver.solve(solved);
-    for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
+    solve_direct();
   } else {
     solver.sweep();
+    ++structure->reports.step.solves;
   }
   give(data);
-  return_contacts();
-  return_ties();
+}
+
+void Component::solve_direct() {
+  SolveReport solved;
+  solver.solve(solved);
+  for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
   StepReport& report = structure->reports.step;
   ++report.solves;
   report.rounds += solved.rounds;
@@ -285,9 +299,16 @@ void Component::give(const b2SolverData& data) {
     m.given = in_floats(m.exact);
     if (m.present) data.velocities[m.island_index] = m.given;
   }
+  return_contacts();
+  return_ties();
 }
 
 void Component::position(const b2SolverData& data) {
+  if (parts_.advanced) {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;
+    }
+  }
   if (alone() && !rests()) return write_poses(data);
   if (alone()) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {

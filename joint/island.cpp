@@ -67,7 +67,7 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   }
   if (island_.velocity_calls < last) return;
   for (Component* c : island_.active) {
-    if (c->rests()) continue;
+    if (c->rests() || c->advanced()) continue;
     c->limit_speed(data);
     c->advance(data);
     look_for_breaks(*c);
@@ -173,6 +173,7 @@ void Structure::Impl::dissolve(Component& component) {
   gone_.damping += component.solver.energies().damping;
   gone_.numerical += component.solver.energies().numerical;
   gone_.driven += component.solver.energies().driven;
+  gone_.contacts += component.solver.energies().contacts;
   component.solver.find_gaps();
   for (Member* m : component.members) {
     component.hand_back(*m);

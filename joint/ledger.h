@@ -20,7 +20,8 @@ struct Energies {
   double damping = 0;    // c ė² h of the rows
   double numerical = 0;  // what implicit Euler, the motion of J within a step, and pushes by contacts take
   double driven = 0;     // what driven rows give, and bodies whose velocities are prescribed
-  void keep(Tape& tape) { tape(damping, numerical, driven); }
+  double contacts = 0;   // of divided steps: work of contacts beyond their impulses' with mean velocities
+  void keep(Tape& tape) { tape(damping, numerical, driven, contacts); }
 };
 
 class Ledger {

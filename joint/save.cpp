@@ -18,7 +18,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 3;    // changes with what the solver carries from step to step
+constexpr int past = 4;    // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -113,6 +113,7 @@ class Structure::Impl::Save {
       gone.damping += left->solver.energies().damping;
       gone.numerical += left->solver.energies().numerical;
       gone.driven += left->solver.energies().driven;
+      gone.contacts += left->solver.energies().contacts;
     }
     std::uint32_t next_id = s_.next_id;
     a_.object("structure", [&](Archive& a) {
@@ -123,7 +124,8 @@ class Structure::Impl::Save {
       a("keep_ledger", s_.def.keep_ledger);
       a("next_id", next_id);
       a("last_node", s_.nodes.last);
-      a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped);
+      a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped,
+        gone.contacts);
     });
     if (a_.reads()) s_.gone_ = gone;
     return next_id;

@@ -23,6 +23,7 @@ void Solver::form(std::size_t free_bodies) {
   ledger_.form(*this);
   before.assign(bodies.size(), {});
   turned_.assign(bodies.size(), {});
+  before_blow_.assign(joints.size(), {});
   const std::span<Vec3> masses = newton_.scratch().first(free);
   for (std::size_t i = 0; i < free; ++i) masses[i] = momentum(bodies[i], {1, 1, 1});
   prediction_.form(masses);
@@ -40,7 +41,26 @@ void Solver::begin(double h) {
   if (follow_tension(*this, h) || other_laws) hessian_.forget();
 }
 
+void Solver::divide(double parts) {
+  if (std::exchange(struck_, false)) {
+    for (std::size_t k = 0; k < own(); ++k) {
+      joints[k].impulse = before_blow_[k];
+      joints[k].regime = 0;
+      records[k].held = 1;
+    }
+    newton_.forget();
+  }
+  laws_.divide(*this, parts);
+  prediction_.forget();
+}
+
+void Solver::unite(double parts) {
+  laws_.unite(*this, parts);
+  prediction_.forget();
+}
+
 void Solver::strike() {
+  for (std::size_t k = 0; k < own(); ++k) before_blow_[k] = joints[k].impulse;
   open_blow(*this);
   struck_ = true;
 }

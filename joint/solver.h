@@ -6,6 +6,7 @@
 //                    records; changed masses            allocates, nothing after it does
 //   locate()         put() of any body                  gaps and J anew
 //   begin(h)         form, locate, advance              laws and biases of a step of h seconds
+//   divide(n)        begin, solve, advance              the next n steps are parts of one; unite(n) ends that
 //   touch(links,     begin                          their rows
 //     contacts)
 //   push(i, Δv*)     solve, in the same step            another velocity changed
@@ -52,6 +53,10 @@ class Solver : public System {
   void find_gaps() { dynamics::find_gaps(*this); }
 
   void begin(double h);
+  /// The next steps are parts of one; unite() ends that. After begin() and the solve of a struck step, these
+  /// are undone.
+  void divide(double parts);
+  void unite(double parts);
   /// The bodies' velocities jumped at the start of this step (blow.h): after begin(), before its first solve.
   void strike();
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
@@ -99,6 +104,12 @@ class Solver : public System {
   bool keeps_ledger = false;
   std::vector<Vec3> before;
   const Energies& energies() const { return ledger_.energies; }
+  /// Work of contacts and of weight in the parts of a step, beyond what the whole step's impulses do with the
+  /// mean of its velocities, J.
+  void book_parts(double contacts, double weight) {
+    ledger_.energies.contacts += contacts;
+    ledger_.energies.numerical -= weight;
+  }
   /// After the step: by what contacts and limits changed velocities after the last solve, world axes.
   void close_ledger(std::span<const Vec3> change) { ledger_.close(change); }
 
@@ -119,11 +130,12 @@ class Solver : public System {
   LinearPrediction prediction_;
   Projection projection_;
   Ledger ledger_;
-  std::vector<Vec3> turned_;  // the last velocities, in the frames where poses have turned to
-  Evaluation last_;           // of the last solve
-  Motion motion_;             // of the present step
-  bool predicted_ = false;    // the next solve starts where prediction_ says
-  bool struck_ = false;       // the present step is that of a blow
+  std::vector<Rows> before_blow_;  // impulses of the joints before the step that is struck
+  std::vector<Vec3> turned_;       // the last velocities, in the frames where poses have turned to
+  Evaluation last_;                // of the last solve
+  Motion motion_;                  // of the present step
+  bool predicted_ = false;         // the next solve starts where prediction_ says
+  bool struck_ = false;            // the present step is that of a blow
 };
 
 }  // namespace ductile::dynamics

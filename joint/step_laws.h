@@ -23,6 +23,11 @@ class StepLaws {
   /// Laws and biases of a step of h seconds; whether laws are others than those of the last step.
   bool begin(System& system, double h);
   double step() const { return h_; }
+  /// Says that the last step was one of h/parts seconds at the same velocities: the next begin() goes on from
+  /// it as from one that was as long, with the same δ.
+  void divide(System& system, double parts);
+  /// The reverse, after the last of so many steps.
+  void unite(System& system, double parts);
 
   /// δ of rows without a damper, in equal steps of bodies that hardly turn. 1: implicit Euler.
   double least_delta = 0;
@@ -40,6 +45,7 @@ class StepLaws {
 
  private:
   double deferred_share(System& system, double h);
+  void rescale(System& system, double by);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain) const;
   double delta_for(const System& system, double h);
 

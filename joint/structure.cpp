@@ -116,6 +116,7 @@ JointEnergy Structure::Impl::energy() const {
     sum.damping += c->solver.energies().damping;
     sum.numerical += c->solver.energies().numerical;
     sum.driven += c->solver.energies().driven;
+    sum.contacts += c->solver.energies().contacts;
   }
   return sum;
 }

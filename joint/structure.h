@@ -114,6 +114,8 @@ struct Structure::Impl {
   /// together, for good.
   void stop_if_not_finite(b2Body& body, const b2SolverData& data);
 
+  void look_for_breaks(dynamics::Component& component);
+
  private:
   void form();
   dynamics::Component& form(std::vector<dynamics::Member*> group, std::vector<dynamics::BodyPair> touching);
@@ -128,7 +130,6 @@ struct Structure::Impl {
   void hold_bullets();
   void let_bullets_go();
   void dissolve(dynamics::Component& component);
-  void look_for_breaks(dynamics::Component& component);
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
   void say(dynamics::Member& member, JointEvent event);
   void tell();

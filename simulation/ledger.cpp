@@ -117,7 +117,11 @@ void EnergyLedger::before_step(double dt, const std::vector<AppliedLoad>& loads)
   sums_.external += mechanical() - last_;
 }
 
-void EnergyLedger::after_step() {
+void EnergyLedger::after_step(const Structure* structure) {
+  // A step that was solved in parts moves bodies otherwise than by its last velocities.
+  if (structure != nullptr && structure->report().divided > 0) {
+    for (auto& [body, motion] : motions_) motion.sub_stepped |= motion.touched;
+  }
   each(world_.GetBodyList(), [&](b2Body& body) {
     if (const auto motion = motions_.find(&body); motion != motions_.end()) account(body, motion->second);
   });
@@ -140,6 +144,7 @@ void EnergyLedger::after_update(const Structure* structure) {
     now_.numerical += joints.numerical;
     now_.clamped += joints.clamped;
     now_.external += joints.driven;
+    now_.contacts += joints.contacts;
   }
   const double stored = now_.kinetic + now_.potential + now_.elastic;
   const double taken = now_.dissipated + now_.damping + now_.numerical + now_.clamped;

@@ -54,7 +54,7 @@ void Simulation::step() {
   time_ += dt;
   last_step_us_ = took.count();
   if (++steps_ >= first_timed_step) step_us_.push_back(last_step_us_);
-  if (ledger_) ledger_->after_step();
+  if (ledger_) ledger_->after_step(structure());
   if (structure_) structure_->update();
   if (ledger_) ledger_->after_update(structure());
 }

@@ -139,20 +139,112 @@ double midpoint_set(double dt) {
   return dt * (common_speed * whole - braking * dt * whole * whole / 2);
 }
 
+// The steps of a blow are solved in parts of about 1/1920 s.
+double part_of(double dt) { return dt / std::max(1.0, std::round(1920 * dt)); }
+
 class Blow : public testing::TestWithParam<std::tuple<double, bool>> {};
 
 TEST_P(Blow, SetsTheBarByTheEnergyThatIsLeft) {
   const auto [hz, welded] = GetParam();
   const double dt = 1 / hz;
   const StruckBar bar = strike(dt, welded);
-  EXPECT_NEAR(bar.set, midpoint_set(dt), 1e-5 * exact_set);
-  EXPECT_LE(std::abs(bar.set - exact_set), braking * dt * dt / 8 + 1e-5 * exact_set);
+  const double part = part_of(dt);
+  EXPECT_NEAR(bar.set, midpoint_set(part), 1e-5 * exact_set);
+  EXPECT_LE(std::abs(bar.set - exact_set), braking * part * part / 8 + 1e-5 * exact_set);
   EXPECT_NEAR(bar.dissipated, crushing_force * bar.set, 1e-6 * crushing_force * bar.set);
   EXPECT_EQ(bar.bounds_hit, 0);
 }
 INSTANTIATE_TEST_SUITE_P(StruckBar, Blow,
                          testing::Combine(testing::Values(30., 60., 120., 240., 1000., 5000.),
                                           testing::Bool()));
+
+// A steel beam of 10 m and 0.3 x 0.1 m, clamped at both ends, and what falls on it.
+struct Struck {
+  int pieces;
+  double mass, speed, x;
+  bool disc;
+};
+
+struct ClampedBeam {
+  ClampedBeam(int pieces, double step) : world({0, -10}), structure(world, {.keep_ledger = true}), dt(step) {
+    const double l = 10.0 / pieces, area = height * depth, stiffness = 210e9, yield = 355e6;
+    b2Body* previous = add_box(world, {.x = -0.5, .type = b2_staticBody});
+    for (int i = 0; i <= pieces; ++i) {
+      b2Body* next =
+          i < pieces
+              ? add_box(world, {.x = (i + 0.5) * l, .width = l, .height = height, .mass = 7850 * area * l})
+              : add_box(world, {.x = 10.5, .type = b2_staticBody});
+      ElasticPlasticJointDef joint;
+      joint.Initialize(previous, next, vec(i * l, 0), {1, 0});
+      const double axial_cap = yield * area, moment_cap = axial_cap * height / 4;
+      joint.rows[axial] = {stiffness * area / l, 0.05, axial_cap, axial_cap};
+      joint.rows[shear] = {stiffness * area / 3.1 / l, 0.05, axial_cap / 2, axial_cap / 2};
+      joint.rows[rotation] = {stiffness * area * height * height / 12 / l, 0.05, moment_cap, moment_cap};
+      structure.create_joint(joint);
+      previous = next;
+    }
+    run(2);
+  }
+  void run(double seconds) {
+    for (double t = 0; t < seconds; t += dt) {
+      world.Step(static_cast<float>(dt), 8, 3);
+      divided += structure.report().divided;
+      structure.update();
+    }
+  }
+  b2Body* drop(const Struck& s) {
+    b2Body* body =
+        add_box(world, {.x = s.x, .y = 2, .width = 0.5, .height = 0.5, .mass = s.mass, .group = 0});
+    if (s.disc) {
+      body->DestroyFixture(body->GetFixtureList());
+      b2CircleShape circle;
+      circle.m_radius = 0.25f;
+      body->CreateFixture(&circle, static_cast<float>(s.mass / (b2_pi * 0.0625)));
+    }
+    body->SetLinearVelocity(vec(0, -s.speed));
+    return body;
+  }
+  static constexpr double height = 0.3, depth = 0.1;
+  b2World world;
+  Structure structure;
+  double dt;
+  int divided = 0;
+};
+
+class SameBlow : public testing::TestWithParam<Struck> {};
+
+// What waves take that are over in milliseconds, at the steps of games: that of 3840 Hz within 15 %.
+TEST_P(SameBlow, TakesTheSameAtAnyStep) {
+  const auto plastic_work = [](double hz) {
+    ClampedBeam beam(GetParam().pieces, 1 / hz);
+    beam.drop(GetParam());
+    beam.run(1);
+    return beam.structure.energy().dissipated;
+  };
+  const double fine = plastic_work(3840);
+  ASSERT_GT(fine, 0);
+  for (const double hz : {30., 60., 120., 240.}) EXPECT_NEAR(plastic_work(hz), fine, 0.15 * fine) << hz;
+}
+INSTANTIATE_TEST_SUITE_P(Beams, SameBlow,
+                         testing::Values(Struck{10, 500, 30, 5, true}, Struck{10, 1000, 15, 5.3, false},
+                                         Struck{16, 250, 35, 4, false}));
+
+// Between the steps of a blow the solver's laws are those of parts of a step: that is brought back, too.
+TEST(SolvedInParts, RunsOnAsItDid) {
+  ClampedBeam beam(10, 1.0 / 60);
+  const b2Body* disc = beam.drop({10, 500, 30, 5, true});
+  while (beam.divided == 0) beam.run(beam.dt / 2);
+  Snapshot struck;
+  struck.save(beam.world);
+  const auto end = [&] {
+    beam.run(0.5);
+    return std::tuple{disc->GetPosition().x, disc->GetPosition().y, disc->GetAngle(),
+                      beam.structure.energy().dissipated};
+  };
+  const auto first = end();
+  struck.restore(beam.world);
+  EXPECT_EQ(end(), first);
+}
 
 class Block : public testing::TestWithParam<std::tuple<bool, double>> {};
 

@@ -226,6 +226,8 @@ struct JointEnergy {
   double damping = 0;    ///< of the rows' dampers, since the start
   double numerical = 0;  ///< what implicit integration took since the start (negative: gave)
   double driven = 0;     ///< work of driven rows, kinematic bodies and turning ones with fixed rotation
+  double contacts = 0;   ///< work of contacts in steps that were solved in parts (StepReport::divided), beyond
+                         ///< that of their impulses with the mean of the velocities before and after
   double clamped = 0;    ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 
@@ -236,6 +238,7 @@ struct StepReport {
   int skipped = 0;  ///< Box2D iterations before which nothing had touched the structure
   int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
   int factorisations = 0;
+  int divided = 0;      ///< components whose step was solved in parts, for a blow
   int projections = 0;  ///< pushes by contacts that were spread through the structure
   int bounds_hit = 0;   ///< solves and projections that ended at their bound of iterations; 0 in every scene
   int parted = 0;       ///< of these the projections: their gaps became the joints' neutral positions

@@ -58,7 +58,7 @@ class EnergyLedger final : public b2ContactListener {
   /// Just before b2World::Step, after the forces were applied: `loads` are those.
   void before_step(double dt, const std::vector<AppliedLoad>& loads);
   /// After Step, before Structure::update(), which puts back what met a piece on its way.
-  void after_step();
+  void after_step(const Structure* structure);
   /// After Structure::update(), or without a structure.
   void after_update(const Structure* structure);
 

@@ -1,0 +1,220 @@
+// The steps of a blow in parts: what strikes a structure sends waves through it that are over in a few
+// milliseconds, and their plastic work depends on them. So a step in which a blow may strain joints to a good
+// share of their capacity, and those of the next 50 ms in which some still are, are solved as shorter ones,
+// with contacts as rows of each. Box2D sees one step: it moves bodies with their mean velocities, before its
+// iterations of positions they get those at the end, and contacts have the sums of their impulses.
+//
+// That takes that nothing but the solver changes the bodies' velocities in the step.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "component.h"
+#include "frames.h"
+#include "structure.h"
+
+namespace ductile::dynamics {
+
+namespace {
+
+constexpr double part = 1 / 1920.0;  // s
+constexpr double blow_time = 0.05;   // s that waves are followed for
+constexpr double strained = 0.25;    // of a capacity
+
+}  // namespace
+
+bool Component::may_divide(const b2SolverData& data) const {
+  const double h = data.step.dt;
+  return whole() && data.step.positionIterations > 0 && h > 1.5 * part &&
+         h * solver.fastest() < b2_maxTranslation && h * solver.fastest_turn() < b2_maxRotation;
+}
+
+bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
+  return parts_.count > 1 && !moved && parts_.since_blow < blow_time && may_divide(data) && is_strained();
+}
+
+// What a blow gives a struck body, λ²/2m of λ = m_eff v, against what its joints store until they yield,
+// F²/2k; of what is stiffer than a part resolves, k is what that does. The solution of the whole step does
+// not know the peak.
+bool Component::strikes_hard() {
+  for (Parts::OfBody& body : parts_.bodies) body.energy = 0;
+  each_point([this](std::size_t, const Touch& t, const PointConstraint& p) {
+    const double speed = -closing_speed(t, p);
+    const auto inverse_mass = [this](int i) {
+      return solver.is_free(i) ? solver.bodies[z(i)].inverse_mass : 0;
+    };
+    const double both = inverse_mass(t.in_a) + inverse_mass(t.in_b);
+    if (!(speed > blow_speed) || !(both > 0)) return;
+    for (const int i : {t.in_a, t.in_b}) {
+      if (!solver.is_free(i)) continue;
+      double& energy = parts_.bodies[z(i)].energy;
+      energy = std::max(energy, speed * speed / (both * both) * inverse_mass(i) / 2);
+    }
+  });
+  return std::any_of(members.begin(), members.end(), [this](const Member* m) {
+    const Joint& j = solver.joints[m->index];
+    const JointRecord& r = solver.records[m->index];
+    double energy = 0;
+    for (const int i : {j.a, j.b})
+      if (solver.is_free(i)) energy = std::max(energy, parts_.bodies[z(i)].energy);
+    Rows force;
+    for (unsigned i = 0; i < 3; ++i)
+      force[i] = std::sqrt(2 * energy * std::min(r.law.spring[i], r.m_eff[i] / (part * part)));
+    if (r.law.surface != nullptr) return r.law.surface->usage(force) > strained;
+    for (unsigned i = 0; i < 3; ++i)
+      if (force[i] > strained * std::min(r.material.cap[i], r.material.cap_reverse[i])) return true;
+    return false;
+  });
+}
+
+bool Component::is_strained() const {
+  return std::any_of(members.begin(), members.end(), [](const Member* m) {
+    return std::max({m->joint->usage(axial), m->joint->usage(shear), m->joint->usage(rotation)}) > strained;
+  });
+}
+
+void Component::solve_in_parts(const b2SolverData& data, bool blow) {
+  const int count = std::max(2, static_cast<int>(std::lround(data.step.dt / part)));
+  const double h = double{data.step.dt} / count;
+  if (parts_.count != count) {
+    if (parts_.count > 1) solver.unite(parts_.count);
+    solver.divide(parts_.count = count);
+  }
+  begin_parts();
+  for (int k = 0; k < count; ++k) {
+    solve_part(h, k == 0, blow);
+    solver.advance();
+    structure->look_for_breaks(*this);
+  }
+  end_parts(data);
+  parts_.since_blow = blow ? 0 : parts_.since_blow + data.step.dt;
+  parts_.advanced = true;
+  ++structure->reports.step.divided;
+}
+
+// What gravity and loads give a body in the step they give it evenly.
+void Component::begin_parts() {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    Mirror& m = mirrors[i];
+    Parts::OfBody& body = parts_.bodies[i];
+    body = {.start = solver.places[i].pose};
+    if (!m.present) continue;
+    body.before = in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
+    body.given = 1.0 / parts_.count * (m.exact - body.before);
+    m.exact = body.before;
+  }
+  read_touches();
+  parts_.sums.assign(outside_.contacts.size(), {});
+  for (Contact& c : outside_.contacts) {
+    c.normal /= parts_.count;
+    c.tangent /= parts_.count;
+  }
+}
+
+// Contacts keep their arms and directions in the world, and close no further than their gap since the step's
+// start.
+void Component::solve_part(double h, bool first, bool blow) {
+  const auto enter = [this](std::size_t i) {
+    const Vec3& v = mirrors[i].exact;
+    solver.before[i] = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+  };
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    enter(i);
+    const Vec3 v = mirrors[i].exact + parts_.bodies[i].given;
+    solver.bodies[i].v_free = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+  }
+  for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
+    enter(i);
+    solver.bodies[i].v = solver.before[i];
+  }
+  solver.begin(h);
+  if (!first) {
+    read_touches();
+    for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
+      Contact& c = outside_.contacts[k];
+      c.normal = solver.contacts[k].normal;
+      c.tangent = solver.contacts[k].tangent;
+      c.bounce = -parts_.sums[k].gap / h;
+    }
+  }
+  solver.touch(outside_.links, outside_.contacts);
+  if (first && blow) solver.strike();
+  solve_direct();
+
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    Parts::OfContact& sum = parts_.sums[k];
+    const Contact& c = solver.contacts[k];
+    sum.normal += c.normal;
+    sum.tangent += c.tangent;
+    sum.work += work(t, p, c.normal, c.tangent) / 2;
+  });
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Vec3 v = into_world(solver.places[i].turn, solver.bodies[i].v);
+    parts_.bodies[i].sum += 0.5 * (mirrors[i].exact + v);
+    mirrors[i].exact = v;
+  }
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    Parts::OfContact& sum = parts_.sums[k];
+    sum.work += work(t, p, solver.contacts[k].normal, solver.contacts[k].tangent) / 2;
+    sum.gap = std::max(0.0, sum.gap + h * work(t, p, 1, 0));
+  });
+}
+
+// Box2D moves the bodies by what it finds here, and has a step of position iterations to get their
+// velocities.
+void Component::end_parts(const b2SolverData& data) {
+  for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
+    solver.contacts[k].normal = parts_.sums[k].normal;
+    solver.contacts[k].tangent = parts_.sums[k].tangent;
+  }
+  return_contacts();
+  if (solver.keeps_ledger) book_parts();
+  const double rate = 1 / double{data.step.dt};
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    Mirror& m = mirrors[i];
+    m.given = in_floats(m.exact);
+    m.left = box2d_pose(i);
+    if (!m.present) continue;
+    const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
+    data.velocities[m.island_index] =
+        in_floats({rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)});
+  }
+  for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
+    if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
+  }
+}
+
+// An observer of the whole step counts impulses times the mean of the velocities before and after it.
+void Component::book_parts() {
+  double contacts = 0, weight = 0;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Parts::OfBody& body = parts_.bodies[i];
+    const Body& b = solver.bodies[i];
+    const Vec3 beyond = body.sum - 0.5 * parts_.count * (body.before + mirrors[i].exact);
+    weight +=
+        b.mass * (body.given.x * beyond.x + body.given.y * beyond.y) + b.inertia * body.given.w * beyond.w;
+  }
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    const Parts::OfContact& sum = parts_.sums[k];
+    contacts += sum.work - work(t, p, sum.normal, sum.tangent) / 2;
+  });
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
+  });
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
+  solver.book_parts(contacts, weight);
+}
+
+/// Of impulses at a point at the bodies' velocities, J; of 1 N s, how fast it opens.
+double Component::work(const Touch& t, const PointConstraint& p, double normal, double tangent) const {
+  const b2Vec2& n = t.velocity->normal;
+  const auto at = [](const Vec3& v, const b2Vec2& arm) {
+    return std::pair{v.x - v.w * arm.y, v.y + v.w * arm.x};
+  };
+  const auto [ax, ay] = at(mirrors[z(t.in_a)].exact, p.ra);
+  const auto [bx, by] = at(mirrors[z(t.in_b)].exact, p.rb);
+  return (normal * n.x + tangent * n.y) * (bx - ax) + (normal * n.y - tangent * n.x) * (by - ay);
+}
+
+}  // namespace ductile::dynamics
