@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ductile/box2d.h"
 #include "ductile/files.h"
 #include "ductile/plane.h"
 
@@ -51,16 +52,30 @@ std::vector<Point> feet(const Ring& ring, double floor) {
   return feet;
 }
 
-/// In as many pieces as it can be split into: a body that cannot be split is still a body.
-BodyDef split(BodyDef body) {
-  BodyDef parts = body;
-  parts.pieces = 8;
+/// Can it be split like that, and into what Box2D collides?
+bool stands(const BodyDef& body) {
   try {
-    calibrate(parts);
-    return parts;
+    for (const Piece& piece : calibrate(body).pieces) {
+      if (body.collides) shapes(piece);
+    }
+    return true;
   } catch (const InvalidInput&) {
-    return body;
+    return false;
   }
+}
+
+/// Up to 8 pieces: a body that cannot be split is still a body; what is too thin for Box2D collides with
+/// nothing.
+BodyDef split(BodyDef body) {
+  const int whole = body.pieces;
+  for (const bool collides : {true, false}) {
+    body.collides = collides;
+    for (const int pieces : {8, 4, 2, whole}) {
+      body.pieces = pieces;
+      if (stands(body)) return body;
+    }
+  }
+  return body;
 }
 
 }  // namespace
@@ -86,8 +101,9 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
   BodyDef floor;
   floor.name = "floor";
   floor.type = BodyType::static_body;
-  floor.outline.outer = {{frame.low.x - size, frame.low.y - 0.1 * size},
-                         {frame.high.x + size, frame.low.y - 0.1 * size},
+  const double deep = std::max(0.1 * size, 0.1);  // m: thick enough for Box2D
+  floor.outline.outer = {{frame.low.x - size, frame.low.y - deep},
+                         {frame.high.x + size, frame.low.y - deep},
                          {frame.high.x + size, frame.low.y},
                          {frame.low.x - size, frame.low.y}};
   result.scene.bodies.push_back(floor);
@@ -101,6 +117,7 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
     for (const Point& foot : feet(body.outline.outer, frame.low.y + 1e-6 * size))
       result.scene.supports.push_back({body.name, foot, true, true, true});
     result.scene.bodies.push_back(split(std::move(body)));
+    result.too_thin += !result.scene.bodies.back().collides;
   }
   return result;
 }

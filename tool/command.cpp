@@ -25,6 +25,12 @@ SceneDef scene_of_drawing(std::string_view text, const SceneFile& file) {
   if (drawn.scale > 0)
     fmt::print(stderr, "warning: {}: has no physical size; a unit is taken as {:.4g} m: give --scale\n",
                file.name, drawn.scale);
+  if (drawn.too_thin > 0)
+    fmt::print(stderr,
+               "warning: {}: {} of {} bodies are thinner than the 0.02 m that Box2D collides, and touch "
+               "nothing: give a "
+               "larger --scale\n",
+               file.name, drawn.too_thin, drawn.scene.bodies.size() - 1);
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < std::min(drawn.left_out.size(), most); ++i) {
     const Problem& problem = drawn.left_out[i];

@@ -19,6 +19,9 @@ Opened scene_of(const Drawing& drawing, const std::filesystem::path& file, doubl
   opened.note +=
       "Shapes became bodies of S355 in up to 8 pieces, not joined to one another; what reaches the floor is "
       "held there.";
+  if (drawn.too_thin > 0)
+    opened.note +=
+        " What is thinner than the 0.02 m that Box2D collides touches nothing: a larger scale helps.";
   if (!drawn.left_out.empty()) {
     opened.note += " Left out: " + drawn.left_out.front().place + " " + drawn.left_out.front().what;
     if (drawn.left_out.size() > 1)

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "ductile/box2d.h"
 #include "ductile/files.h"
 
 namespace {
@@ -586,6 +587,35 @@ TEST(Svg, OneBadShapeIsLeftOutAndSaid) {
   ASSERT_EQ(drawn.left_out.size(), 2u);
   EXPECT_EQ(drawn.left_out[0].place, "t.svg:t");
   EXPECT_EQ(drawn.left_out[1].place, "t.svg:#b, path command 2");
+}
+
+TEST(DrawnScene, PiecesAreAsFewAsBox2DCanCollide) {
+  const Drawing page(drawing("<rect id='wide' y='0' width='100' height='100'/>"
+                             "<rect id='thin' x='200' width='10' height='10'/>"
+                             "<rect id='large' y='-500' width='400' height='200'/>"),
+                     "t.svg");
+  const DrawnScene drawn = drawing_scene(page, 0.001);  // 0.1, 0.01 and 0.4 m
+  ASSERT_EQ(drawn.scene.bodies.size(), 4u);
+  const auto& bodies = drawn.scene.bodies;
+  EXPECT_EQ(bodies[1].pieces, 4);  // of 25 mm, where 8 would be of 12.5
+  EXPECT_EQ(bodies[3].pieces, 8);
+  EXPECT_TRUE(bodies[1].collides && bodies[3].collides);
+  EXPECT_FALSE(bodies[2].collides);
+  EXPECT_EQ(drawn.too_thin, 1);
+  b2World world({0, -10});
+  EXPECT_NO_THROW(build(world, calibrate(drawn.scene)));
+}
+
+TEST(DrawnScene, EachStretchOnTheFloorIsHeldOnce) {
+  const Drawing page(drawing("<path id='table' d='M0 0H90V100H80L75 100H70V20H20V100L15 100H10Z'/>"
+                             "<path id='lamp' d='M0 -50H90V-20Z'/>"),
+                     "t.svg");
+  const DrawnScene drawn = drawing_scene(page, 0.1);
+  ASSERT_EQ(drawn.scene.supports.size(), 2u);
+  for (const SupportDef& support : drawn.scene.supports) {
+    EXPECT_EQ(support.body, "table");
+    EXPECT_TRUE(std::abs(support.at.x - 1.5) < 1e-12 || std::abs(support.at.x - 8) < 1e-12) << support.at.x;
+  }
 }
 
 TEST(Svg, AHiddenShapeIsTakenByItsName) {

@@ -99,12 +99,14 @@ struct DrawnScene {
   SceneDef scene;
   double scale = 0;  ///< metres per unit, where the drawing did not say it and it became 10 m large
   std::vector<Problem> left_out;  ///< as in DrawnShapes
+  int too_thin = 0;               ///< bodies that Box2D could not collide, and that collide with nothing
 };
 /// Throws InvalidInput where the drawing shows nothing that is a body. `metres_per_unit` as DrawingScale has
 /// it.
 DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit = 0);
 
-/// The file's bytes, unpacked where gzip packed them. A problem when it cannot be read, or is larger than 256 MiB.
+/// The file's bytes, unpacked where gzip packed them. A problem when it cannot be read, or is larger than 256
+/// MiB.
 std::string read_text(const std::filesystem::path& file);
 
 /// A file that appears whole or not at all: written beside its place, and put there by keep(). What is there
