@@ -126,19 +126,11 @@ void StepLaws::rescale(System& system, double by) {
 
 void StepLaws::divide(System& system, double parts) { rescale(system, 1 / parts); }
 
-// A vibration that the longer step does not resolve has rates w that say nothing of the strain half a step
-// ago. A row's mass m, which moves at w without strain, keeps its energy in a step of p = h w/(1 + √(1 + y)),
-// y = h² k/4m: from R = k (u − p)/4 and m (u/h − w) = −h R follows m (u/h)² (1 + y) = m w².
+// Rates w of what the longer step does not resolve say nothing of the strain half a step ago. With w = 0 the
+// law starts from what the rows store and the bodies' velocities: no energy comes of it.
 void StepLaws::unite(System& system, double parts) {
   rescale(system, parts);
-  for (Joint& j : system.own_joints()) {
-    const JointRecord& r = system.record(j);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!(r.m_eff[i] > 0)) continue;
-      j.rate[i] /= 1 + std::sqrt(1 + h_ * h_ * r.law.spring[i] / (4 * r.m_eff[i]));
-      j.trend[i] = 0;
-    }
-  }
+  for (Joint& j : system.own_joints()) j.rate = j.trend = {};
 }
 
 bool StepLaws::begin(System& system, double h) {
