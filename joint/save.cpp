@@ -124,8 +124,7 @@ class Structure::Impl::Save {
       a("keep_ledger", s_.def.keep_ledger);
       a("next_id", next_id);
       a("last_node", s_.nodes.last);
-      a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped,
-        gone.contacts);
+      a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped, gone.contacts);
     });
     if (a_.reads()) s_.gone_ = gone;
     return next_id;

@@ -226,9 +226,9 @@ struct JointEnergy {
   double damping = 0;    ///< of the rows' dampers, since the start
   double numerical = 0;  ///< what implicit integration took since the start (negative: gave)
   double driven = 0;     ///< work of driven rows, kinematic bodies and turning ones with fixed rotation
-  double contacts = 0;   ///< work of contacts in steps that were solved in parts (StepReport::divided), beyond
-                         ///< that of their impulses with the mean of the velocities before and after
-  double clamped = 0;    ///< kinetic energy that Box2D's speed limits took from the pieces since the start
+  double contacts = 0;  ///< work of contacts in steps that were solved in parts (StepReport::divided), beyond
+                        ///< that of their impulses with the mean of the velocities before and after
+  double clamped = 0;   ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 
 /// What the last b2World::Step cost, over all islands.
