@@ -30,7 +30,10 @@ bool Structure::Impl::enlist(Member* member, Component* component) {
     island_.enlisted.clear();
     island_.active.clear();
     island_.velocity_calls = 0;
-    if (std::exchange(reports.stepped, true) == false) reports.step = {};
+    if (std::exchange(reports.stepped, true) == false) {
+      reports.step = {};
+      reports.bodies_in_parts = 0;
+    }
   }
   island_.enlisted.push_back(member);
   if (component != nullptr && component->enlisted++ == 0) island_.active.push_back(component);

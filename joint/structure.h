@@ -42,6 +42,7 @@ struct Reports {
   StepReport worst;      // since the start: bounds_hit and parted are sums, residual and slowed are maxima
   int stopped = 0;       // velocities since the start that were no finite numbers
   bool stepped = false;  // since the last update()
+  std::size_t bodies_in_parts = 0;  // of the components that `step` counts as divided
 
   void close_step();
 };

@@ -456,7 +456,7 @@ TEST_P(Extremes, StayFiniteAndGainNothing) {
     ledger.before_step(dt, {});
     game.world->Step(static_cast<float>(dt), s.velocity_iterations, s.position_iterations);
     ASSERT_EQ(game.structure->report().bounds_hit, 0) << i;
-    ledger.after_step();
+    ledger.after_step(&*game.structure);
     game.structure->update();
     ledger.after_update(&*game.structure);
 
