@@ -1,6 +1,7 @@
 #include "box2d_joints.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "reveal.h"
 
@@ -37,23 +38,31 @@ DUCTILE_REVEAL(b2PulleyJoint, m_mass, float);
 
 namespace {
 
+// A mass beside which all others are none. Box2D makes an infinite bias of a limit that is as good as none,
+// as maxLength is by default, and 0 times that is no number.
+constexpr float nothing = std::numeric_limits<float>::min();
+
+float no_mass(float lower, float upper) { return std::max(-lower, upper) < 1e30f ? 0 : nothing; }
+
 // What its iterations of velocities multiply the error with.
 void clear(b2RevoluteJoint& j, float&) {
   of(j, b2RevoluteJoint_m_K{}).SetZero();
-  of(j, b2RevoluteJoint_m_axialMass{}) = 0;
+  of(j, b2RevoluteJoint_m_axialMass{}) = no_mass(j.GetLowerLimit(), j.GetUpperLimit());
 }
 void clear(b2PrismaticJoint& j, float&) {
   of(j, b2PrismaticJoint_m_K{}).SetZero();
-  of(j, b2PrismaticJoint_m_axialMass{}) = 0;
+  of(j, b2PrismaticJoint_m_axialMass{}) = no_mass(j.GetLowerLimit(), j.GetUpperLimit());
 }
 void clear(b2DistanceJoint& j, float& position_mass) {
   float& mass = of(j, b2DistanceJoint_m_mass{});
-  if (mass > 0) position_mass = mass;
-  mass = of(j, b2DistanceJoint_m_softMass{}) = 0;
+  if (mass > nothing) position_mass = mass;
+  mass = no_mass(j.GetMinLength(), j.GetMaxLength());
+  of(j, b2DistanceJoint_m_softMass{}) = 0;
 }
 void clear(b2WheelJoint& j, float&) {
   of(j, b2WheelJoint_m_mass{}) = of(j, b2WheelJoint_m_springMass{}) = 0;
-  of(j, b2WheelJoint_m_motorMass{}) = of(j, b2WheelJoint_m_axialMass{}) = 0;
+  of(j, b2WheelJoint_m_motorMass{}) = 0;
+  of(j, b2WheelJoint_m_axialMass{}) = no_mass(j.GetLowerLimit(), j.GetUpperLimit());
 }
 void clear(b2WeldJoint& j, float&) { of(j, b2WeldJoint_m_mass{}).SetZero(); }
 void clear(b2MouseJoint& j, float&) { of(j, b2MouseJoint_m_mass{}).SetZero(); }

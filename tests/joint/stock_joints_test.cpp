@@ -426,6 +426,20 @@ TEST(StockJoints, MayBeMadeBeforeTheStructure) {
 }
 
 // A winch, made of a rope whose length is set in each step: the load follows, and is not jerked.
+// Box2D makes an infinite bias of a limit that is none, as a spring's maxLength is by default.
+TEST(StockSprings, WithoutLimitsHoldADeck) {
+  Deck deck(8);
+  deck.fix(true);
+  b2DistanceJointDef spring;
+  spring.Initialize(deck.ground, deck.pieces.back(), {Deck::length, 3}, {Deck::length, 0});
+  spring.minLength = 0;
+  spring.maxLength = b2_maxFloat;
+  b2LinearStiffness(spring.stiffness, spring.damping, 4, 1, deck.pieces.back(), deck.ground);
+  auto* held = static_cast<b2DistanceJoint*>(deck.hold(spring));
+  deck.run(20, 60, 8);
+  EXPECT_NEAR(held->GetReactionForce(60).Length(), Deck::weight / 2, 1e-4 * Deck::weight);
+}
+
 TEST(StockRopes, AreWoundUp) {
   for (const double hz : {30.0, 60.0, 120.0}) {
     Deck deck;
