@@ -30,8 +30,8 @@ constexpr std::size_t most_bodies = 160, most_touches = 16;
 
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
-  return whole() && data.step.positionIterations > 0 && h > 1.5 * part &&
-         structure->reports.bodies_in_parts + solver.bodies.size() <= most_bodies &&
+  return whole() && !structure->world->GetSubStepping() && data.step.positionIterations > 0 &&
+         h > 1.5 * part && structure->reports.bodies_in_parts + solver.bodies.size() <= most_bodies &&
          outside_.touches.size() <= most_touches && h * solver.fastest() < b2_maxTranslation &&
          h * solver.fastest_turn() < b2_maxRotation;
 }
