@@ -31,6 +31,11 @@ SceneDef scene_of_drawing(std::string_view text, const SceneFile& file) {
                "nothing: give a "
                "larger --scale\n",
                file.name, drawn.too_thin, drawn.scene.bodies.size() - 1);
+  if (drawn.heaped > 0)
+    fmt::print(stderr,
+               "warning: {}: {} of {} shapes lie over one another, and do not collide with each other: draw "
+               "what shall carry what side by side\n",
+               file.name, drawn.heaped, drawn.scene.bodies.size() - 1);
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < std::min(drawn.left_out.size(), most); ++i) {
     const Problem& problem = drawn.left_out[i];

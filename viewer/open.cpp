@@ -22,6 +22,7 @@ Opened scene_of(const Drawing& drawing, const std::filesystem::path& file, doubl
   if (drawn.too_thin > 0)
     opened.note +=
         " What is thinner than the 0.02 m that Box2D collides touches nothing: a larger scale helps.";
+  if (drawn.heaped > 0) opened.note += " Shapes that lie over one another do not collide with each other.";
   if (!drawn.left_out.empty()) {
     opened.note += " Left out: " + drawn.left_out.front().place + " " + drawn.left_out.front().what;
     if (drawn.left_out.size() > 1)

@@ -606,6 +606,30 @@ TEST(DrawnScene, PiecesAreAsFewAsBox2DCanCollide) {
   EXPECT_NO_THROW(build(world, calibrate(drawn.scene)));
 }
 
+TEST(DrawnScene, WhatLiesOverAnotherDoesNotCollideWithIt) {
+  const Drawing page(
+      drawing(
+          "<rect id='a' width='100' height='100'/><rect id='on_a' y='-100' width='100' height='100.05'/>"
+          "<rect id='upright' x='300' width='20' height='100'/>"
+          "<rect id='across' x='250' y='40' width='120' height='20'/>"
+          "<rect id='end' x='360' y='45' width='100' height='10'/>"
+          "<path id='frame' d='M500 0H600V100H500Z M510 10V90H590V10Z'/>"
+          "<rect id='within' x='530' y='30' width='40' height='40'/>"
+          "<rect id='sheet' x='700' width='100' height='100'/><circle id='eye' cx='750' cy='50' r='20'/>"),
+      "t.svg");
+  const DrawnScene drawn = drawing_scene(page, 0.1);
+  std::map<std::string, int> group;
+  for (const BodyDef& body : drawn.scene.bodies) group[body.name] = body.group;
+  for (const char* alone : {"floor", "a", "on_a", "frame", "within"}) EXPECT_EQ(group[alone], 0) << alone;
+  EXPECT_LT(group["across"], 0);  // the bars cross, and no corner of either is in the other
+  EXPECT_EQ(group["upright"], group["across"]);
+  EXPECT_EQ(group["end"], group["across"]);
+  EXPECT_LT(group["sheet"], 0);
+  EXPECT_EQ(group["eye"], group["sheet"]);
+  EXPECT_NE(group["eye"], group["across"]);
+  EXPECT_EQ(drawn.heaped, 5);
+}
+
 TEST(DrawnScene, EachStretchOnTheFloorIsHeldOnce) {
   const Drawing page(drawing("<path id='table' d='M0 0H90V100H80L75 100H70V20H20V100L15 100H10Z'/>"
                              "<path id='lamp' d='M0 -50H90V-20Z'/>"),

@@ -100,6 +100,7 @@ struct DrawnScene {
   double scale = 0;  ///< metres per unit, where the drawing did not say it and it became 10 m large
   std::vector<Problem> left_out;  ///< as in DrawnShapes
   int too_thin = 0;               ///< bodies that Box2D could not collide, and that collide with nothing
+  int heaped = 0;  ///< bodies that lie over others by more than 1e-3 of the drawing; these do not collide
 };
 /// Throws InvalidInput where the drawing shows nothing that is a body. `metres_per_unit` as DrawingScale has
 /// it.
