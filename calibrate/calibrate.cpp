@@ -843,9 +843,7 @@ class Planner {
   }
 
   static bool near(const Outline& a, const Outline& b, double gap) {
-    const Bounds p = bounds_of(a.outer), q = bounds_of(b.outer);
-    return p.low.x <= q.high.x + gap && q.low.x <= p.high.x + gap && p.low.y <= q.high.y + gap &&
-           q.low.y <= p.high.y + gap;
+    return bounds_of(a.outer).meets(bounds_of(b.outer), gap);
   }
 
   // --- what holds, loads and rolls ---

@@ -127,6 +127,7 @@ int group_heaps(std::span<BodyDef> bodies, double depth) {
   std::int16_t heaps = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
+      if (!bounds[i].meets(bounds[k])) continue;
       if (bodies[i].group != 0 && bodies[i].group == bodies[k].group) continue;
       if (!reaches_into(i, k) && !reaches_into(k, i)) continue;
       if (bodies[k].group == 0) bodies[k].group = bodies[i].group != 0 ? bodies[i].group : --heaps;

@@ -38,6 +38,11 @@ struct Bounds {
   }
   bool empty() const { return low.x > high.x; }
   bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+  /// Are they no further apart than `gap` along either axis?
+  bool meets(const Bounds& other, double gap = 0) const {
+    return low.x <= other.high.x + gap && other.low.x <= high.x + gap && low.y <= other.high.y + gap &&
+           other.low.y <= high.y + gap;
+  }
   Point size() const { return high - low; }
   Point middle() const { return 0.5 * (low + high); }
   double diagonal() const { return length(size()); }
