@@ -43,14 +43,20 @@ class Pushing {
       statics_.stiffen(flow_.roots());
       if (statics_.freedoms() > freedoms_) {
         statics_.stiffen(flow_.roots(1e-4));  // what flows moves
-        return goes(growth, statics_.motions(growth.growing));
+        if (goes(growth, statics_.motions(growth.growing))) return false;
+        continue;
       }
       const auto K_g = geometric_stiffness(plan_, statics_, growth, state_);
-      if (const Buckle buckle = buckling(statics_, K_g, any_motion(statics_)); buckle.inverse_factor >= 1)
-        return goes(growth, buckle.mode);
+      if (const Buckle buckle = buckling(statics_, K_g, any_motion(statics_)); buckle.inverse_factor >= 1) {
+        if (goes(growth, buckle.mode)) return false;
+        continue;
+      }
       const ElasticState bent = statics_.imposed(growth.elongation);
       std::optional<VectorXd> rate = solve_tangent(statics_, K_g, growth.growing - K_g * bent.x);
-      if (!rate) return goes(growth, statics_.motions(growth.growing));
+      if (!rate) {
+        goes(growth, statics_.motions(growth.growing));
+        return false;
+      }
       *rate += bent.x;
       if (flow_.unload(statics_.B * *rate + growth.elongation)) continue;
       switch (stage(growth, last, statics_.forces(growth.growing - K_g * *rate) + bent.forces)) {
@@ -165,8 +171,7 @@ class Pushing {
       }
     }
     state_ = std::move(last);
-    goes(growth, buckle_of(growth, state_).mode);
-    return Ends::by_buckling;
+    return goes(growth, buckle_of(growth, state_).mode) ? Ends::by_buckling : Ends::at_a_hinge;
   }
 
   Ends hinge(const Deformed& state, const Flow::Most& most) {
@@ -177,10 +182,17 @@ class Pushing {
     return Ends::at_a_hinge;
   }
 
-  // The way the loads push.
+  // Whether it goes in this motion, the way the loads push. Not where a hinge would go backward in it: that
+  // one unloads first, as where two form beside each other because the largest moment moves on along a bar.
+  // One that yields again at once, time after time, does not keep it from going.
   bool goes(const Growth& growth, const VectorXd& x) {
-    if (x.size() > 0) mechanism = shape_of(plan_, statics_, x.dot(growth.growing) < 0 ? VectorXd(-x) : x);
-    return false;
+    if (x.size() == 0) return true;
+    const VectorXd forward = x.dot(growth.growing) < 0 ? VectorXd(-x) : x;
+    if (state_.factor > let_go_at_) let_go_at_ = state_.factor, let_go_ = 0;
+    const bool pushed = growth.growing.isZero(0);  // by supports: which way it goes is not known
+    if (!pushed && let_go_++ < plan_.joints.size() && flow_.unload(statics_.B * forward)) return false;
+    mechanism = shape_of(plan_, statics_, forward);
+    return true;
   }
 
   const Plan& plan_;
@@ -188,6 +200,8 @@ class Pushing {
   Flow flow_;
   Eigen::Index freedoms_;
   Deformed state_;
+  double let_go_at_ = -1;   // the factor at which goes() last had a hinge unload,
+  std::size_t let_go_ = 0;  // and how often it did there
 };
 
 }  // namespace
