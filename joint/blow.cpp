@@ -11,6 +11,7 @@ void set_caps(Joint& j, JointRecord& r, const Rows& cap, const Rows& cap_reverse
   r.law.cap = cap;
   r.law.cap_reverse = cap_reverse;
   r.law.share = share;
+  if (r.material.rate != nullptr) r.law.raised = r.law.after_yield = {};
   j.elastic_range = r.law.elastic_range();
 }
 
@@ -58,8 +59,9 @@ void close_blow(System& system) {
 double impulse_at_yield(const Joint& j, const JointRecord& r, unsigned i) {
   const double s = j.impulse[i], h = r.law.h;
   if (r.law.surface != nullptr) return s / r.law.share;
-  const double missing =
-      s > 0 ? h * r.material.cap[i] - r.law.cap[i] : r.law.cap_reverse[i] - h * r.material.cap_reverse[i];
+  const double raised = r.law.raised[i];
+  const double missing = s > 0 ? h * r.material.cap[i] - (r.law.cap[i] - raised)
+                               : (r.law.cap_reverse[i] - raised) - h * r.material.cap_reverse[i];
   return std::isfinite(missing) ? s + missing : s;
 }
 

@@ -16,7 +16,7 @@ namespace ductile::dynamics {
 
 inline bool is_driven(const JointRecord& r, unsigned i) { return r.material.is_driven(i); }
 
-/// Lists the driven joints, and marks those that are or may be slack. Never allocates after the system's
+/// Lists the driven joints and those of a rate law, and marks those that are or may be slack. Never allocates after the system's
 /// form().
 void list_special(System& system);
 

@@ -87,6 +87,15 @@ std::vector<std::string> wrong_in(const ElasticPlasticJointDef& def) {
   for (const double limit : {def.max_rotation, def.max_elongation, def.max_compression, def.max_slip}) {
     require(limit >= 0, "maxima must be ≥ 0 (unlimited: never breaks by it)");
   }
+  if (def.rate) {
+    for (const double d : def.rate->doubling) require(d > 0, "a rate at which a cap is doubled must be > 0");
+    require(def.rate->exponent >= 1 && std::isfinite(def.rate->exponent),
+            "a rate law's exponent must be ≥ 1 and finite");
+    require(def.interaction.empty(), "an interaction curve takes no rate law; use independent caps");
+    for (const RowDef& row : def.rows)
+      require(!(row.hardening > 0) && !row.slackens && !row.drive,
+              "a joint with a rate law does not harden, slacken or drive");
+  }
   for (std::string& text : wrong_in(def.state)) wrong.push_back(std::move(text));
   if (!def.interaction.empty()) {
     for (const RowDef& row : def.rows) {
@@ -187,6 +196,7 @@ void ElasticPlasticJoint::require(Row row, const RowDef& to) const {
     refuse(std::string(row_names[row]) + " row: " + wrong.front());
   if (row_state().frame.line && row != axial && !carries_nothing(to)) refuse(line_rule);
   if (record().material.surface != nullptr && to.drive) refuse(surface_rule);
+  if (record().material.rate != nullptr && to.drive) refuse("a joint with a rate law takes no drive");
 }
 
 void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {

@@ -105,6 +105,7 @@ ElasticPlasticJointDef ElasticPlasticJoint::def() const {
     d.interaction.assign(polygon.begin(), polygon.end());
     d.rows[shear].cap = d.rows[shear].cap_reverse = member_->surface->shear();
   }
+  if (member_->rate != nullptr) d.rate = *member_->rate;
   d.break_group = member_->break_group;
   d.node = member_->node;
   d.state = state();

@@ -73,6 +73,7 @@ struct Member {
   int break_group = 0;
   int node = 0;
   std::shared_ptr<const YieldSurface> surface;
+  std::shared_ptr<const RateLaw> rate;
 
   void set_state(const JointState& state);
   void belong_to(Component* to) { joint->component_ = component = to; }

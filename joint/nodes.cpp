@@ -83,6 +83,8 @@ std::vector<std::string> Structure::Impl::problems(const ElasticPlasticJointDef&
     all.emplace_back("structure: bodyA or bodyB is in another world than the structure");
     return all;
   }
+  if (d.rate && def.solver == SolverKind::iterative)
+    all.emplace_back("structure: a rate law needs the direct solver; leave `rate` out");
   if (world->IsLocked()) all.emplace_back("structure: the world is stepping; create joints between steps");
   for (const b2Body* body : {d.bodyA, d.bodyB}) {
     if (!is_of_another(*body)) continue;

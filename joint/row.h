@@ -60,6 +60,7 @@ struct Material {
   Rows cap{}, cap_reverse{};        // N, N, N m
   Rows hardening{};                 // N/m, N/m, N m/rad
   const YieldSurface* surface = nullptr;
+  const RateLaw* rate = nullptr;
   unsigned slackens = 0, driven = 0;  // rows that go slack at a cap of 0, and driven ones, one bit each
   Rows target{}, speed{};             // of driven rows: see Drive
 
@@ -85,7 +86,8 @@ struct RowLaw {
   const YieldSurface* surface = nullptr;  // instead of the caps
   double h = 0;                           // s
   double share = 1;                       // of the surface that is left to this step
-  Rows after_yield{};  // tangent beyond the cap as a share of G (hardening); 0: perfectly plastic
+  Rows raised{};                          // of the caps, by the rate of flow (rate.h)
+  Rows after_yield{};  // tangent beyond the cap as a share of G (hardening, rate); 0: perfectly plastic
   Rows spring{};       // k, the stiffness that the step can integrate, ≤ that of the material
   Rows damping{};      // c, N s/m or N m s
   Rows delta{};        // δ

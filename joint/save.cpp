@@ -62,6 +62,10 @@ void fields(Archive& a, ElasticPlasticJointDef& d) {
     if (each.reads()) d.interaction.emplace_back();
     each("at", d.interaction[i].N, d.interaction[i].M);
   });
+  if (a.reads() ? a.has("rate") : d.rate.has_value()) {
+    if (!d.rate) d.rate.emplace();
+    a("rate", d.rate->doubling[0], d.rate->doubling[1], d.rate->doubling[2], d.rate->exponent);
+  }
   a("break_group", d.break_group);
   a("node", d.node);
   three(a, "elastic", d.state.elastic);

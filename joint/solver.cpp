@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "blow.h"
+#include "rate.h"
 #include "turn_inertia.h"
 
 namespace ductile::dynamics {
@@ -28,6 +29,7 @@ void Solver::form(std::size_t free_bodies) {
   for (std::size_t i = 0; i < free; ++i) masses[i] = momentum(bodies[i], {1, 1, 1});
   prediction_.form(masses);
   driven.reserve(joints.size());
+  rated.reserve(joints.size());
   laws_changed();
 }
 
@@ -97,20 +99,33 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
-  // Coulomb's cap is that of the round before. At rest and in even motion the first is right.
+  settle_friction(solution, report);
+  for (int round = 0; round < most_rate_rounds && raise_caps(*this); ++round) {
+    hessian_.forget();
+    solve_again(solution, report);
+    settle_friction(solution, report);
+  }
+  read_links(*this);
+  last_ = solution.at;
+  return solution.moved;
+}
+
+void Solver::solve_again(Solution& solution, SolveReport& report) {
+  newton_.forget();
+  solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
+  solution.moved = true;
+}
+
+// Coulomb's cap is that of the round before. At rest and in even motion the first is right.
+void Solver::settle_friction(Solution& solution, SolveReport& report) {
   for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);
     if (round == 8) break;
     const Lag lag = lag_friction(*this, round);
     if (!lag.again) break;
     if (lag.other_rows) hessian_.forget();
-    newton_.forget();
-    solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
-    solution.moved = true;
+    solve_again(solution, report);
   }
-  read_links(*this);
-  last_ = solution.at;
-  return solution.moved;
 }
 
 void Solver::scale(double share) {
@@ -161,6 +176,7 @@ void Solver::advance() {
   }
   biases_known = true;
   if (std::exchange(struck_, false)) close_blow(*this);
+  if (lower_caps(*this, laws_)) hessian_.forget();
 }
 
 // What a joint's rows do in a step beyond being strained.

@@ -122,6 +122,8 @@ class Solver : public System {
 
  private:
   void place_others();
+  void solve_again(Solution& solution, SolveReport& report);
+  void settle_friction(Solution& solution, SolveReport& report);
   void book(Joint& joint, const Rows& gap);
 
   StepLaws laws_;

@@ -73,6 +73,10 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
     m.surface = std::make_shared<const YieldSurface>(d.interaction, d.rows[shear].cap);
     m.own.record.material.surface = m.surface.get();
   }
+  if (d.rate) {
+    m.rate = std::make_shared<const RateLaw>(*d.rate);
+    m.own.record.material.rate = m.rate.get();
+  }
   m.own.joint.frame.axis = turn_of(d.axisAngle);
   m.own.joint.frame.follow = d.axisFollow;
   m.own.joint.frame.reference = weld->GetReferenceAngle();

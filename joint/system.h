@@ -157,7 +157,7 @@ struct System {
   std::vector<JointRecord> records;        // of the joints
   std::vector<TurnInertia> turn_inertias;  // of some of them
   std::vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
-  std::vector<int> driven;                 // joints
+  std::vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
   std::vector<Link> links;                 // whose rows follow the structure's own joints
   std::vector<Contact> contacts;           // whose rows follow those
   std::vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H

@@ -57,6 +57,15 @@ struct RowDef {
   }
 };
 
+/// How caps grow with the rate r of plastic flow: |R| = F (1 + (r/D)^(1/q)), D a row's rate at which its cap
+/// is doubled (G. R. Cowper, P. S. Symonds 1957). Below 1e-4 D, where tests called static are made, the raise
+/// is linear in r.
+struct RateLaw {
+  double doubling[3] = {unlimited, unlimited,
+                        unlimited};  ///< D of the rows, m/s, m/s, rad/s; > 0; unlimited: none
+  double exponent = 5;               ///< q ≥ 1
+};
+
 /// A point of an N–M interaction curve: N in tension positive, M as the joint's.
 struct AxialMoment {
   double N = 0, M = 0;
