@@ -57,6 +57,7 @@ add_library(pugixml::pugixml ALIAS pugixml)
 
 source_of(zlib zlib)
 wasm_library(zlib SOURCES ${zlib}/*.c INCLUDE ${zlib})
+target_compile_definitions(zlib PRIVATE HAVE_UNISTD_H)  # lseek() without its prototype would be a trap
 add_library(ZLIB::ZLIB ALIAS zlib)
 
 source_of(glpk glpk)  # what its simplex method draws in
