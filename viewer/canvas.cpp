@@ -54,6 +54,7 @@ void Canvas::draw(ImDrawList& to, const Workbench& bench, const Camera& camera, 
   pieces();
   thrown();
   joints();
+  beside();
   collapse();
   if (look.diagram) diagram();
   if (look.loads) loads();
@@ -93,6 +94,10 @@ double Canvas::shown_stage(std::size_t joint) const {
   return peak ? static_cast<double>(frame.peaks[joint]) : stage(frame.joints[joint]);
 }
 
+ImU32 Canvas::colour_of(double stage) const {
+  return rgb(look_.contrast ? contrast_colour(stage) : stage_colour(stage));
+}
+
 void Canvas::pieces() {
   const Frame& frame = bench_->frame();
   for (std::size_t i = 0; i < skins_.size(); ++i) {
@@ -102,10 +107,10 @@ void Canvas::pieces() {
     for (const std::size_t j : skin.joints) {
       if (look_.peaks || !frame.joints[j].broken) worst = std::max(worst, shown_stage(j));
     }
-    const ImU32 fill = skin.moves ? rgb(stage_colour(worst)) : ink::fixed;
-    const float width = f(ui_);
+    const ImU32 fill = skin.moves ? colour_of(worst) : ink::fixed;
+    const float width = f(look_.contrast ? 2 * ui_ : ui_);
     // Black outlines would be all that is seen of what is only a few pixels high.
-    const double dark = std::clamp(skin.thickness * camera_.scale / (8 * ui_), 0.25, 1.);
+    const double dark = look_.contrast ? 1 : std::clamp(skin.thickness * camera_.scale / (8 * ui_), 0.25, 1.);
     const ImU32 edge = IM_COL32(0x1b, 0x20, 0x27, static_cast<int>(255 * dark));
     const Rotation turn(now.angle);
     const Point centre = camera_.to_screen(now.position);
@@ -179,7 +184,7 @@ void Canvas::joints() {
       }
       continue;
     }
-    const ImU32 colour = rgb(stage_colour(shown_stage(i)));
+    const ImU32 colour = colour_of(shown_stage(i));
     if (const PlannedJoint& line = bench_->plan().joints[i]; line.end) {
       const Point from = camera_.to_screen(carried(bench_->plan(), line.a, line.anchor, frame));
       const Point to = camera_.to_screen(carried(bench_->plan(), line.b, *line.end, frame));
@@ -199,6 +204,26 @@ void Canvas::joints() {
       const float radius = f(std::max(2.5 * ui_, height * dot));
       to_->AddCircleFilled(px(at), radius, colour);
       to_->AddCircle(px(at), radius, ink::edge, 0, f(ui_));
+    }
+  }
+}
+
+// Outlines of the pieces where the run beside this one has them.
+void Canvas::beside() {
+  const Timeline* other = bench_->beside();
+  if (!other) return;
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    if (!skins_[i].moves) continue;
+    const PieceReading& there = other->frame().pieces[i];
+    const Rotation turn(there.angle);
+    const Point centre = camera_.to_screen(there.position);
+    if (const double radius = bench_->plan().pieces[i].circle; radius > 0)
+      to_->AddCircle(px(centre), f(radius * camera_.scale), ink::accent, 0, f(1.5 * ui_));
+    for (const Ring& ring : skins_[i].edges) {
+      points_.clear();
+      for (const Point p : ring) points_.push_back(px(camera_.to_screen(there.position + turn * p)));
+      to_->AddPolyline(points_.data(), static_cast<int>(points_.size()), ink::accent, ImDrawFlags_Closed,
+                       f(1.5 * ui_));
     }
   }
 }
@@ -368,7 +393,15 @@ void Canvas::legend() {
   to_->AddRectFilled(px(corner - Point{8 * ui_, 6 * ui_}),
                      px(corner + Point{width + 8 * ui_, height + text + 8 * ui_}),
                      IM_COL32(255, 255, 255, 225), f(4 * ui_));
-  for (std::size_t i = 1; i < stage_colours.size(); ++i) {
+  double from_stage = 0;
+  for (const ContrastBand& band : contrast_bands) {
+    if (!look_.contrast || band.below > 2) break;
+    to_->AddRectFilled(px(corner + Point{width * from_stage / 2, 0}),
+                       px(corner + Point{width * band.below / 2, height}), rgb(band.colour));
+    from_stage = band.below;
+  }
+  if (look_.contrast) to_->AddRect(px(corner), px(corner + Point{width, height}), ink::edge);
+  for (std::size_t i = 1; i < stage_colours.size() && !look_.contrast; ++i) {
     const ColourStop &a = stage_colours[i - 1], &b = stage_colours[i];
     if (a.stage == b.stage) continue;
     const ImU32 from = rgb(a.colour), till = rgb(b.colour);

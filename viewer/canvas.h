@@ -12,6 +12,7 @@ namespace ductile::viewer {
 /// What of the scene is drawn.
 struct Look {
   bool forces = false, moments = false, loads = true, names = false;
+  bool contrast = false;       ///< few colours that are far apart, and strong outlines
   bool peaks = false;          ///< colours tell the farthest that each joint has been so far, not where it is
   std::optional<Row> diagram;  ///< of what pieces carry between their joints
   double force_scale = 1, moment_scale = 1;
@@ -29,8 +30,10 @@ class Canvas {
   void prepare(const Workbench& bench);
   /// What the colour of a joint tells.
   double shown_stage(std::size_t joint) const;
+  ImU32 colour_of(double stage) const;
   void pieces();
   void joints();
+  void beside();
   void collapse();
   void diagram();
   void forces();

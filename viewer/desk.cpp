@@ -59,6 +59,7 @@ void Desk::draw(Point size, double ui) {
   if (!narrow_ || details_) details(at_right);
   if (!bench_.message.empty()) message();
   if (helping_) help();
+  open_list();
   if (panel_ == Panel::view) return;
   const Bounds& box = panel_ == Panel::details ? at_right : panel_ == Panel::time ? bar : at_left;
   ImGui::GetForegroundDrawList()->AddRect(px(box.low), px(box.high), ink::accent, 0, 0, f(2 * ui_));
@@ -71,6 +72,8 @@ void Desk::adopt() {
   hand_.suit(bench_.plan(), edited);
   if (edited) return;
   scene_ = save_as_ = bench_.file().string();
+  recent_.add(bench_.file());
+  maker_.forget();
   camera_.show(extent(bench_.plan()));
   if (maker_.tool() != Maker::Tool::none) take(maker_.tool());
 }
@@ -160,6 +163,7 @@ void Desk::save() {
   try {
     bench_.save(save_as_);
     scene_ = save_as_;
+    recent_.add(scene_);
     tell("Saved to " + save_as_);
     if (when_saved_) when_saved_(save_as_);
   } catch (const std::exception& error) {
@@ -220,8 +224,11 @@ void Desk::centre(const Bounds& box) {
                   solvers[static_cast<std::size_t>(bench_.solver())], look_.peaks ? "   peaks so far" : "",
                   placing_ ? "   click: a mass" : "");
   to.AddText(px(box.low + ui_ * Point{12, 10}), ink::edge, title.c_str());
-  if (!making)
-    to.AddText(px(box.low + ui_ * Point{12, 28}), ink::edge, crossing_text(bench_.frame()).c_str());
+  double line = 10;
+  for (const std::string& text : {crossing_text(bench_.frame()), bench_.beside_text()}) {
+    if (!making && !text.empty())
+      to.AddText(px(box.low + ui_ * Point{12, line += 18}), ink::edge, text.c_str());
+  }
   if (making) draw_making(to);
   // Beside a tool it would cover what is being made.
   const bool asks = maker_.tool() == Maker::Tool::none || (!maker_.start() && rests_ > 0.8);

@@ -9,10 +9,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "canvas.h"
 #include "diagram.h"
 #include "maker.h"
+#include "prices.h"
+#include "recent.h"
 #include "workbench.h"
 
 namespace ductile::viewer {
@@ -28,13 +31,21 @@ class Desk {
   /// One frame, of `size` px; `ui`: pixels per pixel of a window at scale 1.
   void draw(Point size, double ui);
 
-  /// How a file is asked for, instead of opening the one that is named.
+  /// How a file is asked for, instead of by the list of what was opened last and of a folder.
   void when_opening(std::function<void()> what) { when_opening_ = std::move(what); }
+  /// Where the names of files that are opened are kept for the next time.
+  void keep_recent(const std::filesystem::path& list) { recent_ = Recent(list); }
   /// What is done with a file after it has been saved: a page hands it over to the user.
   void when_saved(std::function<void(const std::filesystem::path&)> what) { when_saved_ = std::move(what); }
 
+  /// Where a link can carry a scene: what is done with its name and text to make one. Offered as an export.
+  void when_linking(std::function<void(const std::string& name, const std::string& text)> what) {
+    when_linking_ = std::move(what);
+  }
+
   const Camera& camera() const { return camera_; }
   const Maker& maker() const { return maker_; }
+  const Prices& prices() const { return prices_; }
   /// The box of every control of the last frame, px, by name.
   const std::map<std::string, Bounds>& controls() const { return controls_; }
   /// The control that has the keys; empty: the scene has them.
@@ -47,6 +58,7 @@ class Desk {
   void centre(const Bounds& box);
   void scene(const Bounds& box);
   void run();
+  void beside();
   void show();
   void throwing();
   void time(const Bounds& box);
@@ -68,6 +80,8 @@ class Desk {
   void with_chosen();
   void copy();
   void cut();
+  void group();
+  void price(const Material& material);
   void line_style();
   void block_style();
   void size_for_reserve(const BodyDef& body);
@@ -84,7 +98,8 @@ class Desk {
   void draw_making(ImDrawList& to) const;
   void take(Maker::Tool tool);
   void start_new();
-  void open_named();
+  void ask_for_file();
+  void open_list();
 
   void save();
   void exports();
@@ -103,6 +118,7 @@ class Desk {
   Workbench& bench_;
   std::function<void()> when_opening_;
   std::function<void(const std::filesystem::path&)> when_saved_;
+  std::function<void(const std::string&, const std::string&)> when_linking_;
   std::string first_tab_;  // to be opened in the next frame
   Camera camera_;
   Canvas canvas_;
@@ -113,7 +129,11 @@ class Desk {
   int edition_ = -1;
   std::filesystem::path file_;   // of the scene that is shown
   std::string save_as_, scene_;  // what is typed; what was opened
-  std::string profile_filter_;   // what is typed to find one
+  Recent recent_;
+  std::filesystem::path folder_, listed_;         // of the list from which a file is opened
+  std::vector<std::filesystem::path> in_folder_;  // what it has
+  std::string open_filter_;                       // what is typed to find one of it
+  std::string profile_filter_;                    // what is typed to find one
   std::map<std::string, Bounds> controls_;
   std::string focus_;
   std::optional<Diagram> diagram_;  // of the joint in focus
@@ -127,8 +147,9 @@ class Desk {
   double rests_ = 0;         // s since the pointer moved
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
+  Prices prices_;
   double reserve_ = 1.5;  // that a body is sized for
-  bool placing_ = false, helping_ = false, exporting_ = false;
+  bool placing_ = false, helping_ = false, exporting_ = false, opening_ = false;
   enum class Panel { view, details, time, scene } panel_ = Panel::view;  // that has the keys
   bool popup_ = false;                                                   // a list or menu has them
   bool narrow_ = false, details_ = false;  // one panel at a time; the one on the right

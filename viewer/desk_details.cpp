@@ -308,15 +308,11 @@ void Desk::ledger() {
   tip("solver work",
       "Of each step: rounds of conjugate gradients, factorisations, solutions of the structure.");
   std::vector<Line> time{{"this", line_colours[0], [](const Frame& f) { return f.step_us; }}};
-  if (bench_.stock()) {
-    time.push_back(
-        {"stock welds", line_colours[1], [](const Frame& f) { return f.step_us; }, bench_.stock()});
+  if (bench_.beside()) {
+    time.push_back({"beside", line_colours[1], [](const Frame& f) { return f.step_us; }, bench_.beside()});
   }
   seek(plot("b2World::Step", bench_.run(), time, microsecond, size, ui_));
-  tip("step time", "Wall time of b2World::Step alone.");
-  bool beside = bench_.stock() != nullptr;
-  if (ImGui::Checkbox("beside stock welds", &beside)) bench_.compare_with_stock(beside);
-  tip("beside stock", "Runs the same scene with Box2D's own welds beside this one, for its time per step.");
+  tip("step time", "Wall time of b2World::Step alone; of the run beside this one, too.");
 }
 
 }  // namespace ductile::viewer

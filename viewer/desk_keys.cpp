@@ -49,8 +49,9 @@ void Desk::keys() {
       if (key(GLFW_KEY_V)) take(Maker::Tool::paste);
       if (key(GLFW_KEY_M)) take(Maker::Tool::mirror);
       if (key(GLFW_KEY_T)) take(Maker::Tool::turn);
+      if (key(GLFW_KEY_G)) io.KeyShift ? maker_.ungroup() : group();
     }
-    if (key(GLFW_KEY_O)) open_named();
+    if (key(GLFW_KEY_O)) ask_for_file();
     if (key(GLFW_KEY_E)) {
       exporting_ = true;
       details_ = false;
@@ -96,6 +97,7 @@ void Desk::keys() {
     look_.diagram = next > static_cast<int>(rotation) ? std::nullopt : std::optional(static_cast<Row>(next));
   }
   if (key(GLFW_KEY_U)) look_.peaks = !look_.peaks;
+  if (key(GLFW_KEY_C)) look_.contrast = !look_.contrast;
   if (key(GLFW_KEY_K)) {
     if (bench_.collapse()) {
       bench_.forget_collapse();
@@ -140,11 +142,13 @@ void Desk::help() {
       Row{"A  S  D", "drive on, brake, drive back"},
       Row{"F  T  N", "forces, moments, numbers"},
       Row{"U  K  I", "peaks of the run; how it collapses; N, Q, M diagrams"},
+      Row{"C", "high contrast"},
       Row{"1 … 9  0", "look; beam, support, load; move; delete; line, weld; choose; block"},
       Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
       Row{"Enter", "with a tool: what a press and a release do"},
       Row{"Delete", "delete what is chosen or at the cursor, or the body"},
       Row{"ctrl+C  X  V  M  T", "copy, cut, paste, mirror, turn what is chosen (alt+T too)"},
+      Row{"ctrl+G  shift+G", "group what is chosen, ungroup it"},
       Row{"click", "select a joint (shift: one more), or a body"},
       Row{"drag", "drag a body; from empty ground: select in a box"},
       Row{"ctrl+drag", "select in a box anywhere"},

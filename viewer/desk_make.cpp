@@ -44,8 +44,8 @@ constexpr std::array tools{
 void Desk::make() {
   if (button("New", "new", "A floor and nothing else (ctrl+N; alt+N in a browser).")) start_new();
   ImGui::SameLine();
-  if (button("Open", "open", "A file: on a desktop the one that is named on the left, above Save (ctrl+O)."))
-    open_named();
+  if (button("Open", "open", "A file: of those that were opened last, or of a folder (ctrl+O)."))
+    ask_for_file();
   if (!bench_.editable()) return ImGui::TextWrapped("A level is made in the editor that it comes from.");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(105 * ui_ * static_cast<double>(i % 3)));
@@ -73,14 +73,25 @@ void Desk::make() {
     line_style();
   } else if (maker_.tool() == Tool::block) {
     block_style();
+  } else if (maker_.tool() == Tool::turn) {
+    slide("angle", maker_.turn_by, -180, 180, "%.4g °");
+    tip("turn angle", "By which a click turns what is chosen, counter-clockwise.");
   } else {
     beam_style(maker_.style);
   }
+  price(maker_.tool() == Tool::block ? maker_.block.material : maker_.style.material);
   slide("grid", maker_.grid, 0.01, 10, "%.3g m");
   tip("grid", "What the cursor snaps to where no node is near.");
   ImGui::PopItemWidth();
   ImGui::Separator();
   ImGui::TextWrapped("%s", bench_.verdict().c_str());
+  if (const double cost = prices_.cost(bench_.plan()); cost > 0) ImGui::Text("It costs %.4g.", cost);
+}
+
+void Desk::price(const Material& material) {
+  double price = prices_.of(material);
+  if (slide("price", price, 0, 1000, "%.4g /kg")) prices_.set(material, price);
+  tip("price", "Of a kg of this material, in whatever currency: the cost of all that moves is told below.");
 }
 
 // What can be done with the bodies that are chosen.
@@ -95,13 +106,20 @@ void Desk::with_chosen() {
              "Then click where the mirror stands: what is chosen is there twice (ctrl+M)."))
     take(Tool::mirror);
   ImGui::SameLine();
-  if (button("Turn", "turn",
-             "Then click on the point about which it turns, by a quarter each time (ctrl+T; alt+T in a "
-             "browser)."))
+  if (button(
+          "Turn", "turn",
+          "Then click on the point about which it turns, by the angle that is given below (ctrl+T; alt+T in "
+          "a browser)."))
     take(Tool::turn);
   ImGui::EndDisabled();
   ImGui::BeginDisabled(!maker_.can_paste());
   if (button("Paste", "paste", "Then click where its lowest node goes (ctrl+V).")) take(Tool::paste);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(chosen == 0);
+  if (button("Group", "group", "What is chosen is chosen and moved as one from now on (ctrl+G).")) group();
+  ImGui::SameLine();
+  if (button("Ungroup", "ungroup", "Each by itself again (ctrl+shift+G).")) maker_.ungroup();
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::TextDisabled("%zu chosen", chosen);
@@ -110,6 +128,10 @@ void Desk::with_chosen() {
 void Desk::copy() {
   if (!maker_.copy(bench_))
     bench_.message = "Nothing is chosen. Draw a box around what is meant, with the tool for that (9).";
+}
+
+void Desk::group() {
+  if (!maker_.group(bench_)) bench_.message = "A group takes two bodies or more: choose them first (9).";
 }
 
 void Desk::cut() {
@@ -149,11 +171,6 @@ void Desk::block_style() {
 
 void Desk::start_new() {
   if (bench_.try_new()) take(Tool::beam);
-}
-
-void Desk::open_named() {
-  if (when_opening_) return when_opening_();
-  if (bench_.try_open(save_as_)) take(Tool::none);
 }
 
 void Desk::take(Tool tool) {

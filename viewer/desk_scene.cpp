@@ -84,6 +84,18 @@ void Desk::exports() {
       if (when_saved_) when_saved_(file);
     });
   }
+  if (when_linking_) {
+    const bool typed = key(GLFW_KEY_1 + number++),
+               wanted = ImGui::Selectable(fmt::format("{} link", number).c_str());
+    tip("export link", "An address of this page that opens the scene as it is now.");
+    if (typed || wanted) {
+      ImGui::CloseCurrentPopup();
+      attempt(bench_, [&] {
+        when_linking_(scene_name(save_as_), link_text(bench_));
+        tell("The address of this page now opens this scene. It has been copied, too.");
+      });
+    }
+  }
   ImGui::EndPopup();
 }
 
@@ -109,6 +121,26 @@ void Desk::run() {
                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tip("position iterations", "Box2D's position iterations from here on (3).");
   if (changed) bench_.set_stepping(stepping);
+  beside();
+}
+
+void Desk::beside() {
+  std::optional<Workbench::Beside> how = bench_.how_beside();
+  int solver = how ? 1 + static_cast<int>(how->solver) : 0;
+  bool changed = choose(
+      "beside", "Another run of the same beside this one, with this solver or another, drawn as outlines.",
+      solver, {"nothing", "direct", "iterative", "stock"});
+  if (changed && solver == 0) how.reset();
+  if (changed && solver > 0)
+    how = {.solver = static_cast<JointSolver>(solver - 1), .dt = how.value_or(Workbench::Beside{}).dt};
+  if (how) {
+    double hz = 1 / (how->dt > 0 ? how->dt : bench_.run().stepping().dt);
+    const bool slid = slide("its steps/s", hz, 10, 2000, "%.0f");
+    tip("steps/s beside", "Steps per second of the run beside this one, from the start on.");
+    if (slid) how->dt = 1 / std::round(hz);
+    changed |= slid;
+  }
+  if (changed) bench_.run_beside(how);
 }
 
 void Desk::show() {
@@ -136,6 +168,9 @@ void Desk::show() {
   ImGui::SameLine();
   ImGui::Checkbox("peaks", &look_.peaks);
   tip("peaks", "Colours tell how far each joint has ever been in this run, not where it is now (U).");
+  ImGui::SameLine();
+  ImGui::Checkbox("contrast", &look_.contrast);
+  tip("contrast", "Few colours, far apart, and strong outlines, for weak sight and bright light (C).");
   int diagram = look_.diagram ? 1 + static_cast<int>(*look_.diagram) : 0;
   if (choose("diagram", "What the pieces carry between their joints, loads at their full size (I).", diagram,
              {"none", "axial force N", "shear force Q", "moment M"}))

@@ -96,6 +96,7 @@ ViewCost view(const ViewDef& def) {
   const bool counted = def.frames >= 0;
   Window window(bench, def.scale, !counted);
   Desk desk(bench, def.forces, def.tab);
+  if (!counted) desk.keep_recent(Recent::usual_list());
   std::vector<double> cost;
   ViewCost result;
   std::string title;

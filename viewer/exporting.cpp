@@ -47,6 +47,12 @@ constexpr std::array formats{
 
 }  // namespace
 
+std::string link_text(const Workbench& bench) {
+  if (!bench.editable())
+    throw InvalidInput({{bench.file().string(), "is a level of another editor", "pass its file on"}});
+  return scene_text(bench.scene());
+}
+
 std::span<const ExportFormat> export_formats() { return formats; }
 
 }  // namespace ductile::viewer

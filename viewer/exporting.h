@@ -15,4 +15,7 @@ struct ExportFormat {
 
 std::span<const ExportFormat> export_formats();
 
+/// The scene as one text, with the outlines of its drawings in place. Throws InvalidInput of a level.
+std::string link_text(const Workbench& bench);
+
 }  // namespace ductile::viewer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -162,7 +163,8 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
     case Tool::mirror:
       return joined(before_, mirrored(part_of(before_, chosen_), cursor_.x));
     case Tool::turn:
-      return joined(without_chosen(before_), turned(part_of(before_, chosen_), cursor_));
+      return joined(without_chosen(before_),
+                    turned(part_of(before_, chosen_), cursor_, turn_by * std::numbers::pi / 180));
     default:
       break;
   }
@@ -172,7 +174,7 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
   if (!body) body = body_at(before_, *start_);
   if (!body) throw InvalidInput({{"move", "there is nothing here", "drag a node or a body"}});
   const bool with_chosen = std::find(chosen_.begin(), chosen_.end(), body->name) != chosen_.end();
-  return with_bodies_moved(before_, with_chosen ? chosen_ : std::vector{body->name}, cursor_ - *start_);
+  return with_bodies_moved(before_, with_chosen ? chosen_ : with_groups({body->name}), cursor_ - *start_);
 }
 
 void Maker::draw(Workbench& bench) {
@@ -214,6 +216,7 @@ void Maker::choose_between(const Workbench& bench, bool add) {
       for (const double margin : {-node_size, node_size}) box.add(p + Point{margin, margin});
     found = bodies_in(bench.scene(), box);
   }
+  found = with_groups(std::move(found));
   chosen_.insert(chosen_.end(), found.begin(), found.end());
   start_.reset();
 }
@@ -252,6 +255,37 @@ bool Maker::remove_chosen(Workbench& bench) {
   if (chosen(bench).empty()) return false;
   attempt(bench, [&] { bench.edit(without_chosen(bench.scene())); });
   return true;
+}
+
+std::vector<std::string> Maker::with_groups(std::vector<std::string> names) const {
+  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const auto& group : groups_) {
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return in(group, name); }))
+      continue;
+    for (const std::string& name : group)
+      if (!in(names, name)) names.push_back(name);
+  }
+  return names;
+}
+
+bool Maker::group(const Workbench& bench) {
+  std::vector<std::string> names = chosen(bench);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  if (names.size() < 2) return false;
+  ungroup();
+  groups_.push_back(std::move(names));
+  return true;
+}
+
+void Maker::ungroup() {
+  std::erase_if(groups_, [this](const std::vector<std::string>& group) {
+    return std::any_of(chosen_.begin(), chosen_.end(), [&](const std::string& name) {
+      return std::find(group.begin(), group.end(), name) != group.end();
+    });
+  });
 }
 
 }  // namespace ductile::viewer

@@ -22,10 +22,16 @@ class Maker {
   double force = 100e3;    ///< N, downwards
   double stiffness = 1e6;  ///< N/m, of the next springs
   double grid = 0.5;       ///< m
+  double turn_by = 90;     ///< degrees, counter-clockwise
 
   Tool tool() const { return tool_; }
   /// With a tool in the hand the scene stands at its start, and its static check is shown.
   void choose(Workbench& bench, Tool tool);
+  /// Another scene has come: nothing of it is chosen or grouped.
+  void forget() {
+    chosen_.clear();
+    groups_.clear();
+  }
 
   /// m: where the next thing is done.
   Point cursor() const { return cursor_; }
@@ -59,6 +65,11 @@ class Maker {
   bool can_paste() const { return !copied_.bodies.empty(); }
   /// False: nothing is chosen.
   bool remove_chosen(Workbench& bench);
+  /// What is chosen becomes a group, which is chosen and moved as one from now on; false: it is no two
+  /// bodies.
+  bool group(const Workbench& bench);
+  /// Groups of which something is chosen are none any more.
+  void ungroup();
 
  private:
   void put(Workbench& bench, Point at);
@@ -70,6 +81,8 @@ class Maker {
   SceneDef without_chosen(SceneDef scene) const;
   void click(Workbench& bench) const;
   void add_corner(Workbench& bench);
+  /// Those bodies, and all that are of a group with one of them.
+  std::vector<std::string> with_groups(std::vector<std::string> names) const;
   void choose_between(const Workbench& bench, bool add);
   /// Another scene, an undo or a restart has come between: what was being drawn is no more.
   bool interrupted(const Workbench& bench);
@@ -84,6 +97,7 @@ class Maker {
   std::string problem_;  // why it is not
   Ring corners_;
   std::vector<std::string> chosen_;
+  std::vector<std::vector<std::string>> groups_;  // no body is in two
   SceneDef copied_;
 };
 

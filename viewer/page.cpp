@@ -31,6 +31,7 @@ EM_JS(void, hand_over, (const char* name, const char* text, int size), {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
 });
+EM_JS(void, carry_in_link, (const char* name, const char* text), { carryInLink(UTF8ToString(name), UTF8ToString(text)); });
 // clang-format on
 
 namespace ductile::viewer {
@@ -54,6 +55,8 @@ class Page {
       const std::string text = read_text(file);
       hand_over(file.filename().c_str(), text.data(), static_cast<int>(text.size()));
     });
+    desk_.when_linking(
+        [](const std::string& name, const std::string& text) { carry_in_link(name.c_str(), text.c_str()); });
   }
 
   void frame() {

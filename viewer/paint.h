@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "bands.h"
 #include "ductile/colours.h"
 #include "ductile/plane.h"
 

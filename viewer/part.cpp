@@ -1,8 +1,8 @@
 #include "part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "making.h"
@@ -157,23 +157,35 @@ SceneDef mirrored(SceneDef part, double x) {
   return part;
 }
 
-SceneDef turned(SceneDef part, Point about) {
-  const auto turn = [](Point& p) { p = {-p.y, p.x}; };
+SceneDef turned(SceneDef part, Point about, double angle) {
+  Point x = Rotation(angle) * Point{1, 0};  // where the world's x goes
+  for (double* component : {&x.x, &x.y})
+    if (std::abs(*component) < 1e-12) *component = 0;  // a quarter is one
+  const bool quarters = x.x == 0 || x.y == 0;
+  const auto turn = [&](Point& p) { p = p.x * x + p.y * left(x); };
   each_point(part, [&](Point& p) {
     p = p - about;
     turn(p);
     p = p + about;
   });
   for (BodyDef& body : part.bodies) {
-    body.angle += std::numbers::pi / 2;
+    body.angle += angle;
     turn(body.velocity);
     std::for_each(body.velocities.begin(), body.velocities.end(), turn);
   }
   for (SupportDef& support : part.supports) {
-    std::swap(support.fix_x, support.fix_y);
-    std::swap(support.stiffness_x, support.stiffness_y);
-    double &x = support.displacement[0], &y = support.displacement[1];
-    x = -std::exchange(y, x);
+    if (x.x == 0) {
+      std::swap(support.fix_x, support.fix_y);
+      std::swap(support.stiffness_x, support.stiffness_y);
+    }
+    if (!quarters && (support.fix_x != support.fix_y || support.stiffness_x != support.stiffness_y)) {
+      throw InvalidInput({{"support of " + support.body,
+                           "holds one of x and y alone, and turned it would hold along neither",
+                           "turn by quarters, or hold both"}});
+    }
+    Point moved{support.displacement[0], support.displacement[1]};
+    turn(moved);
+    support.displacement = {moved.x, moved.y, support.displacement[2]};
   }
   for (LoadDef& load : part.loads) turn(load.force);
   for (WheelDef& wheel : part.wheels) turn(wheel.axis);

@@ -23,8 +23,9 @@ Point grip_of(const SceneDef& part);
 SceneDef shifted(SceneDef part, Point by);
 /// The part as a mirror upright at x shows it.
 SceneDef mirrored(SceneDef part, double x);
-/// The part turned by a quarter, counter-clockwise, with what holds and loads it.
-SceneDef turned(SceneDef part, Point about);
+/// The part turned by an angle, rad, counter-clockwise, with what holds and loads it. Throws InvalidInput
+/// where a support that does not hold x and y alike would have to hold along neither of them.
+SceneDef turned(SceneDef part, Point about, double angle);
 
 /// A scene with a part more, pinned where its beams meet others; the names of what has been added, which are
 /// its own where nothing else has them. A beam, a support, a load or a line that would lie on one that is

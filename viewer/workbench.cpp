@@ -1,9 +1,6 @@
 #include "workbench.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <limits>
 #include <unordered_map>
@@ -18,7 +15,6 @@ namespace ductile::viewer {
 namespace {
 
 constexpr std::size_t gone = std::numeric_limits<std::size_t>::max();  // the saved version was edited away
-constexpr double most_owed = 0.1;  // s: what a slow machine does not show in time is shown later, not lost
 
 /// Nothing in it is damped.
 SceneDef undamped(SceneDef scene) {
@@ -107,7 +103,7 @@ void Workbench::put(Opened opened, const std::filesystem::path& source) {
   focus.reset();
   body.reset();
   owed_ = 0;
-  if (stock_) start_stock();
+  if (beside_) start_beside();
   check();
 }
 
@@ -237,147 +233,8 @@ void Workbench::show(Plan plan, JointSolver solver, std::vector<Timeline::Entry>
   run_ = std::move(run);
   drawing_ = false;
   owed_ = 0;
-  if (stock_) start_stock();
+  if (beside_) start_beside();
   check();
-}
-
-void Workbench::check_at_rest(bool on) {
-  checks_ = on;
-  check();
-}
-
-void Workbench::find_collapse() {
-  playing = false;
-  if (run_->cursor() > 0) restart();
-  try {
-    collapse_ = limit_analysis(plan());
-  } catch (const InvalidInput& error) {
-    message = "It has no collapse load: " + error.problems().front().what + ".";
-    return;
-  }
-  if (collapse_->hinges.empty()) {
-    message = "No factor on its loads makes it collapse.";
-    return collapse_.reset();
-  }
-  message = fmt::format("It collapses at {:.4g} times its loads, by", collapse_->load_factor);
-  constexpr std::size_t most = 6;  // names that a message has room for
-  for (std::size_t i = 0; i < std::min(most, collapse_->hinges.size()); ++i) {
-    message += (i == 0 ? " " : ", ") + plan().joints[static_cast<std::size_t>(collapse_->hinges[i])].name;
-  }
-  if (collapse_->hinges.size() > most)
-    message += fmt::format(" and {} more", collapse_->hinges.size() - most);
-  message += '.';
-  try {
-    if (const CriticalLoad buckling = critical_load(plan()); buckling.factor < unlimited)
-      message += fmt::format(" As an elastic structure it buckles at {:.4g} times.", buckling.factor);
-  } catch (const InvalidInput&) {  // what collapses is no mechanism yet may have no stiffness to buckle
-  }
-}
-
-void Workbench::check() {
-  if (collapse_) message.clear();  // it told of that
-  collapse_.reset();
-  at_rest_.reset();
-  verdict_.clear();
-  const Frame* start = run_->kept(0);
-  if (!checks_ || !start) return;
-  try {
-    const StaticCheck found = static_check(plan());
-    Frame frame = *start;
-    for (std::size_t i = 0; i < found.joints.size(); ++i) {
-      const StaticJoint& joint = found.joints[i];
-      frame.joints[i] = {.N = joint.N, .Q = joint.Q, .M = joint.M, .usage = joint.usage};
-    }
-    at_rest_ = std::move(frame);
-    verdict_ = found.first_to_yield.empty()
-                   ? "no factor on its loads makes it yield"
-                   : fmt::format("yields at {:.3g} times its loads, first in {}", found.reserve,
-                                 plan().joints[static_cast<std::size_t>(found.first_to_yield.front())].name);
-    double mass = 0;
-    for (const Piece& piece : plan().pieces) mass += piece.mass;
-    verdict_ += fmt::format("; {:.4g} kg", mass);
-  } catch (const InvalidInput& error) {
-    verdict_ = error.problems().front().what;
-  }
-}
-
-void Workbench::set_solver(JointSolver solver) {
-  settle();
-  const long step = run_->cursor();
-  show(plan(), solver, run_->acts());
-  run_->seek(step);
-}
-
-void Workbench::set_stepping(const Stepping& stepping) { act(act::Set{stepping}); }
-
-void Workbench::act(const Act& what) {
-  run_->act(what);
-  if (!stock_) return;
-  if (stock_->cursor() == run_->cursor()) {
-    stock_->act(what);
-  } else {
-    start_stock();
-  }
-}
-
-void Workbench::restart() {
-  settle();
-  const Stepping stepping = run_->stepping();
-  show(plan(), solver(), {{0, act::Set{stepping}}});
-}
-
-bool Workbench::seek_first(JointEvent::Kind kind) {
-  for (const TimelineEvent& event : run_->events()) {
-    if (event.event.kind != kind) continue;
-    playing = false;
-    run_->seek(event.step);
-    return true;
-  }
-  return false;
-}
-
-void Workbench::step_by(long steps) {
-  settle();
-  playing = false;
-  run_->seek(run_->cursor() + steps);
-}
-
-void Workbench::tick(double seconds, double budget) {
-  using Clock = std::chrono::steady_clock;
-  if (playing) settle();
-  const auto start = Clock::now();
-  const auto left = [&] { return budget - std::chrono::duration<double>(Clock::now() - start).count(); };
-  if (run_->work(budget) && playing) {
-    const double dt = run_->stepping().dt;
-    owed_ = std::min(owed_ + seconds * pace, std::max(most_owed, dt));
-    while (playing && owed_ >= dt && left() > 0) {
-      owed_ -= dt;
-      const std::size_t events = run_->events().size();
-      run_->seek(run_->cursor() + 1);
-      if (!run_->work(left())) break;
-      const auto stops = [this](const TimelineEvent& event) {
-        return stop_at == StopAt::yield ||
-               (stop_at == StopAt::broke && event.event.kind == JointEvent::broke);
-      };
-      playing = std::none_of(run_->events().begin() + static_cast<std::ptrdiff_t>(events),
-                             run_->events().end(), stops);
-    }
-  }
-  if (stock_) {
-    stock_->seek(run_->cursor());
-    stock_->work(budget);
-  }
-}
-
-void Workbench::compare_with_stock(bool on) {
-  if (on == (stock_ != nullptr)) return;
-  stock_.reset();
-  if (on) start_stock();
-}
-
-void Workbench::start_stock() {
-  stock_ = std::make_unique<Timeline>(plan(), JointSolver::stock, run_->acts());
-  stock_->seek(run_->cursor());
 }
 
 void Workbench::select(const std::vector<std::size_t>& joints, bool add) {

@@ -89,9 +89,18 @@ class Workbench {
   /// Time goes on by `seconds`, of which `budget` may be spent on simulating.
   void tick(double seconds, double budget);
 
-  /// A run of the same with stock joints beside this one, at the same step; null where it is off.
-  const Timeline* stock() const { return stock_.get(); }
-  void compare_with_stock(bool on);
+  /// How another run of the same is made beside this one.
+  struct Beside {
+    JointSolver solver = JointSolver::stock;
+    double dt = 0;  ///< s; 0: of this run
+  };
+  /// It is looked at when this one is; null where there is none.
+  const Timeline* beside() const { return beside_.get(); }
+  const std::optional<Beside>& how_beside() const { return how_beside_; }
+  void run_beside(std::optional<Beside> how);
+  /// How far it has come apart from this one, and what of each has yielded and broken; empty where there is
+  /// none.
+  std::string beside_text() const;
 
   /// Whether the forces of the static check are shown before the first step.
   void check_at_rest(bool on);
@@ -117,7 +126,8 @@ class Workbench {
   void put(Opened opened, const std::filesystem::path& source);
   void show(Plan plan, JointSolver solver, std::vector<Timeline::Entry> acts);
   void change(SceneDef scene, Plan plan, bool continued);
-  void start_stock();
+  void start_beside();
+  long step_beside() const;
   void check();
   void require_editable() const;
   void watch(const std::vector<std::filesystem::path>& files);
@@ -138,7 +148,8 @@ class Workbench {
   std::string warned_;  // of losing edits by this
   Plan before_;
   int edition_ = 0;
-  std::unique_ptr<Timeline> run_, stock_;
+  std::unique_ptr<Timeline> run_, beside_;
+  std::optional<Beside> how_beside_;
   bool checks_ = false;
   std::optional<Frame> at_rest_;  // with the forces of the static check; none where nothing decides them
   std::string verdict_;

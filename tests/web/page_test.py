@@ -192,6 +192,38 @@ def saves_by_download(address):
         assert '"bodies"' in tab.evaluate("fetch(saved[1]).then((answer) => answer.text())")
 
 
+def carries_a_scene_in_its_address(address):
+    """What is made in one page and exported as a link, another one opens: the same scene, to the letter."""
+    with chromium.Page(f"{address}/index.html", gl=True, scale=0.5) as tab:
+        maker = Maker(tab)
+        maker.key("Alt", "n")
+        wait_until(tab, lambda s: s["file"].endswith("new.scene.json"))
+        maker.key("Enter")
+        for _ in range(4):
+            maker.key("Up")
+        maker.key("Enter")
+        assert maker.bodies() == {"beam1"}
+        maker.key("Control", "s")
+        text = maker.download("new.scene.json")
+        maker.control("export")
+        maker.control("export link")
+        wait_until(tab, lambda s: "now opens this scene" in s["message"])
+        tab.wait_for("location.hash")
+        link = tab.evaluate("location.href")
+        print(f"  {len(text)} bytes in {len(link)} letters")
+    with chromium.Page(link, gl=True, scale=0.5) as tab:
+        maker = Maker(tab)
+        assert maker.state()["file"] == "/new.scene.json" and not maker.state()["message"], maker.state()
+        assert maker.bodies() == {"beam1"}
+        maker.key("Control", "s")
+        assert maker.download("new.scene.json") == text
+        assert not tab.errors, tab.errors
+    with chromium.Page(f"{address}/index.html#new.AAAA", gl=True, scale=0.5) as tab:  # no link of ours
+        tab.wait_for("window.firstFrame")
+        now = state(tab)
+        assert now["file"].endswith("harbour_crane.scene.json") and "cannot be opened" in now["message"], now
+
+
 class Maker:
     """A new scene in a page, made by pointer or keys; what it saves and exports is taken from its downloads."""
 
@@ -432,7 +464,7 @@ def main():
         (Path(name) / "scenes").symlink_to(scenes)
         address = served(name)
         for test in (fits_what_it_may, is_seen_soon, opens_on_the_crane, opens_what_the_address_names, takes_dropped_files,
-                     saves_by_download, makes_a_bridge_by_pointer, makes_a_bridge_by_keys, makes_a_bridge_on_a_telephone,
+                     saves_by_download, carries_a_scene_in_its_address, makes_a_bridge_by_pointer, makes_a_bridge_by_keys, makes_a_bridge_on_a_telephone,
                      keeps_up_with_a_large_frame, is_touched, zooms_by_the_wheel, runs_600_steps_to_the_bit, runs_from_a_file):
             try:
                 test(address)

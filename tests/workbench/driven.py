@@ -1,6 +1,7 @@
 """The window of `ductile view` under Xvfb, driven by pointer and keys; what it shows is known from --trace."""
 import json
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -20,7 +21,9 @@ class Window(unittest.TestCase):
 
     def open(self, command, screen, scene):
         self.screen = screen
-        self.process = subprocess.Popen([command, "view", scene, "--zoom", "0.5", "--trace"], env=screen.env,
+        self.kept = tempfile.TemporaryDirectory()  # what it keeps of the user, who is another one here
+        self.process = subprocess.Popen([command, "view", scene, "--zoom", "0.5", "--trace"],
+                                        env={**screen.env, "XDG_STATE_HOME": self.kept.name},
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.frames, self.line = 0, ""
         self.reader = threading.Thread(target=self.read)
@@ -43,6 +46,7 @@ class Window(unittest.TestCase):
         self.reader.join()
         self.process.stdout.close()
         self.process.stderr.close()
+        self.kept.cleanup()
         self.assertEqual(code, 0)
 
     @property
@@ -98,7 +102,7 @@ class Window(unittest.TestCase):
 
     def type(self, text):
         for letter in text:
-            self.key({" ": "space"}.get(letter, letter.lower()), *(["Shift_L"] if letter.isupper() else []))
+            self.key({" ": "space", ".": "period"}.get(letter, letter.lower()), *(["Shift_L"] if letter.isupper() else []))
 
     def reach(self, control):
         """Gives it the keys, in the panel on the right."""

@@ -269,6 +269,90 @@ class Bridge(driven.Window):
         bears, asks = plastic / 0.1, 1.5 * weight / 0.1 * span**2 / 8  # N m for each m of depth
         self.assertAlmostEqual(depth / (1.5 * 100e3 * span / 4 / (bears - asks)), 1, 6)
 
+    def test_opens_what_a_folder_has_and_what_was_opened_last(self):
+        (self.path / "more").mkdir()
+        shutil.copy(SCENES / "CS1.scene.json", self.path / "more")
+        (self.path / "more" / "notes.txt").touch()
+        self.key("o", "Control_L")
+        self.wait(lambda: "open more/" in self.state["controls"])
+        self.type("mor")
+        self.key("Return")
+        self.wait(lambda: "open CS1.scene.json" in self.state["controls"])
+        self.assertNotIn("open notes.txt", self.state["controls"])
+        self.type("cs")
+        self.key("Return")
+        self.wait(lambda: self.state["file"] == str(self.path / "more" / "CS1.scene.json"))
+        self.key("o", "Control_L")
+        self.control("open cantilever.scene.json##recent")
+        self.wait(lambda: self.state["file"] == str(self.path / "cantilever.scene.json"))
+        kept = (Path(self.kept.name) / "ductile" / "recent").read_text().splitlines()
+        self.assertEqual(kept, [str(self.path / "cantilever.scene.json"), str(self.path / "more" / "CS1.scene.json")])
+        self.key("o", "Control_L")
+        self.wait(lambda: "open filter" in self.state["controls"])
+        self.key("Escape")
+        self.wait(lambda: "open filter" not in self.state["controls"])
+
+    def test_turned_by_an_angle_that_is_typed(self):
+        self.key("n", "Control_L")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.key("Return")
+        for _ in range(4):
+            self.key("Up")
+        self.key("Return")  # from (0, 0) to (0, 2)
+        self.key("9")
+        self.key("Return")
+        self.key("Return")
+        self.key("t", "Control_L")
+        self.reach("turn angle")
+        self.key("Return")
+        self.type("30")
+        self.key("Return")
+        self.key("Escape")
+        self.key("Return")  # about (0, 2)
+        self.key("Return")
+        self.assertEqual(self.state["chosen"], ["beam1"])
+        self.key("s", "Control_L")
+        beam = json.loads((self.path / "new.scene.json").read_text())["bodies"][1]
+        self.assertAlmostEqual(beam["angle"], math.radians(90 + 30), 9)
+        for here, expected in zip(beam["at"], (2 * math.sin(math.radians(30)), 2 - 2 * math.cos(math.radians(30)))):
+            self.assertAlmostEqual(here, expected, 9)
+
+    def test_grouped_it_is_moved_as_one_and_costs_what_its_mass_does(self):
+        self.control("tab make")
+        self.control("new")
+        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
+        self.drag(self.at(-4, 2), self.at(-2, 2))
+        self.drag(self.at(1, 2), self.at(3, 2))
+        self.control("tool choose")
+        self.drag(self.at(-4.5, 1.5), self.at(3.5, 2.5))
+        self.assertEqual(len(self.state["chosen"]), 2)
+        self.key("g", "Control_L")
+        self.click(self.at(-3, 2))
+        self.assertEqual(sorted(self.state["chosen"]), ["beam1", "beam2"])
+        self.click(self.at(0, 6))  # nothing
+        self.assertEqual(self.state["chosen"], [])
+        self.control("tool move")
+        self.drag(self.at(2, 2), self.at(2, 3))
+        self.key("s", "Control_L")
+
+        def ends():
+            bodies = json.loads((self.path / "new.scene.json").read_text())["bodies"]
+            return [warren.ends_of(body) for body in bodies if body["name"] != "floor"]
+
+        self.assertEqual(ends(), [((-4, 3), (-2, 3)), ((1, 3), (3, 3))])
+        self.control("tool choose")
+        self.click(self.at(-3, 3))
+        self.key("g", "Control_L", "Shift_L")
+        self.click(self.at(-3, 3))
+        self.assertEqual(self.state["chosen"], ["beam1"])
+        self.assertEqual(self.state["cost"], 0)
+        self.reach("price")
+        self.key("Return")
+        self.type("1.5")
+        self.key("Return")
+        self.key("Escape")
+        self.assertAlmostEqual(self.state["cost"] / (1.5 * 7850 * 2 * 2 * 0.2 * 0.1), 1, 9)
+
     def test_copied_pasted_and_cut(self):
         self.key("n", "Control_L")
         self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -90,7 +91,8 @@ TEST(Part, TurnedWithAllThatLoadsItCarriesTheSame) {
   scene = with_load(scene, {-2, 3}, {3e3, -20e3});
   scene.bodies.erase(scene.bodies.begin());  // the floor
   std::erase_if(scene.joints, [](const JointBetweenDef& j) { return j.a == "floor" || j.b == "floor"; });
-  SceneDef quarter = turned(scene, {1, 2});
+  constexpr double quarter_turn = std::numbers::pi / 2;
+  SceneDef quarter = turned(scene, {1, 2}, quarter_turn);
   EXPECT_NEAR(length(axis_of(quarter.bodies[0])->from - Point{2, -3}), 0, 1e-14);
   EXPECT_NEAR(length(axis_of(quarter.bodies[0])->to - Point{2, 1}), 0, 1e-14);
   quarter.gravity = {-scene.gravity.y, scene.gravity.x};
@@ -103,10 +105,45 @@ TEST(Part, TurnedWithAllThatLoadsItCarriesTheSame) {
     EXPECT_NEAR(is.joints[i].N, support ? -was.joints[i].Q : was.joints[i].N, 1e-6 * 20e3) << i;
     EXPECT_NEAR(std::abs(is.joints[i].M), std::abs(was.joints[i].M), 1e-6 * 20e3) << i;
   }
-  const SceneDef round = turned(turned(turned(turned(scene, {1, 2}), {1, 2}), {1, 2}), {1, 2});
+  SceneDef round = scene;
+  for (int i = 0; i < 4; ++i) round = turned(round, {1, 2}, quarter_turn);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     EXPECT_NEAR(length(axis_of(round.bodies[i])->to - axis_of(scene.bodies[i])->to), 0, 1e-14);
   EXPECT_EQ(round.supports[1].fix_x, scene.supports[1].fix_x);
+}
+
+// By an angle at which a roller would roll neither along x nor along y, between hinges.
+TEST(Part, TurnsByAnyAngleWhereItsSupportsCan) {
+  constexpr double angle = 0.3;
+  SceneDef scene = with_beam(empty_scene(), {{-4, 1}, {0, 1}}, {});
+  scene = with_beam(scene, {{-4, 1}, {-2, 3}}, {});
+  scene = with_beam(scene, {{-2, 3}, {0, 1}}, {});
+  scene = with_next_support(with_next_support(scene, {-4, 1}, 0), {0, 1}, 0);
+  scene = with_load(scene, {-2, 3}, {3e3, -20e3});
+  scene = part_of(scene, {"beam1", "beam2", "beam3"});
+  SceneDef aslant = turned(scene, {1, 2}, angle);
+  const Point end = axis_of(aslant.bodies[1])->to;  // (-3, 1) from where it turns about
+  EXPECT_NEAR(end.x, 1 - 3 * std::cos(angle) - std::sin(angle), 1e-14);
+  EXPECT_NEAR(end.y, 2 - 3 * std::sin(angle) + std::cos(angle), 1e-14);
+  EXPECT_NEAR(aslant.loads[0].force.x, 3e3 * std::cos(angle) + 20e3 * std::sin(angle), 1e-9);
+  aslant.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle)};
+  const Plan plan = calibrate(scene);
+  const StaticCheck was = static_check(plan), is = static_check(calibrate(aslant));
+  ASSERT_EQ(was.joints.size(), is.joints.size());
+  int compared = 0;
+  for (std::size_t i = 0; i < was.joints.size(); ++i) {
+    if (plan.joints[i].a < 0 || plan.joints[i].b < 0)
+      continue;                                  // a support's rows are along the world's axes
+    const bool node = plan.joints[i].node != 0;  // and a pin's of its own
+    EXPECT_NEAR(std::hypot(is.joints[i].N, is.joints[i].Q), std::hypot(was.joints[i].N, was.joints[i].Q),
+                1e-6 * 20e3);
+    if (!node) {
+      EXPECT_NEAR(is.joints[i].M, was.joints[i].M, 1e-6 * 20e3) << plan.joints[i].name;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 15);
+  EXPECT_THROW(turned(with_next_support(scene, {0, 1}, 0), {1, 2}, angle), InvalidInput);  // a roller
 }
 
 TEST(Part, OtherBodiesAreMirroredWithTheirCuts) {

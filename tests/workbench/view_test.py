@@ -166,6 +166,19 @@ class Window(driven.Window):
         self.key("o")
         self.assertAlmostEqual(self.state["time"], time_before + dt, delta=1e-9)
 
+    def test_another_run_is_seen_beside_it(self):
+        self.pause_at(30)
+        self.assertEqual(self.state["beside"], "")
+        self.control("beside")
+        self.control("beside: direct")
+        self.wait(lambda: "direct solver, 60 steps/s, up to 0 m away" in self.state["beside"])
+        self.control("steps/s beside", 0.45)
+        self.wait(lambda: "direct solver" in self.state["beside"] and ", 60 steps/s" not in self.state["beside"])
+        self.assertNotIn("up to 0 m away", self.state["beside"])  # what breaks, breaks otherwise at another step
+        self.control("beside")
+        self.control("beside: nothing")
+        self.wait(lambda: self.state["beside"] == "")
+
     def test_edits_and_saves(self):
         self.pause_at(10)
         self.click(self.state["joints"]["bar/1-bar/2"])

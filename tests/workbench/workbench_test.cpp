@@ -291,21 +291,52 @@ TEST(Workbench, AnotherSolverRunsToTheSameStep) {
   EXPECT_EQ(std::abs(bench.frame().joints.back().plastic_rotation), bent);
 }
 
-TEST(Workbench, StockRunsBesideInStep) {
+TEST(Workbench, AnotherSolverRunsBesideInStep) {
   const Folder folder;
   Workbench bench;
   bench.open(write_scene(folder, cantilever(4, 3e6)));
-  bench.compare_with_stock(true);
+  EXPECT_EQ(bench.beside_text(), "");
+  bench.run_beside({{.solver = JointSolver::stock}});
   for (int i = 0; i < 20; ++i) bench.tick(1. / 60, 1);
   bench.act(act::Throw{.at = {5, 4}});
   for (int i = 0; i < 20; ++i) bench.tick(1. / 60, 1);
-  ASSERT_NE(bench.stock(), nullptr);
-  EXPECT_EQ(bench.stock()->cursor(), 40);
-  EXPECT_EQ(bench.stock()->frame().thrown.size(), 1u);
-  EXPECT_EQ(bench.stock()->solver(), JointSolver::stock);
+  ASSERT_NE(bench.beside(), nullptr);
+  EXPECT_EQ(bench.beside()->cursor(), 40);
+  EXPECT_EQ(bench.beside()->frame().thrown.size(), 1u);
+  EXPECT_EQ(bench.beside()->solver(), JointSolver::stock);
+  EXPECT_NE(bench.beside_text().find("stock solver, 60 steps/s"), std::string::npos) << bench.beside_text();
   bench.step_by(-15);
   bench.tick(0, 1);
-  EXPECT_EQ(bench.stock()->cursor(), 25);
+  EXPECT_EQ(bench.beside()->cursor(), 25);
+  bench.run_beside({});
+  EXPECT_EQ(bench.beside(), nullptr);
+}
+
+// What is done to the one is done to the other at the same time, though at another step.
+TEST(Workbench, AnotherStepRunsBesideInTime) {
+  const Folder folder;
+  Workbench bench;
+  bench.open(write_scene(folder, cantilever(4, 3e6)));
+  bench.playing = false;
+  bench.run().go_to(30);
+  bench.act(act::Throw{.at = {5, 4}});
+  bench.run().go_to(60);
+  Stepping finer = bench.run().stepping();
+  finer.dt = 1 / 120.;
+  bench.set_stepping(finer);
+  bench.run().go_to(90);  // 1.25 s
+  bench.run_beside({{.solver = JointSolver::direct, .dt = 1 / 240.}});
+  while (bench.beside()->busy()) bench.tick(0, 1);
+  EXPECT_EQ(bench.beside()->cursor(), 300);
+  EXPECT_NEAR(bench.beside()->frame().time, bench.frame().time, 1e-6);
+  ASSERT_EQ(bench.beside()->acts().back().step, 240);  // the change of step, at 1 s
+  const auto thrown = std::find_if(bench.beside()->acts().begin(), bench.beside()->acts().end(),
+                                   [](const auto& e) { return std::holds_alternative<act::Throw>(e.act); });
+  ASSERT_NE(thrown, bench.beside()->acts().end());
+  EXPECT_EQ(thrown->step, 120);
+  bench.act(act::Throw{.at = {5, 4}});  // in both, now
+  while (bench.beside()->busy()) bench.tick(0, 1);
+  EXPECT_EQ(bench.beside()->acts().back().step, 300);
 }
 
 TEST(Workbench, StopsAndJumpsAtYieldAndBreak) {
