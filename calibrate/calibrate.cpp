@@ -278,6 +278,10 @@ class Planner {
     strips_.reserve(plan_.bodies.size());
     for (std::size_t i = 0; i < plan_.bodies.size(); ++i) {
       add_body(static_cast<int>(i));
+      if (scene_.interaction && strips_.back().doubling_rate() < unlimited)
+        problems_.push_back({body_place(plan_.bodies[i]),
+                             "depends on the rate of strain, and the scene has \"interaction\"",
+                             "leave one of both out"});
       const std::size_t own = plan_.pieces.size() - first_piece_[i],
                         given = plan_.bodies[i].velocities.size();
       if (given != 0 && given != own)
@@ -701,6 +705,7 @@ class Planner {
     }
     PlannedJoint& joint = plan_.joints.back();
     put_drive(joint, *def.drive);
+    joint.rate.reset();
     joint.governed_by = caps_.reason(plan_.reasons[static_cast<std::size_t>(joint.governed_by)] +
                                      (def.drive->row == axial ? "; N, Nc: drive" : "; M: drive"));
   }
@@ -708,20 +713,23 @@ class Planner {
   // What a welded node's joint has of the bars that end there.
   struct Weld {
     double M = 0, M_reverse = 0, max_rotation = unlimited;
-    std::string by;  // the joint next to the node of which they are; empty: none
+    std::string by;               // the joint next to the node of which they are; empty: none
+    std::optional<RateLaw> rate;  // its
   };
   // Of the weaker bar. A hinge turns the piece that is farther along the bar, so that a bar whose joint next
   // to the node counts its pieces the other way round has its two moments exchanged.
   Weld weld_of(int hub, int other, Point at, const std::string& name) {
-    Weld weaker{unlimited, unlimited, unlimited, ""};
+    Weld weaker{unlimited, unlimited, unlimited, "", {}};
     for (const int piece : {hub, other}) {
       const PlannedJoint* next = next_to_end(piece, at);
       if (next == nullptr) continue;
       const bool same_sense = (piece == hub ? next->b : next->a) == piece;
       const double M = same_sense ? next->M : next->M_reverse;
       const double M_reverse = same_sense ? next->M_reverse : next->M;
-      if (weaker.by.empty() || std::min(M, M_reverse) < std::min(weaker.M, weaker.M_reverse))
+      if (weaker.by.empty() || std::min(M, M_reverse) < std::min(weaker.M, weaker.M_reverse)) {
         weaker.by = next->name;
+        weaker.rate = next->rate;
+      }
       weaker.M = std::min(weaker.M, M);
       weaker.M_reverse = std::min(weaker.M_reverse, M_reverse);
       weaker.max_rotation = std::min(weaker.max_rotation, next->max_rotation);
@@ -769,7 +777,7 @@ class Planner {
       joint.Q = own.shear.value_or(unlimited);
       const double sprung = own.stiffness_moment.value_or(0) > 0 ? unlimited : 0;
       const Weld weld = def.welded ? weld_of(pieces[0], pieces[i], *def.at, joint.name)
-                                   : Weld{sprung, sprung, unlimited, ""};
+                                   : Weld{sprung, sprung, unlimited, "", {}};
       joint.M = own.moment.value_or(weld.M);
       joint.M_reverse = own.moment_reverse.value_or(own.moment.value_or(weld.M_reverse));
       const double both = gives[0] + gives[i];
@@ -781,6 +789,7 @@ class Planner {
       joint.max_compression = own.max_compression.value_or(unlimited);
       joint.max_slip = own.max_slip.value_or(unlimited);
       joint.hold = own.hold.value_or(false);
+      joint.rate = weld.rate;
       joint.node = node;
       joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: " +
                                        (!weld.by.empty() ? "as " + weld.by

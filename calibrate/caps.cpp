@@ -89,6 +89,7 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
     }
   }
   double along = 0, across = 0, bending = 0, zeta = unlimited;
+  RateLaw rate{{0, 0, 0}};
   const double crushed = sides[0].reach + sides[1].reach > 0 ? sides[0].reach + sides[1].reach : unlimited;
   for (int i = 0; i < 2; ++i) {
     const Side& side = sides[i];
@@ -109,6 +110,10 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
       v.weaken(max_slip, joint.height, i);
     }
     zeta = std::min(zeta, side.strip->damping_ratio());
+    // A hinge of length L_p: its strain rate is that of its elongation over L_p, in bending that of the
+    // farthest fibre, in shear by von Mises. The side that depends less on it governs.
+    if (const double D = side.strip->doubling_rate() * joint.hinge_length; D > rate.doubling[axial])
+      rate = {{D, std::numbers::sqrt3 * D, D / s.farther}, side.strip->rate_exponent()};
     if (s.EA > 0) {
       along += side.reach / s.EA;
       across += side.reach / s.GA;
@@ -129,6 +134,7 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
     v.set(max_slip, o.max_slip, by);
   }
 
+  if (rate.doubling[axial] > 0 && rate.doubling[axial] < unlimited) joint.rate = rate;
   joint.stiffness = {in_series(along), in_series(across), in_series(bending)};
   joint.damping_ratio = damping.value_or(zeta == unlimited ? 0 : zeta);
   const char* stiffness = bending > 0 ? "E" : "rigid, E is not known";

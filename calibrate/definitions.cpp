@@ -156,6 +156,7 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   def.max_compression = j.max_compression;
   def.max_slip = j.max_slip;
   def.node = j.node;
+  def.rate = j.rate;
   if (plan.interaction) def.interaction = interaction_of(plan, j);
   return def;
 }

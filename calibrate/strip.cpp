@@ -81,6 +81,8 @@ std::vector<Region> moved(std::span<const Region> regions, Point by, bool mirror
   return result;
 }
 
+double doubling_rate(const Material& m) { return m.rate_D > 0 ? m.rate_D : unlimited; }
+
 double hardening(const Material& m) { return std::max(1.0, m.ultimate_stress / m.yield_stress); }
 
 }  // namespace
@@ -96,6 +98,8 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
     fracture_strain_ = body.material->fracture_strain;
     damping_ratio_ = body.material->damping_ratio;
     hardening_ = calibration::hardening(*body.material);
+    doubling_rate_ = calibration::doubling_rate(*body.material);
+    rate_exponent_ = body.material->rate_q;
     mass_per_area_ = body.material->density * body.depth;
   }
   if (body.profile.empty()) return;
@@ -112,6 +116,7 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
   fracture_strain_ = unlimited;
   damping_ratio_ = unlimited;
   hardening_ = unlimited;
+  doubling_rate_ = 0;
   for (const Region& region : profile_->regions()) {
     const Material& m = region.material;
     const double density = m.density > 0 ? m.density : body.material ? body.material->density : 0;
@@ -121,6 +126,8 @@ Strip::Strip(const BodyDef& body) : body_(&body) {
     fracture_strain_ = std::min(fracture_strain_, m.fracture_strain);
     damping_ratio_ = std::min(damping_ratio_, m.damping_ratio);
     hardening_ = std::min(hardening_, calibration::hardening(m));
+    if (const double D = calibration::doubling_rate(m); D > doubling_rate_)
+      doubling_rate_ = D, rate_exponent_ = m.rate_q;
   }
   const double h = of_profile_.height;
   mass_per_area_ = mass / h;

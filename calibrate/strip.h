@@ -30,6 +30,9 @@ class Strip {
   bool has_material() const { return body_->material || profile_; }
   double fracture_strain() const { return fracture_strain_; }
   double damping_ratio() const { return damping_ratio_; }
+  /// D, 1/s, and q of what depends least on the rate of strain; D is unlimited where nothing does.
+  double doubling_rate() const { return doubling_rate_; }
+  double rate_exponent() const { return rate_exponent_; }
   double hardening() const { return hardening_; }  ///< f_u/f_y, of a profile the least; 1: none
 
   /// Of a joint's cut; `reversed`: its axis runs against the strip, so that what is left of the strip is
@@ -52,6 +55,7 @@ class Strip {
   Strength of_profile_;
   double mass_per_area_ = 0, excess_inertia_per_area_ = 0;
   double fracture_strain_ = 0, damping_ratio_ = 0, hardening_ = 1;
+  double doubling_rate_ = unlimited, rate_exponent_ = 1;
 };
 
 }  // namespace ductile::calibration

@@ -124,7 +124,8 @@ constexpr const char* joint_tool = R"(
   };
   [[maybe_unused]] const auto joint = [&](const char* name, int node, b2Body* a, b2Body* b, b2Vec2 anchor_a, b2Vec2 anchor_b, float axis, float follow,
                                           ductile::RowDef axial, ductile::RowDef shear, ductile::RowDef rotation, Limits limits,
-                                          std::vector<ductile::AxialMoment> interaction = {}, double line = -1) {
+                                          std::vector<ductile::AxialMoment> interaction = {}, double line = -1,
+                                          std::optional<ductile::RateLaw> rate = {}) {
     ductile::ElasticPlasticJointDef def;
     def.bodyA = a;
     def.bodyB = b;
@@ -143,6 +144,7 @@ constexpr const char* joint_tool = R"(
     def.node = node;
     def.line = def.collideConnected = line >= 0;
     def.length = line;
+    def.rate = rate;
     level.joints.emplace_back(name, level.structure.create_joint(def));
   };
 )";
@@ -214,15 +216,21 @@ std::string cpp_text(const Plan& plan, const std::string& function) {
     std::string points;
     for (const AxialMoment& p : def.interaction)
       points += (points.empty() ? "{" : ", {") + literal(p.N) + ", " + literal(p.M) + "}";
-    if (!points.empty() || def.line) joints += ", {" + points + "}";
-    joints += (def.line ? ", " + literal(def.length) : "") + ");\n";
+    if (!points.empty() || def.line || def.rate) joints += ", {" + points + "}";
+    if (def.line || def.rate) joints += ", " + literal(def.length);
+    if (def.rate) {
+      const auto& D = def.rate->doubling;
+      joints += ", ductile::RateLaw{{" + literal(D[axial]) + ", " + literal(D[shear]) + ", " +
+                literal(D[rotation]) + "}, " + literal(def.rate->exponent) + "}";
+    }
+    joints += ");\n";
   }
 
   std::string text =
       "// Written by `ductile calibrate --to cpp`. Needs Box2D 2.4 and ductile::joint, no other part of "
       "ductile.\n"
       "#include <box2d/box2d.h>\n#include <ductile/joint.h>\n\n#include <initializer_list>\n#include "
-      "<string>\n#include <utility>\n#include <vector>\n\n"
+      "<optional>\n#include <string>\n#include <utility>\n#include <vector>\n\n"
       "// Makes bodies and joints in `world`, which owns them, and tells them by name. Call "
       "structure.update() "
       "after each\n// Step.\n";

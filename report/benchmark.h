@@ -33,5 +33,7 @@ std::vector<Benchmark> repeated_benchmarks();
 std::vector<Benchmark> motion_benchmarks(const Context& context);
 /// Blows, and bodies that fly.
 std::vector<Benchmark> blow_benchmarks(const Context& context);
+/// Blows that are over in two steps at 60 Hz, and one that an estimate stands beside.
+std::vector<Benchmark> strong_blow_benchmarks(const Context& context);
 
 }  // namespace ductile::report

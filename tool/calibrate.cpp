@@ -80,6 +80,13 @@ Json json(const PlannedJoint& joint, const Plan& plan) {
     object["stiffness"][field.key] = number(joint.stiffness.*field.member);
   });
   object["elastic_rotation"] = number(elastic_rotation(joint));
+  if (joint.rate) {
+    const auto& D = joint.rate->doubling;
+    object["rate"] = {{"N", number(D[axial])},
+                      {"Q", number(D[shear])},
+                      {"M", number(D[rotation])},
+                      {"exponent", joint.rate->exponent}};
+  }
   if (joint.end) {
     object["end"] = json(*joint.end);
     object["length"] = joint.length;

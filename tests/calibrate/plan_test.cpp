@@ -103,6 +103,43 @@ TEST(Calibrate, LimitsFromFractureStrainAndHingeLength) {
 }
 
 // A cantilever 20 m long whose moment falls from (f_u/f_y) M_p at its root: how far is it above M_p?
+// At a plastic rate D L_p, over L_p, the strain rate is D: in shear by von Mises, in bending in the farthest
+// fibre.
+TEST(Calibrate, RatesOfStrain) {
+  SceneDef scene = cantilever(10);
+  EXPECT_FALSE(calibrate(scene).joints[0].rate);
+  scene.bodies[1].material->rate_D = 40;
+  scene.bodies[1].material->rate_q = 5;
+  scene.bodies[1].joint.hinge_length = 0.3;
+  const PlannedJoint joint = calibrate(scene).joints[0];
+  ASSERT_TRUE(joint.rate);
+  EXPECT_DOUBLE_EQ(joint.rate->doubling[axial], 40 * 0.3);
+  EXPECT_DOUBLE_EQ(joint.rate->doubling[shear], std::numbers::sqrt3 * 40 * 0.3);
+  EXPECT_DOUBLE_EQ(joint.rate->doubling[rotation], 40 * 0.3 / 0.5);
+  EXPECT_EQ(joint.rate->exponent, 5);
+  scene.interaction = true;
+  EXPECT_NE(problems_of(scene).find("rate of strain"), std::string::npos);
+}
+
+// What is joined to a body that depends on it less, or not at all, depends on it as that does.
+TEST(Calibrate, TheSideThatDependsLessOnTheRateGoverns) {
+  SceneDef scene = cantilever(2);
+  scene.bodies[1].material->rate_D = 40;
+  BodyDef other = scene.bodies[1];
+  other.name = "other";
+  other.at = {20, 0};
+  other.material->rate_D = 100;
+  other.material->rate_q = 10;
+  scene.bodies.push_back(other);
+  scene.joints.push_back({.a = "beam", .b = "other"});
+  const PlannedJoint between = joint(calibrate(scene), "beam/1-other/0");
+  ASSERT_TRUE(between.rate);
+  EXPECT_EQ(between.rate->exponent, 10);
+  EXPECT_DOUBLE_EQ(between.rate->doubling[axial], 100 * between.hinge_length);
+  scene.bodies.back().material->rate_D = 0;
+  EXPECT_FALSE(joint(calibrate(scene), "beam/1-other/0").rate);
+}
+
 TEST(Calibrate, HingeLengthFromHardening) {
   SceneDef scene = cantilever(4);
   scene.bodies[1].material->ultimate_stress = 490e6;

@@ -47,6 +47,8 @@ void expect_everything(const SceneDef& scene) {
                                      .fracture_strain = 0.25,
                                      .brittle = true,
                                      .damping_ratio = 0.1,
+                                     .rate_D = 40,
+                                     .rate_q = 5.5,
                                      .friction = 0.6,
                                      .restitution = 0.3}));
   EXPECT_EQ(beam.joint.moment, 1e7);

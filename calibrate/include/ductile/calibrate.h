@@ -230,8 +230,9 @@ struct PlannedJoint {
   double max_rotation = unlimited;    ///< rad, accumulated plastic
   double max_elongation = unlimited;  ///< m, likewise
   double max_compression = unlimited, max_slip = unlimited;
-  double hinge_length = 0;  ///< m
-  double height = 0;        ///< m, length of the interval along which the pieces touch; 0 for supports
+  double hinge_length = 0;      ///< m
+  std::optional<RateLaw> rate;  ///< where its materials depend on the rate of strain
+  double height = 0;            ///< m, length of the interval along which the pieces touch; 0 for supports
   /// Of a joint that is several intervals: from and to, m to the left of the axis, from the anchor, which is
   /// their centroid. Empty where there is one; `height` is from the first's start to the last's end.
   std::vector<std::array<double, 2>> intervals;

@@ -63,6 +63,8 @@ inline constexpr std::tuple substance{
     Field{"fracture_strain", &Material::fracture_strain, Range{0, true, unlimited, "a number > 0"}},
     Field{"brittle", &Material::brittle},
     Field{"damping_ratio", &Material::damping_ratio, not_negative},
+    Field{"rate_D", &Material::rate_D, positive, "1/s"},
+    Field{"rate_q", &Material::rate_q, Range{1, false, {}, "a number >= 1"}},
     Field{"friction", &Material::friction, not_negative},
     Field{"restitution", &Material::restitution, not_negative}};
 
