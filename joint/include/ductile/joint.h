@@ -76,8 +76,8 @@ struct ElasticPlasticJointDef : b2JointDef {
   /// N–M curve that replaces the independent caps of N and M (and with the shear cap, of Q): a convex polygon
   /// with the origin inside, counter-clockwise in the (N, M) plane. Empty: independent caps.
   std::vector<AxialMoment> interaction;
-  /// Caps that grow with the rate of plastic flow. Not with an interaction curve, hardening, drives or rows that
-  /// slacken, nor with SolverKind::iterative.
+  /// Caps that grow with the rate of plastic flow. Not with an interaction curve, hardening, drives or rows
+  /// that slacken, nor with SolverKind::iterative.
   std::optional<RateLaw> rate;
   int break_group = 0;  ///< joints of one group ≠ 0 break together, in the mode of the first
   /// Joints of one node ≠ 0 hold several bodies at one point to body A, which they share. Where that body is
