@@ -18,13 +18,15 @@ namespace ductile::dynamics {
 
 class CappedRows {
  public:
-  /// From the impulses s that are drawn within their caps; `inside` and `energy` as in InteriorPoint.
-  void enter(const Joint& joint, const JointRecord& record, const Rows& s, double inside, double energy) {
+  /// From the impulses s that are drawn within their caps; m_eff with J as it is; `inside` and `energy` as in
+  /// InteriorPoint.
+  void enter(const Joint& joint, const JointRecord& record, const Rows& s, const Rows& m_eff, double inside,
+             double energy) {
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r = {};
       if (!(joint.G[i] > 0)) continue;
-      const double G = joint.G[i], m = record.m_eff[i];
+      const double G = joint.G[i], m = m_eff[i];
       const std::array<double, 2> cap{record.law.cap[i], record.law.cap_reverse[i]};
       // A row that takes one sign only starts with an impulse of the size that may be asked for.
       const double size = std::min(cap[0] + cap[1], std::abs(s[i]) + std::sqrt(m * energy));
@@ -32,6 +34,7 @@ class CappedRows {
       r.s = std::max(std::min(s[i], cap[0] - margin(cap[0])), margin(cap[1]) - cap[1]);
       r.G = G;
       r.compliance = 1 / G;
+      r.give = std::max(r.compliance, least_compliance(m));
       r.last_bits = m > 0 ? last_bits(G, m) : 0;
       // s = F + ηz is the law's share α of G beyond the cap where α G = η/(1 + η/G).
       const double alpha = record.law.after_yield[i];
@@ -95,7 +98,7 @@ class CappedRows {
     for (Row& r : rows_) {
       if (r.G == 0) continue;
       r.weight = r.z / (r.p + r.hardening * r.z);
-      r.D = 1 / (r.compliance + (r.weight[0] + r.weight[1]));
+      r.D = 1 / (r.give + (r.weight[0] + r.weight[1]));
     }
     return {.nn = rows_[0].D, .qq = rows_[1].D, .mm = rows_[2].D};
   }
@@ -152,6 +155,7 @@ class CappedRows {
     double s = 0, ds = 0, lack = 0;
     double D = 0;
     double G = 0, compliance = 0, hardening = 0;
+    double give = 0;       // compliance in a round
     double last_bits = 0;  // times s²: what rounding of s makes of the gap
   };
   std::array<Row, 3> rows_;

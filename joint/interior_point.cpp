@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "contact_rows.h"
 
@@ -55,6 +56,13 @@ void InteriorPoint::start_from(const System& system) {
   start_known_ = true;
 }
 
+// What |v − v*|²_M + |v|²_M of the solution is at most, as ½ |v − v*|²_M ≤ f(v) ≤ f(v*): rounds that go
+// astray shall not be measured by how far they went.
+double InteriorPoint::furthest(System& system) {
+  const Evaluation at = evaluate(system, d_, [](std::size_t, Body& b) { b.v = b.v_free; });
+  return 6 * objective(system, at) + 2 * at.speed2;
+}
+
 // v = v* − M⁻¹ Jᵀ s; |v − v*|²_M + |v|²_M. What s lacks is thus always a lack of compatibility, never of
 // balance: whatever iterate the rounds end with gives velocities that conserve momentum.
 double InteriorPoint::balance(System& system) {
@@ -77,7 +85,8 @@ double InteriorPoint::balance(System& system) {
   return scale;
 }
 
-void InteriorPoint::start(const System& system) {
+// Whether anything moves, or asks for an impulse: else there is none, and bodies rest.
+bool InteriorPoint::start(const System& system) {
   double energy = 0;  // what impulses may have to answer to
   for (std::size_t i = 0; i < system.free; ++i)
     energy += energy_of(system.bodies[i], system.bodies[i].v_free);
@@ -85,8 +94,8 @@ void InteriorPoint::start(const System& system) {
     const Rows &bias = system.joints[k].bias, &m_eff = system.records[k].m_eff;
     for (unsigned i = 0; i < 3; ++i) energy += m_eff[i] * bias[i] * bias[i];
   }
-  if (!start_known_) start_from(system);
-  start_known_ = false;
+  for (const TurnInertia& t : system.turn_inertias) energy += t.inertia * t.rate * t.rate;
+  if (energy == 0) std::fill(best_.begin(), best_.end(), Rows{});
   const std::size_t count = system.joints.size();
   caps_.resize(count);
   surface_of_.resize(count);
@@ -97,18 +106,20 @@ void InteriorPoint::start(const System& system) {
   for (std::size_t k = 0; k < count; ++k) {
     const Joint& j = system.joints[k];
     const JointRecord& r = system.records[k];
+    const Rows m_eff = effective_masses(system, j);
     if (r.law.surface == nullptr) {
       surface_of_[k] = -1;
-      caps_[k].enter(j, r, best_[k], tunables.inside, energy);
+      caps_[k].enter(j, r, best_[k], m_eff, tunables.inside, energy);
       impulses_[k] = caps_[k].impulse();
     } else {
       surface_of_[k] = static_cast<int>(surfaces_.size());
       SurfaceRows& rows = surfaces_.emplace_back();
-      rows.enter(j, r, best_[k], tunables.inside, room);
+      rows.enter(j, r, best_[k], m_eff, tunables.inside, room);
       room = room.subspan(rows.count());
       impulses_[k] = rows.impulse();
     }
   }
+  return energy != 0;
 }
 
 // Within the rounds a contact that may press has friction, too: its normal impulse is never 0.
@@ -209,10 +220,16 @@ void InteriorPoint::move(double step) {
 
 InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Evaluation& at) {
   Outcome outcome;
+  if (!std::exchange(start_known_, false)) start_from(system);
   open_friction(system);
-  start(system);
+  const double most = furthest(system);
+  if (!start(system)) {
+    outcome.reached = true;
+    finish(system, outcome.reached, at);
+    return outcome;
+  }
   follow_friction(system, 0, 0);
-  double scale = balance(system), work = 0, moving = 0;
+  double scale = std::min(balance(system), most), work = 0, moving = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Rows x = x_of(system, system.joints[k]);
     for (unsigned i = 0; i < 3; ++i) work += std::abs(impulses_[k][i] * x[i]);
@@ -266,7 +283,7 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     // A gap is of the caps that it was measured with.
     if (round < tunables.friction_rounds && follow_friction(system, scale, now.products / count))
       outcome.gap = infinity;
-    scale = balance(system);
+    scale = std::min(balance(system), most);
   }
   outcome.reached = outcome.gap <= outcome.tolerance;
   finish(system, outcome.reached, at);

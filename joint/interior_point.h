@@ -20,7 +20,7 @@ namespace ductile::dynamics {
 
 /// What is chosen, with its reason.
 struct InteriorPointTunables {
-  /// Of |v − v*|²_M + |v|²_M: the gap that rounds go on to. Velocities are good to its root.
+  /// Of |v − v*|²_M + |v|²_M, no more than of the solution: the gap that rounds go on to. Velocities are good to its root.
   double goal = 1e-18;
   /// Likewise with contacts: their caps of friction are not known as well.
   double contact_goal = 1e-15;
@@ -39,7 +39,7 @@ struct InteriorPointTunables {
   /// Likewise with contacts: with less, those that open let the first rounds go but small steps, one after
   /// the other.
   double contact_start = 5;
-  /// A solve takes 9 to 25 rounds; 3 of 1e5 random structures do not end within so many.
+  /// A solve takes 9 to 25 rounds; of 1e5 random structures none takes more than 63.
   int round_bound = 100;
 };
 
@@ -70,9 +70,10 @@ class InteriorPoint {
   std::size_t bytes() const;
 
  private:
-  void start(const System& system);
+  bool start(const System& system);
   void open_friction(System& system);
   bool follow_friction(System& system, double energy, double mu);
+  double furthest(System& system);
   double balance(System& system);
   Distance measure(const System& system);
   void factor(System& system, Hessian& hessian);

@@ -16,6 +16,12 @@ struct Distance {
   double gap() const { return products + lack; }
 };
 
+/// The least compliance that a round gives a row of the effective mass m. The bodies take all of a row's lack
+/// but 1/(1 + G/m): beyond G = 1e12 m that is lost among its last bits, and the row would go nowhere. What
+/// this leaves of the lack, 1e-12, is for the next round. Only where a joint is torn open, its arms longer
+/// than at rest, is a rigid row that stiff.
+inline double least_compliance(double m) { return m > 0 ? 1e-12 / m : 0; }
+
 /// The last bits of s move its row by ε s/m_eff, which the row answers by G: what s² is to be multiplied with
 /// for that to be a gap.
 inline double last_bits(double G, double m_eff) {

@@ -6,11 +6,11 @@
 namespace ductile::dynamics {
 
 // Rows that are free carry nothing: they leave the facets.
-void SurfaceRows::enter(const Joint& j, const JointRecord& r, const Rows& s, double inside,
+void SurfaceRows::enter(const Joint& j, const JointRecord& r, const Rows& s, const Rows& m_eff, double inside,
                         std::span<Bound> room) {
   *this = {};
   G_ = j.G;
-  m_eff_ = r.m_eff;
+  m_eff_ = m_eff;
   for (std::size_t i = 0; i < 3; ++i) x_[i] = holds(i) ? s[i] : 0;
   const YieldSurface& surface = *r.law.surface;
   const double h = r.law.share * r.law.h, usage = surface.usage({x_[0] / h, x_[1] / h, x_[2] / h});
@@ -80,11 +80,11 @@ void SurfaceRows::measure(const Rows& x, Distance& d) {
 
 // D is the part of C⁻¹ on s.
 Coupling SurfaceRows::eliminate(const Scratch& scratch) {
-  for (std::size_t i = 0; i < 3; ++i) root_[i] = holds(i) ? 1 / std::sqrt(G_[i]) : 1;
+  for (std::size_t i = 0; i < 3; ++i) root_[i] = holds(i) ? std::sqrt(compliance(i)) : 1;
   root_[3] = 1;
   if (shear_ > 0) {
     const Bound& cone = bounds_.back();  // whose own curvature is z diag(1/(hQ)², 1) on (s_Q, t)
-    root_[1] = std::sqrt(1 / G_[1] + cone.z / (shear_ * shear_));
+    root_[1] = std::sqrt(compliance(1) + cone.z / (shear_ * shear_));
     root_[3] = std::sqrt(cone.z);
   }
   const std::size_t n = 4 + bounds_.size();

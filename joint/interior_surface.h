@@ -7,6 +7,7 @@
 // accurately for rows of any weight: B x = Q Q₀ᵀ root⁻¹ y, Q₀ the rows of the unknowns.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "interior_round.h"
@@ -33,7 +34,7 @@ class SurfaceRows {
   static std::size_t most_bounds(const YieldSurface& surface) { return surface.facets().size() + 1; }
 
   /// From impulses that are drawn within the surface, into `room` for most_bounds(); as CappedRows.
-  void enter(const Joint& joint, const JointRecord& record, const Rows& s, double inside,
+  void enter(const Joint& joint, const JointRecord& record, const Rows& s, const Rows& m_eff, double inside,
              std::span<Bound> room);
   void centre(double mu);
   Rows impulse() const { return {x_[0], x_[1], x_[2]}; }
@@ -49,11 +50,12 @@ class SurfaceRows {
   Row4 project(const Row4& y) const;
   double cone_lack() const;
   bool holds(std::size_t row) const { return G_[row] > 0; }
+  double compliance(std::size_t row) const { return std::max(1 / G_[row], least_compliance(m_eff_[row])); }
 
   std::span<Bound> bounds_;  // the cone is the last
   Row4 x_{}, dx_{};          // (s, t)
   Row4 lack_{};              // J v + b − s/G − Σ z a, which is to vanish; and −Σ z a on t
-  Row4 root_{};              // roots of the curvature without bounds: 1/√G
+  Row4 root_{};              // roots of the curvature without bounds: 1/√G (least_compliance())
   std::array<Row4, 4> q_{};  // its rows of Q
   Rows G_{}, m_eff_{};
   double shear_ = 0;  // h Q_max; 0: no cone

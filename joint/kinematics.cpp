@@ -5,6 +5,23 @@
 
 namespace ductile::dynamics {
 
+Rows effective_masses(const System& system, const Joint& j) {
+  Rows inverse{};
+  const auto add = [&](int body, const JacobianRows& rows) {
+    if (!system.is_free(body)) return;
+    const Body& b = system.bodies[z(body)];
+    const Vec3* const of_row[] = {&rows.u, &rows.v, &rows.w};
+    for (unsigned i = 0; i < 3; ++i) {
+      const Vec3& r = *of_row[i];
+      inverse[i] += b.inverse_mass * (r.x * r.x + r.y * r.y) + b.inverse_inertia * r.w * r.w;
+    }
+  };
+  add(j.a, rows_of_a(j.J));
+  add(j.b, rows_of_b(j.J));
+  for (unsigned i = 0; i < 3; ++i) inverse[i] = inverse[i] > 0 ? 1 / inverse[i] : 0;
+  return inverse;
+}
+
 Rows locate(Joint& j, const Place& a, const Place& b) {
   Jacobian& J = j.J;
   const Frame& f = j.frame;

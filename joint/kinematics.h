@@ -54,6 +54,9 @@ inline void add_transposed(const Joint& j, const Rows& s, Vec3& a, Vec3& b) {
         s[0] * J.bu + s[1] * J.bv + s[2]};
 }
 
+/// 1/(J M⁻¹ Jᵀ) of the rows, each by itself, with J as it is; 0 of a row that nothing moves.
+Rows effective_masses(const System& system, const Joint& j);
+
 /// Writes J of the bodies' places; returns the gap.
 Rows locate(Joint& joint, const Place& a, const Place& b);
 inline Rows locate(Joint& j, const std::vector<Place>& places) {

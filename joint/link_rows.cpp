@@ -8,28 +8,6 @@
 
 namespace ductile::dynamics {
 
-namespace {
-
-// J M⁻¹ Jᵀ of the rows, each by itself.
-Rows effective_masses(const System& system, const Link& link) {
-  Rows inverse{};
-  const auto add = [&](int body, const JacobianRows& rows) {
-    if (!system.is_free(body)) return;
-    const Body& b = system.bodies[z(body)];
-    const Vec3* const of_row[] = {&rows.u, &rows.v, &rows.w};
-    for (unsigned i = 0; i < 3; ++i) {
-      const Vec3& r = *of_row[i];
-      inverse[i] += b.inverse_mass * (r.x * r.x + r.y * r.y) + b.inverse_inertia * r.w * r.w;
-    }
-  };
-  add(link.a, rows_of_a(link.J));
-  add(link.b, rows_of_b(link.J));
-  for (unsigned i = 0; i < 3; ++i) inverse[i] = inverse[i] > 0 ? 1 / inverse[i] : 0;
-  return inverse;
-}
-
-}  // namespace
-
 bool enter_links(System& system, std::span<const Link> links, double h) {
   bool same = links.size() == system.links.size();
   for (std::size_t k = 0; k < links.size() && same; ++k) {
@@ -55,7 +33,7 @@ bool enter_links(System& system, std::span<const Link> links, double h) {
     j.J = link.J;
     j.bias = link.bias;
     j.impulse = link.impulse;
-    r.m_eff = effective_masses(system, link);
+    r.m_eff = effective_masses(system, j);
     r.law.h = h;
     for (unsigned i = 0; i < 3; ++i) {
       double G = std::isfinite(link.G[i]) ? link.G[i] : contact_ratio * r.m_eff[i];
