@@ -4,7 +4,9 @@
 // with contacts as rows of each. Box2D sees one step: it moves bodies with their mean velocities, before its
 // iterations of positions they get those at the end, and contacts have the sums of their impulses.
 //
-// That takes that nothing but the solver changes the bodies' velocities in the step.
+// That takes that nothing but the solver changes the bodies' velocities in the step; and that supports rest:
+// what rigid rows are strained by between supports that move apart, they would answer a thousand times as
+// hard, as their springs go with the step.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,8 +32,12 @@ constexpr std::size_t most_bodies = 160, most_touches = 16;
 
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
-  return whole() && !structure->world->GetSubStepping() && data.step.positionIterations > 0 &&
-         h > 1.5 * part && structure->reports.bodies_in_parts + solver.bodies.size() <= most_bodies &&
+  const auto rests = [](const Mirror& m) { return dot(m.exact, m.exact) == 0; };
+  return whole() &&
+         std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
+                     rests) &&
+         !structure->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
+         structure->reports.bodies_in_parts + solver.bodies.size() <= most_bodies &&
          outside_.touches.size() <= most_touches && h * solver.fastest() < b2_maxTranslation &&
          h * solver.fastest_turn() < b2_maxRotation;
 }
