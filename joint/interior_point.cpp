@@ -56,13 +56,6 @@ void InteriorPoint::start_from(const System& system) {
   start_known_ = true;
 }
 
-// What |v − v*|²_M + |v|²_M of the solution is at most, as ½ |v − v*|²_M ≤ f(v) ≤ f(v*): rounds that go
-// astray shall not be measured by how far they went.
-double InteriorPoint::furthest(System& system) {
-  const Evaluation at = evaluate(system, d_, [](std::size_t, Body& b) { b.v = b.v_free; });
-  return 6 * objective(system, at) + 2 * at.speed2;
-}
-
 // v = v* − M⁻¹ Jᵀ s; |v − v*|²_M + |v|²_M. What s lacks is thus always a lack of compatibility, never of
 // balance: whatever iterate the rounds end with gives velocities that conserve momentum.
 double InteriorPoint::balance(System& system) {
@@ -222,14 +215,13 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   Outcome outcome;
   if (!std::exchange(start_known_, false)) start_from(system);
   open_friction(system);
-  const double most = furthest(system);
   if (!start(system)) {
     outcome.reached = true;
     finish(system, outcome.reached, at);
     return outcome;
   }
   follow_friction(system, 0, 0);
-  double scale = std::min(balance(system), most), work = 0, moving = 0;
+  double scale = balance(system), work = 0, moving = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Rows x = x_of(system, system.joints[k]);
     for (unsigned i = 0; i < 3; ++i) work += std::abs(impulses_[k][i] * x[i]);
@@ -283,7 +275,7 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     // A gap is of the caps that it was measured with.
     if (round < tunables.friction_rounds && follow_friction(system, scale, now.products / count))
       outcome.gap = infinity;
-    scale = std::min(balance(system), most);
+    scale = balance(system);
   }
   outcome.reached = outcome.gap <= outcome.tolerance;
   finish(system, outcome.reached, at);

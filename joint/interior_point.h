@@ -20,7 +20,7 @@ namespace ductile::dynamics {
 
 /// What is chosen, with its reason.
 struct InteriorPointTunables {
-  /// Of |v − v*|²_M + |v|²_M, no more than of the solution: the gap that rounds go on to. Velocities are good to its root.
+  /// Of |v − v*|²_M + |v|²_M: the gap that rounds go on to. Velocities are good to its root.
   double goal = 1e-18;
   /// Likewise with contacts: their caps of friction are not known as well.
   double contact_goal = 1e-15;
@@ -73,7 +73,6 @@ class InteriorPoint {
   bool start(const System& system);
   void open_friction(System& system);
   bool follow_friction(System& system, double energy, double mu);
-  double furthest(System& system);
   double balance(System& system);
   Distance measure(const System& system);
   void factor(System& system, Hessian& hessian);

@@ -576,12 +576,14 @@ class Game : b2DestructionListener {
     return held > 1 && moving;
   }
 
-  /// Joints reach so far that rounding of what turns is as fast as anything else.
+  /// Joints reach so far that rounding of what turns is as fast as anything else; or were thrown so far apart
+  /// that their forces at the arms that they have now are beyond double precision.
   bool far() const {
     return std::any_of(
         structure_->joints().begin(), structure_->joints().end(), [this](ElasticPlasticJoint* j) {
           return std::max(apart(*j->GetBodyA(), j->GetAnchorA()), apart(*j->GetBodyB(), j->GetAnchorB())) >
-                 1000;
+                     1000 ||
+                 b2Distance(j->GetAnchorA(), j->GetAnchorB()) > 30 * size_;
         });
   }
 
