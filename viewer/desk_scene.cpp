@@ -25,7 +25,7 @@ void Desk::scene(const Bounds& box) {
                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::TextUnformatted("Scene");
-  const auto rows = static_cast<float>(std::min<std::size_t>(7, bench_.scenes().size() + 1));
+  const auto rows = static_cast<float>(std::min<std::size_t>(5, bench_.scenes().size() + 1));
   ImGui::BeginChild("scenes", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, true,
                     ImGuiWindowFlags_NavFlattened);
   for (const std::filesystem::path& file : bench_.scenes()) {
@@ -165,7 +165,6 @@ void Desk::show() {
   ImGui::SameLine();
   ImGui::Checkbox("names", &look_.names);
   tip("names", "Writes the joints' names beside them.");
-  ImGui::SameLine();
   ImGui::Checkbox("peaks", &look_.peaks);
   tip("peaks", "Colours tell how far each joint has ever been in this run, not where it is now (U).");
   ImGui::SameLine();
