@@ -9,7 +9,7 @@
 // a body of mass m and speed v₀ on a cap F loses F h/m at once and its flow v₀h/2 of v₀²m/2F: a blow that
 // ends within a step would leave no mark. What flows does so at its cap: work and elastic strain are F's.
 //
-// Elastic rows need no such thing, as R = k(e + β(u − p) …) is the mean of both halves already.
+// Elastic rows need no such thing, as R = k (e + (u − p)/4 + …) is the mean of both halves already.
 #pragma once
 
 #include "system.h"

@@ -38,8 +38,7 @@ void move_drive(Joint& j, const JointRecord& r, double h) {
 
 void correct_rates(Joint& j, const JointRecord& r, const Rows& gap, double h) {
   for (unsigned i = 0; i < 3; ++i) {
-    if (!(j.carry[i] > 0)) continue;
-    j.trend[i] = 0;
+    if (!j.is_newmark(i)) continue;
     if (is_slack(j, r, i)) {
       j.rate[i] = 2 * (gap[i] - j.neutral[i]) / h;
     } else if (!flows(j.regime, i)) {

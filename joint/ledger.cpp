@@ -63,19 +63,23 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
     const double k = r.law.spring[i], delta = r.law.delta[i];
     const double e = strain_of_bias(j, i);
     const double u = moved_[index][i] - slip[i], p = delta < 1 ? h * j.rate[i] : u;
+    const double third = r.law.third[i], m = (u + p) / 2;
     // Implicit rows store what their force stands for, and beside heavy dampers rows store no more: the gap
     // holds constraint drift, too.
     const double half = e + u / 2, by_force = j.impulse[i] / (h * k);
     const double after = is_implicit(r, i) ? by_force : within(e + u, by_force);
-    const double third = r.law.third[i];
-    r.stored[i] =
-        k / 2 *
-        (delta < 1 ? half * half + (delta * delta / 4 + third / 2) * u * u + third / 2 * (u + p) * (u + p)
-                   : after * after);
+    const double unturned = third > 0 ? u - (j.moved[i] - p) / 2 : u;
+    r.stored[i] = k / 2 *
+                  (delta < 1 ? half * half + r.law.detuning[i] * unturned * unturned + 2 * third * m * m
+                             : after * after);
     const double given = is_driven(r, i) ? -j.impulse[i] / h * slip[i] : 0;
     energies.driven += given;
     const double lost = taken_[index][i] + given - (r.stored[i] - held) - work[i];
-    double damping = r.law.damping[i] * (u + p) * (u + p) / (4 * h);
+    const double damped =
+        third > 0 && delta > 0  // r
+            ? 5 * m / 6 + (j.trend[i] + 2 * third * j.mean[i] + r.law.detuning[i] * j.moved[i]) / delta
+            : m;
+    double damping = r.law.damping[i] / h * m * damped;
     // Of implicit rows u holds what turning bodies part by, too, which no damper answers to.
     if (delta >= 1) damping = std::min(damping, std::max(lost, 0.0));
     energies.damping += damping;

@@ -53,12 +53,19 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     if (!(k > 0)) continue;
     double& delta = law.delta[i];
     if (material.surface != nullptr && k == material.stiffness[i] && delta != 1) delta = shared;
-    law.third[i] = delta < 1 && !special(i) ? third_difference : 0;
-    // β − γ
-    const double share = delta < 1 ? (1 + delta) * (1 + delta) / 4 + 1.5 * law.third[i] : delta;
+    double share = delta, over = 1 - delta;  // of u and of −p in R/k
+    if (delta < 1) {
+      const bool alone = special(i);
+      const double d = alone ? delta : law.damping[i] / (k * h), q = std::min(d, most_detuning);
+      law.third[i] = alone ? 0 : third_difference;
+      law.detuning[i] = law.third[i] / 2 + q * (2 * d - q) / 4;
+      const double damper = alone ? delta / 2 : 5 * delta / 12 + law.third[i];
+      share = 0.25 + damper + law.detuning[i];
+      over = 0.25 - damper + (alone ? law.detuning[i] : 0);
+    }
     law.G[i] = share * h * h * k;
     law.relaxation[i] = 1 / (share * h);
-    law.carry[i] = delta < 1 ? 1 - delta / share : 1 / delta - 1;
+    law.carry[i] = over / share;
     // A slider of modulus H in series with the spring: s/G + (s − hF)/(h²H) = x.
     const double H = material.slider_modulus(i, k);
     law.after_yield[i] = h * h * H / (h * h * H + law.G[i]);

@@ -154,29 +154,39 @@ void Solver::advance() {
   remember_turn_rates(*this, turned_);
   if (predicted_) prediction_.fit();
   for (Joint& j : own_joints()) {
-    // The rate in the rows' direction at the step's start, where it shows what their turning makes of it.
-    Rows before_turn{};
-    const bool turns = j.regime != 0 || j.is_overdamped();
-    if (turns) before_turn = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
+    const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
     if (keeps_ledger || j.regime != 0 || j.has_free_row() || j.special) book(j, gap);
-    const Rows rate = std::exchange(j.rate, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
-    for (unsigned i = 0; i < 3; ++i)
-      j.trend[i] = j.carry[i] > 0 ? third_difference * h * (j.rate[i] - rate[i]) : 0;
-    for (unsigned i = 0; turns && i < 3; ++i) {
-      if (j.carry[i] < 0) {
-        j.rate[i] = (j.rate[i] - before_turn[i]) / 2;
-      } else if (flows(j.regime, i)) {
-        j.rate[i] -= before_turn[i];  // the spring's own rate is none
-        j.trend[i] = 0;
-      }
-    }
+    carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
   }
   biases_known = true;
   if (std::exchange(struck_, false)) close_blow(*this);
   if (lower_caps(*this, laws_)) hessian_.forget();
+}
+
+// What the law carries over of a step: J v along the axes at the step's start, and at its end.
+void Solver::carry_over(Joint& j, const Rows& v, const Rows& turned) {
+  const double h = step();
+  const Rows rate = std::exchange(j.rate, turned), mean = j.mean;
+  for (unsigned i = 0; i < 3; ++i) {
+    j.moved[i] = h * v[i];
+    j.mean[i] = h / 2 * (v[i] + rate[i]);
+    // Of rows without a damper: δ = 0, ε = γ/2. Others follow.
+    j.trend[i] = j.is_newmark(i) ? -third_difference * (2 * j.mean[i] + j.moved[i] / 2) : 0;
+  }
+  if (!j.damped && j.overdamped == 0 && j.regime == 0) return;
+  const RowLaw& law = record(j).law;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (j.is_overdamped(i)) {
+      j.rate[i] = (j.rate[i] - v[i]) / 2;
+    } else if (flows(j.regime, i)) {
+      j.rate[i] -= v[i];  // the spring's own rate is none
+      j.moved[i] = j.mean[i] = 0;
+    }
+    j.trend[i] = j.is_newmark(i) ? law.trend(i, j.moved[i], j.mean[i], flows(j.regime, i) ? 0 : mean[i]) : 0;
+  }
 }
 
 // What a joint's rows do in a step beyond being strained.

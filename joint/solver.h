@@ -124,6 +124,7 @@ class Solver : public System {
   void place_others();
   void solve_again(Solution& solution, SolveReport& report);
   void settle_friction(Solution& solution, SolveReport& report);
+  void carry_over(Joint& joint, const Rows& rate, const Rows& turned);
   void book(Joint& joint, const Rows& gap);
 
   StepLaws laws_;

@@ -25,7 +25,7 @@ double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
 // The past may have known what is not finite; this step need not.
 void forget_infinite(Joint& j) {
   for (unsigned i = 0; i < 3; ++i)
-    if (!std::isfinite(j.rate[i] + j.trend[i])) j.rate[i] = j.trend[i] = 0;
+    if (!std::isfinite(j.rate[i] + j.trend[i])) return j.forget_rates();
 }
 
 }  // namespace
@@ -40,6 +40,14 @@ void StepLaws::take_law(Joint& j, const RowLaw& law) {
   j.relaxation = law.relaxation;
   j.carry = law.carry;
   j.elastic_range = law.elastic_range();
+  j.newmark = j.overdamped = 0;
+  j.damped = false;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!(law.G[i] > 0)) continue;
+    j.newmark |= static_cast<std::uint8_t>((law.delta[i] < 1 ? 1u : 0u) << i);
+    j.overdamped |= static_cast<std::uint8_t>((law.delta[i] > 1 ? 1u : 0u) << i);
+    j.damped |= law.delta[i] > 0 && law.delta[i] < 1;
+  }
 }
 
 // The share of all drift that is not taken back in this step. Updates each joint's deferred drift.
@@ -72,14 +80,15 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain) const {
   Rows spring = r.law.spring;
   const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
-  const Rows carry = j.carry;
+  const unsigned overdamped = j.overdamped;
   set_law(j, r);
   for (unsigned i = 0; i < 3; ++i) {
     // The same force, but none larger than the step: what was rough in a short one would be a blow.
     j.impulse[i] *= std::min(1.0, longer);
     j.rate[i] /= longer;
-    if ((carry[i] < 0) != (j.carry[i] < 0)) j.rate[i] = 0;  // w and w' (row.h) say nothing of each other
-    if (!(r.law.third[i] > 0)) j.trend[i] = 0;
+    // w and w' (row.h) say nothing of each other
+    if (((overdamped ^ j.overdamped) >> i & 1u) != 0) j.rate[i] = j.moved[i] = j.mean[i] = 0;
+    j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
     // What holds nothing any more, as both its bodies are held, forgets its force.
     if (!(r.law.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
     if (!(spring[i] > 0 && r.law.spring[i] > 0) || is_slack(j, r, i)) continue;
@@ -117,7 +126,8 @@ void StepLaws::rescale(System& system, double by) {
   for (Joint& j : system.own_joints()) {
     for (unsigned i = 0; i < 3; ++i) {
       j.rate[i] *= by;
-      j.trend[i] *= by * by;
+      j.moved[i] *= by;
+      j.mean[i] *= by;
     }
   }
   h_ *= by;
@@ -130,7 +140,7 @@ void StepLaws::divide(System& system, double parts) { rescale(system, 1 / parts)
 // law starts from what the rows store and the bodies' velocities: no energy comes of it.
 void StepLaws::unite(System& system, double parts) {
   rescale(system, parts);
-  for (Joint& j : system.own_joints()) j.rate = j.trend = {};
+  for (Joint& j : system.own_joints()) j.forget_rates();
 }
 
 bool StepLaws::begin(System& system, double h) {

@@ -50,25 +50,30 @@ struct Frame {
 struct Joint {
   int a = 0, b = 0;  // bodies
   Jacobian J;
-  Rows bias{};                     // b, m/s or rad/s
-  Rows impulse{};                  // s, N s or N m s
-  std::uint8_t regime = 0;         // of the law (row.h)
-  std::uint8_t factored_flow = 0;  // rows that were flowing in the current factorisation
-  bool special = false;            // some row is driven or goes slack (drive.h)
-  int block = -1;                  // of H, when both bodies are free
+  Rows bias{};                               // b, m/s or rad/s
+  Rows impulse{};                            // s, N s or N m s
+  std::uint8_t regime = 0;                   // of the law (row.h)
+  std::uint8_t factored_flow = 0;            // rows that were flowing in the current factorisation
+  bool special = false;                      // some row is driven or goes slack (drive.h)
+  std::uint8_t newmark = 0, overdamped = 0;  // rows with δ < 1 and with δ > 1, one bit each
+  bool damped = false;                       // some row has 0 < δ < 1
+  int block = -1;                            // of H, when both bodies are free
 
   Rows G{}, elastic_range{};   // of the law
   Rows relaxation{}, carry{};  // of the law: b of the next step
-  Rows rate{};     // w: what the law carries over of the last step's rates, m/s or rad/s; times h₋/h
-  Rows trend{};    // t, m or rad: the share of their change that the law carries over
-  Rows neutral{};  // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
+  Rows rate{};           // w: what the law carries over of the last step's rates, m/s or rad/s; times h₋/h
+  Rows trend{};          // t, m or rad: what it carries over of u₋, m₋ and m₌
+  Rows moved{}, mean{};  // u₋ and m₋, m or rad
+  Rows neutral{};        // gap (u, v, θ) at which the row is stress-free: moves with plastic flow
   Frame frame;
 
   /// Whether some row holds nothing.
   bool has_free_row() const { return G[0] == 0 || G[1] == 0 || G[2] == 0; }
-  /// Whether some row has δ > 1.
-  bool is_overdamped() const { return carry[0] < 0 || carry[1] < 0 || carry[2] < 0; }
-  void keep(Tape& tape) { tape(bias, impulse, regime, factored_flow, rate, trend, neutral); }
+  bool is_newmark(unsigned row) const { return (newmark >> row & 1u) != 0; }
+  bool is_overdamped(unsigned row) const { return (overdamped >> row & 1u) != 0; }
+  /// Knows nothing of what its rows did.
+  void forget_rates() { rate = trend = moved = mean = {}; }
+  void keep(Tape& tape) { tape(bias, impulse, regime, factored_flow, rate, trend, moved, mean, neutral); }
 };
 
 /// Plastic offsets, m, m, rad.

@@ -42,14 +42,13 @@ struct Line {
     return solver.record(j).gap[axial] - j.neutral[axial];
   }
   // Velocities are those of the middle of a step, and so are strains: with e before and e + u after it,
-  // Newmark's method keeps ½ k ((e + u/2)² + δ²u²/4), and its third difference γ k (m² + u²/4), where m is
-  // the mean of u and what it was in the step before.
+  // the law keeps k (½ (e + u/2)² + γm² + ½ εu²), where m is the mean of u and what it was in the step
+  // before.
   double stored(const Joint& j) {
     const double u = strain(j) - before[solver.index(j)], middle = strain(j) - u / 2;
     const double m = (u + last_u[solver.index(j)]) / 2;
     const RowLaw& law = solver.record(j).law;
-    const double delta = law.delta[axial];
-    return 1e6 * (middle * middle / 2 + delta * delta * u * u / 8 + law.third[axial] * (m * m + u * u / 4));
+    return 1e6 * (middle * middle / 2 + law.third[axial] * m * m + law.detuning[axial] * u * u / 2);
   }
   double energy() {
     double sum = 0;
