@@ -256,11 +256,13 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     // Predictor (μ = 0), then a corrector with the centring that its success calls for and with its
     // second-order terms (Mehrotra 1992), by the square of the step that it could go. Where two rounds have
     // gained nothing, these are left out for five, and centring is no less than half: else one structure in
-    // 3000 goes round in circles.
+    // 3000 goes round in circles. Nor does a step go all the way to a bound then: friction would jump from
+    // one of its caps to the other.
     if (now.products > 0.8 * earlier[0]) careful = 5;
     const bool stalls = careful-- > 0;
     earlier = {earlier[1], now.products};
-    const double reach = 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
+    const double reach =
+        stalls && !alone ? 0.8 : 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
     const Direction predictor = find_direction(system, hessian, 0, 0);
     const double affine = predictor.step_within(reach);
     const double left = now.products > 0 ? predictor.products(now.products, affine) / now.products : 0;
