@@ -12,7 +12,9 @@ double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   const double h = r.law.h, s = j.impulse[i];
   const double e = strain_of_bias(j, i);
   const double rate = s / j.G[i] - j.bias[i];
-  const double limit = std::abs(impulse_at_yield(j, r, i)) / (h * r.law.spring[i]);
+  double limit = std::abs(impulse_at_yield(j, r, i)) / (h * r.law.spring[i]);
+  // A cap that falls with the rate leaves the spring the strain that it has.
+  if (r.material.rate != nullptr) limit = std::max(limit, std::abs(e));
   const double share = r.law.delta[i] < 1 ? (1 + r.law.delta[i]) / 2 : 1;
   return h * (r.x[i] - j.bias[i]) - (std::clamp(e + share * h * rate, -limit, limit) - e);
 }
