@@ -12,9 +12,10 @@ double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   const double h = r.law.h, s = j.impulse[i];
   const double e = strain_of_bias(j, i);
   const double rate = s / j.G[i] - j.bias[i];
-  double limit = std::abs(impulse_at_yield(j, r, i)) / (h * r.law.spring[i]);
-  // A cap that falls with the rate leaves the spring the strain that it has.
-  if (r.material.rate != nullptr) limit = std::max(limit, std::abs(e));
+  // Of a rated row the spring holds its force at the step's end (rate.h).
+  if (r.material.rate != nullptr)
+    return h * (r.x[i] - j.bias[i]) - (impulse_at_yield(j, r, i) / (h * r.law.spring[i]) - e);
+  const double limit = std::abs(impulse_at_yield(j, r, i)) / (h * r.law.spring[i]);
   const double share = r.law.delta[i] < 1 ? (1 + r.law.delta[i]) / 2 : 1;
   return h * (r.x[i] - j.bias[i]) - (std::clamp(e + share * h * rate, -limit, limit) - e);
 }

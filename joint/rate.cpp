@@ -9,19 +9,20 @@ namespace {
 
 constexpr double static_rate = 1e-4;  // of D
 constexpr double agreement = 1e-6;    // of the cap
+constexpr double steepest = 0.5;      // tangent of a row, of G
 
 // A cap hF in impulses, raised by its share o; r = D g(o).
 struct Raised {
   double o = 0, tangent = 0;  // ds/dr, N s per m/s
 
-  // Of the row's response to x beyond its cap: hF(1 + o)/G + D g(o) = |x|, whose left side is convex, so that
-  // Newton's steps from above never pass the root.
+  // Where hF(1 + o)/G + D g(o) = x, whose left side is convex, so that Newton's steps from above never pass
+  // the root.
   Raised(double hF, double G, double D, double q, double x) {
     const double o_static = std::pow(static_rate, 1 / q), linear = static_rate / o_static;
     const auto rate = [&](double at) { return at < o_static ? linear * at : std::pow(at, q); };
     const auto slope = [&](double at) { return at < o_static ? linear : q * std::pow(at, q - 1); };
-    o = std::min(G * x / hF - 1, std::pow(x / D, 1 / q));
-    if (o < o_static) o = o_static;
+    if (!(x > 0)) return;  // as a spring that is let go
+    o = std::max(o_static, std::min(G * x / hF - 1, std::pow(x / D, 1 / q)));
     for (int i = 0; i < 100; ++i) {
       const double step = (hF * (1 + o) / G + D * rate(o) - x) / (hF / G + D * slope(o));
       o -= step;
@@ -29,9 +30,7 @@ struct Raised {
     }
     o = std::max(o, 0.0);
     tangent = hF / (D * slope(o));
-    at_rest = hF * (1 + o) - tangent * D * rate(o) - hF;
   }
-  double at_rest = 0;  // what the tangent has above hF at r = 0, N s
 };
 
 }  // namespace
@@ -44,16 +43,18 @@ bool raise_caps(System& system) {
     const RateLaw& law = *r.material.rate;
     for (unsigned i = 0; i < 3; ++i) {
       if (!(j.G[i] > 0) || law.doubling[i] == unlimited) continue;
-      const double x = flows(j.regime, i) ? r.x[i] : j.impulse[i] / j.G[i];
-      const double raised = r.law.raised[i];
+      const double x = flows(j.regime, i) ? r.x[i] : j.impulse[i] / j.G[i], raised = r.law.raised[i];
       const double hF = (x > 0 ? r.law.cap : r.law.cap_reverse)[i] - raised;
       if (!(hF > 0) || hF == unlimited) continue;
+      // What the spring may hold at the step's end, and all of it that the row would have to hold.
+      const double h = r.law.h, Euler = h * h * r.law.spring[i];
+      const double all = x - j.bias[i] + strain_of_bias(j, i) / h;
       double to = 0, after = 0, s = std::min(j.G[i] * std::abs(x), hF);
       if (j.G[i] * std::abs(x) > hF) {
-        const Raised at(hF, j.G[i], law.doubling[i], law.exponent, std::abs(x));
-        to = at.at_rest;
-        after = at.tangent / (at.tangent + j.G[i]);
+        const Raised at(hF, Euler, law.doubling[i], law.exponent, x > 0 ? all : -all);
         s = hF * (1 + at.o);
+        after = std::min(at.tangent / (1 + at.tangent / Euler) / j.G[i], steepest);
+        to = (s - after * j.G[i] * std::abs(x)) / (1 - after) - hF;
       }
       if (std::abs(std::abs(j.impulse[i]) - s) <= agreement * hF) continue;
       again = true;

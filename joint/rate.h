@@ -1,10 +1,11 @@
 // Caps that grow with the rate r of plastic flow, |R| = F (1 + (r/D)^(1/q)): G. R. Cowper, P. S. Symonds,
 // Strain Hardening and Strain Rate Effects in the Impact Loading of Cantilever Beams, Brown University 1957.
 //
-// In a step the slider is a power law, r = x − s/G, whose response s(x) rises ever less beyond the cap: it is
-// the derivative of a convex potential as well. The solver's laws are lines (row.h), so a row has the tangent
-// of its own at the x of the round before, and the step is solved anew until the two agree: Newton's method.
-// Dissipated is s r, the raise included. Between steps caps are static again.
+// In a step the slider is a power law, r = J v + (e − R/k)/h, e the elastic strain at its start and R/k that
+// at its end: the spring of a row that flows is integrated by implicit Euler. The solver's laws are lines
+// (row.h), so a row has, at the x of the round before, the value and the tangent of its own, and the step is
+// solved anew until the two agree: Newton's method. The tangent is kept below G/2, where those of springs
+// that a step resolves are more. Dissipated is R r, the raise included. Between steps caps are static again.
 //
 // The tangent at r = 0 would be infinite: below 1e-4 D the raise is linear, up to 10^(−4/q).
 #pragma once
