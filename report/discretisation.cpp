@@ -125,7 +125,7 @@ struct Sweep {
   std::function<double(double)> value;
   double order;  // expected; 0: none
   double told;   // below this relative error floats, or another part of the error, take over; without an
-                // order, what is allowed in all of the sweep; 0: a tenth, at its finest
+                 // order, what is allowed in all of the sweep; 0: a tenth, at its finest
 };
 
 Result run_discretisation(const Context& context) {
