@@ -44,20 +44,21 @@ void ElasticPlasticJoint::InitVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::InitVelocityConstraints(data);
   // An island that is given no velocity iterations moves without us; what that parts is brought together when
   // next seen.
-  Structure::Impl* structure = component_ != nullptr ? component_->structure : member_->structure;
-  leads_ = data.step.velocityIterations > 0 && structure->enlist(member_, component_);
+  Structure::Impl* structure = component_ != nullptr ? component_->structures.front() : member_->structure;
+  leads_ = data.step.velocityIterations > 0 && structure->island->enlist(member_, component_);
   // Now, as in the iterations other joints may come first.
-  for (b2Body* body : {m_bodyA, m_bodyB}) structure->stop_if_not_finite(*body, data);
+  for (b2Body* body : {m_bodyA, m_bodyB})
+    structure->reports.stopped += stop_if_not_finite(*body, data) ? 1 : 0;
 }
 
 void ElasticPlasticJoint::SolveVelocityConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::SolveVelocityConstraints(data);
-  if (leads_) member_->structure->velocity(data);
+  if (leads_) member_->structure->island->velocity(data);
 }
 
 bool ElasticPlasticJoint::SolvePositionConstraints(const b2SolverData& data) {
   if (member_ == nullptr) return b2WeldJoint::SolvePositionConstraints(data);
-  if (leads_) member_->structure->position(data);
+  if (leads_) member_->structure->island->position(data);
   return true;
 }
 

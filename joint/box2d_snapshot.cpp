@@ -137,6 +137,7 @@ struct Snapshot::Impl {
   Tree tree;
   std::vector<Chain> chains;
   std::vector<std::pair<Structure::Impl*, Structure::Impl::State>> structures;
+  std::vector<std::pair<std::shared_ptr<Island>, Island::State>> islands;  // that they share
 
   void save(b2World& w);
   void restore(b2World& w) const;
@@ -188,7 +189,13 @@ void Snapshot::Impl::save(b2World& w) {
 
   chains = chains_in(w);
   structures.clear();
-  for (Structure::Impl* s : structures_in(w)) structures.emplace_back(s, s->state());
+  islands.clear();
+  for (Structure::Impl* s : structures_in(w)) {
+    structures.emplace_back(s, s->state());
+    const auto is_saved = [s](const auto& saved) { return saved.first == s->island; };
+    if (std::none_of(islands.begin(), islands.end(), is_saved))
+      islands.emplace_back(s->island, s->island->state());
+  }
 }
 
 void Snapshot::Impl::restore(b2World& w) const {
@@ -205,7 +212,9 @@ void Snapshot::Impl::restore(b2World& w) const {
     throw std::logic_error(
         "snapshot: a chain shape has come or gone since; make chains before the first save");
   }
-  const auto same = [](const Structure::Impl* now, const auto& saved) { return now == saved.first; };
+  const auto same = [](const Structure::Impl* now, const auto& saved) {
+    return now == saved.first && now->island == saved.second.island;
+  };
   if (const auto now = structures_in(w);
       !std::equal(now.begin(), now.end(), structures.begin(), structures.end(), same)) {
     throw std::logic_error(
@@ -244,6 +253,7 @@ void Snapshot::Impl::restore(b2World& w) const {
     std::copy(chain.proxies.begin(), chain.proxies.end(), of(*chain.fixture, b2Fixture_m_proxies{}));
   }
   for (const auto& [structure, state] : structures) structure->restore(state);
+  for (const auto& [island, state] : islands) island->restore(state);
 }
 
 Snapshot::Snapshot() : impl_(std::make_unique<Impl>()) {}

@@ -192,6 +192,10 @@ bool Component::fits_bodies() const {
   return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return m.guest || m.fits(); });
 }
 
+bool Component::is_of(const Structure::Impl& structure) const {
+  return std::find(structures.begin(), structures.end(), &structure) != structures.end();
+}
+
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
   tape(origin, displaced_, struck_, rests, mirrors, parts_, solver);

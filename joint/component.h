@@ -123,6 +123,9 @@ struct Component {
   void hand_back(Member& member) const;
   /// Whether the bodies of its joints are still what the component was formed for.
   bool fits_bodies() const;
+  bool is_of(const Structure::Impl& structure) const;
+  template <class Count>
+  void report(const Count& count) const;
   void keep(Tape& tape);
   b2Position box2d_pose(std::size_t body) const { return origin.in_world(solver.places[body].pose); }
 
@@ -132,8 +135,8 @@ struct Component {
   std::vector<Mirror> mirrors;   // as solver.bodies
   Origin origin;                 // of the solver's poses
   Account account;
-  Structure::Impl* structure = nullptr;
-  std::size_t enlisted = 0;  // joints of it that the island has, while these are enlisted
+  std::vector<Structure::Impl*> structures;  // of its members; the first tells its energies
+  std::size_t enlisted = 0;                  // joints of it that the island has, while these are enlisted
 
  private:
   bool direct() const { return !solver.swept(); }

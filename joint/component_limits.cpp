@@ -27,13 +27,15 @@ void Component::limit_speed(const b2SolverData& data) {
     }
     return sum;
   };
-  double& slowed = structure->reports.step.slowed;
+  const auto slow = [this](double share) {
+    report([share](Reports& r) { r.step.slowed = std::max(r.step.slowed, share); });
+  };
   double before = 0;
   for (int pass = 0;; ++pass) {
     const double least =
         std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
     if (least == 1) {
-      if (pass > 0) slowed = std::max(slowed, 1 - kinetic() / before);
+      if (pass > 0) slow(1 - kinetic() / before);
       return;
     }
     if (pass == 0) before = kinetic();
@@ -53,7 +55,7 @@ void Component::limit_speed(const b2SolverData& data) {
     }
     if (together) {
       solver.scale(least);
-      slowed = std::max(slowed, 1 - kinetic() / before);
+      slow(1 - kinetic() / before);
       return give(data);
     }
     solve(data);

@@ -33,11 +33,14 @@ constexpr std::size_t most_bodies = 160, most_touches = 16;
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
   const auto rests = [](const Mirror& m) { return dot(m.exact, m.exact) == 0; };
+  const auto has_room = [this](const Structure::Impl* s) {
+    return s->reports.bodies_in_parts + solver.bodies.size() <= most_bodies;
+  };
   return whole() &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      rests) &&
-         !structure->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
-         structure->reports.bodies_in_parts + solver.bodies.size() <= most_bodies &&
+         !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
+         std::all_of(structures.begin(), structures.end(), has_room) &&
          outside_.touches.size() <= most_touches && h * solver.fastest() < b2_maxTranslation &&
          h * solver.fastest_turn() < b2_maxRotation;
 }
@@ -97,13 +100,15 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   for (int k = 0; k < count; ++k) {
     solve_part(h, k == 0, blow);
     solver.advance();
-    structure->look_for_breaks(*this);
+    look_for_breaks(*this);
   }
   end_parts(data);
   parts_.since_blow = blow ? 0 : parts_.since_blow + data.step.dt;
   parts_.advanced = true;
-  ++structure->reports.step.divided;
-  structure->reports.bodies_in_parts += solver.bodies.size();
+  report([this](Reports& r) {
+    ++r.step.divided;
+    r.bodies_in_parts += solver.bodies.size();
+  });
 }
 
 // What gravity and loads give a body in the step they give it evenly.

@@ -125,7 +125,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     return_contacts();
     account.open = solver.keeps_ledger;  // something may strike it before the step is over
-    ++structure->reports.step.resting;
+    report([](Reports& r) { ++r.step.resting; });
     return;
   }
   if (expected) {
@@ -211,7 +211,7 @@ void Component::first_velocity(const b2SolverData& data) {
 
 void Component::next_velocity(const b2SolverData& data) {
   if (whole()) {
-    ++structure->reports.step.skipped;
+    report([](Reports& r) { ++r.step.skipped; });
     return;
   }
   bool touched = false;
@@ -234,17 +234,17 @@ void Component::next_velocity(const b2SolverData& data) {
   if (touched || !direct()) {
     solve(data);
   } else {
-    ++structure->reports.step.skipped;
+    report([](Reports& r) { ++r.step.skipped; });
   }
 }
 
 // Joints that break in this step hold until they do. A joint whose break somebody may veto holds through it.
 bool Component::weaken_what_breaks() {
-  if (!solver.struck() || !solver.any_flows() || structure->events.veto) return false;
+  if (!solver.struck() || !solver.any_flows()) return false;
   bool any = false;
   for (const Member* m : members) {
     const Joint& j = solver.joints[m->index];
-    if (j.regime == 0 || m->broken) continue;
+    if (j.regime == 0 || m->broken || m->structure->events.veto) continue;
     JointRecord& r = solver.records[m->index];
     double share = 1;
     for (unsigned i = 0; i < 3; ++i) {
@@ -267,7 +267,7 @@ void Component::solve(const b2SolverData& data) {
     solve_direct();
   } else {
     solver.sweep();
-    ++structure->reports.step.solves;
+    report([](Reports& r) { ++r.step.solves; });
   }
   give(data);
 }
@@ -276,20 +276,23 @@ void Component::solve_direct() {
   SolveReport solved;
   solver.solve(solved);
   for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
-  StepReport& report = structure->reports.step;
-  ++report.solves;
-  report.rounds += solved.rounds;
-  report.factorisations += solved.factorisations;
-  report.bounds_hit += solved.unsolved ? 1 : 0;
-  report.residual = std::max(report.residual, solved.residual);
+  report([&solved](Reports& r) {
+    StepReport& step = r.step;
+    ++step.solves;
+    step.rounds += solved.rounds;
+    step.factorisations += solved.factorisations;
+    step.bounds_hit += solved.unsolved ? 1 : 0;
+    step.residual = std::max(step.residual, solved.residual);
+  });
 }
 
 void Component::project(bool try_goal) {
   const bool kept = solver.project(goal_, try_goal);
-  StepReport& report = structure->reports.step;
-  report.bounds_hit += kept ? 0 : 1;
-  report.parted += kept ? 0 : 1;
-  ++report.projections;
+  report([kept](Reports& r) {
+    r.step.bounds_hit += kept ? 0 : 1;
+    r.step.parted += kept ? 0 : 1;
+    ++r.step.projections;
+  });
 }
 
 void Component::give(const b2SolverData& data) {

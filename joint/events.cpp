@@ -10,34 +10,37 @@ namespace ductile {
 
 using namespace dynamics;
 
-void Structure::Impl::look_for_breaks(Component& component) {
+void dynamics::look_for_breaks(Component& component) {
   if (!component.solver.any_flows()) return;
   for (Member* m : component.members) {
-    Joint& j = component.solver.joints[m->index];
-    if (j.regime == 0 || m->broken) continue;
-    unsigned yields = flowing(j.regime);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (is_driven(m->record(), i) || is_slack(j, m->record(), i)) yields &= ~(1u << i);
-    }
-    if (yields == 0) continue;
-    const Rows force = dynamics::force(j, m->record());
-    const unsigned row =
-        j.regime == on_surface && (yields & 4u) != 0 ? 2u : static_cast<unsigned>(std::countr_zero(yields));
-    const double energy = m->joint->dissipated();
-    const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
-                      : row == shear ? JointEvent::shear
-                                     : JointEvent::rotation;
-    const double used = m->joint->capacity_used();
-    if (!std::exchange(m->said.yielded, true)) {
-      say(*m, {JointEvent::yield, mode, m->joint, force[row], energy});
-    } else if (used >= m->said.used + def.flow_share) {
-      m->said.used = used;
-      say(*m, {JointEvent::flow, mode, m->joint, force[row], energy});
-    }
-    const bool exceeded = used > 1;
-    if (!exceeded || (events.veto && !events.veto(*m->joint))) continue;
-    break_joint(*m, mode, static_cast<Row>(row));
+    if (component.solver.joints[m->index].regime != 0 && !m->broken) m->structure->look_for_break(*m);
   }
+}
+
+void Structure::Impl::look_for_break(Member& m) {
+  const Joint& j = m.data();
+  unsigned yields = flowing(j.regime);
+  for (unsigned i = 0; i < 3; ++i) {
+    if (is_driven(m.record(), i) || is_slack(j, m.record(), i)) yields &= ~(1u << i);
+  }
+  if (yields == 0) return;
+  const Rows force = dynamics::force(j, m.record());
+  const unsigned row =
+      j.regime == on_surface && (yields & 4u) != 0 ? 2u : static_cast<unsigned>(std::countr_zero(yields));
+  const double energy = m.joint->dissipated();
+  const auto mode = row == axial   ? (force[0] >= 0 ? JointEvent::tension : JointEvent::compression)
+                    : row == shear ? JointEvent::shear
+                                   : JointEvent::rotation;
+  const double used = m.joint->capacity_used();
+  if (!std::exchange(m.said.yielded, true)) {
+    say(m, {JointEvent::yield, mode, m.joint, force[row], energy});
+  } else if (used >= m.said.used + def.flow_share) {
+    m.said.used = used;
+    say(m, {JointEvent::flow, mode, m.joint, force[row], energy});
+  }
+  const bool exceeded = used > 1;
+  if (!exceeded || (events.veto && !events.veto(*m.joint))) return;
+  break_joint(m, mode, static_cast<Row>(row));
 }
 
 void Structure::Impl::say(Member& member, JointEvent event) {
@@ -86,9 +89,9 @@ void Structure::Impl::tell() {
   } telling(events.telling);
   while (events.told < events.pending.size()) {
     Events::Pending p = events.pending[events.told++];
-    const auto member = find(p.id);
-    if (!events.handler || member == members.end()) continue;
-    p.event.at = (*member)->joint->GetAnchorA();
+    const Member* member = find(p.id);
+    if (!events.handler || member == nullptr) continue;
+    p.event.at = member->joint->GetAnchorA();
     events.handler(p.event);
   }
   events.pending.clear();

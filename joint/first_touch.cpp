@@ -14,9 +14,7 @@
 #include "box2d_private.h"
 #include "structure.h"
 
-namespace ductile {
-
-using namespace dynamics;
+namespace ductile::dynamics {
 
 namespace {
 
@@ -78,7 +76,7 @@ void put_back(b2Body& guest, float share, const b2Vec2& gravity) {
 
 }  // namespace
 
-void Structure::Impl::meet_guests() {
+void Island::meet_guests(b2World& in) {
   struct Meeting {
     b2Body* guest;
     float share;
@@ -87,7 +85,7 @@ void Structure::Impl::meet_guests() {
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, b2Body& piece, b2Body& guest) {
       if (contact.IsTouching() || !guest.IsAwake()) return;
-      const b2Sweep& s = dynamics::of(guest, b2Body_m_sweep{});
+      const b2Sweep& s = of(guest, b2Body_m_sweep{});
       if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
           std::abs(s.a - s.a0) < b2_angularSlop)
         return;
@@ -101,14 +99,13 @@ void Structure::Impl::meet_guests() {
     const auto earlier = [&m](const Meeting& o) {
       return o.guest == m.guest && (o.share < m.share || (o.share == m.share && &o < &m));
     };
-    if (std::none_of(meetings.begin(), meetings.end(), earlier))
-      put_back(*m.guest, m.share, world->GetGravity());
+    if (std::none_of(meetings.begin(), meetings.end(), earlier)) put_back(*m.guest, m.share, in.GetGravity());
   }
 }
 
-void Structure::Impl::hold_bullets() {
-  if (def.solver != SolverKind::direct || world->GetSubStepping()) return;
-  for (const Component* c : island_.active) {
+void Island::hold_bullets() {
+  if (!direct() || world().GetSubStepping()) return;
+  for (const Component* c : active_) {
     each_near(*c, [this](const b2Contact&, b2Body&, b2Body& guest) {
       if (!guest.IsBullet()) return;
       guest.SetBullet(false);
@@ -117,12 +114,12 @@ void Structure::Impl::hold_bullets() {
   }
 }
 
-void Structure::Impl::let_bullets_go() {
+void Island::let_bullets_go(b2World& in) {
   if (bullets_.empty()) return;
-  for (b2Body* b = world->GetBodyList(); b != nullptr; b = b->GetNext()) {
+  for (b2Body* b = in.GetBodyList(); b != nullptr; b = b->GetNext()) {
     if (std::find(bullets_.begin(), bullets_.end(), b) != bullets_.end()) b->SetBullet(true);
   }
   bullets_.clear();
 }
 
-}  // namespace ductile
+}  // namespace ductile::dynamics

@@ -1,4 +1,5 @@
 // The phases of an island in b2World::Step, and the components that its joints form.
+#include "island.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,66 +11,99 @@
 #include "box2d_private.h"
 #include "structure.h"
 
-namespace ductile {
+namespace ductile::dynamics {
 
-using namespace dynamics;
-
-void Structure::Impl::stop_if_not_finite(b2Body& body, const b2SolverData& data) {
-  b2Velocity& velocity = data.velocities[dynamics::of(body, b2Body_m_islandIndex{})];
-  if (velocity.v.IsValid() && b2IsValid(velocity.w)) return;
+bool stop_if_not_finite(b2Body& body, const b2SolverData& data) {
+  b2Velocity& velocity = data.velocities[of(body, b2Body_m_islandIndex{})];
+  if (velocity.v.IsValid() && b2IsValid(velocity.w)) return false;
   velocity = {{0, 0}, 0};
   body.SetLinearVelocity({0, 0});
   body.SetAngularVelocity(0);
-  ++reports.stopped;
+  return true;
+}
+
+b2World& Island::world() const { return *enlisted_.front()->joint->GetBodyA()->GetWorld(); }
+
+bool Island::direct() const { return enlisted_.front()->structure->def.solver == SolverKind::direct; }
+
+std::size_t Island::joints() const {
+  std::size_t sum = 0;
+  for (const Structure::Impl* s : structures_) sum += s->members.size();
+  return sum;
+}
+
+void Island::enter(Structure::Impl& structure) {
+  structures_.push_back(&structure);
+  make_room();
+}
+
+void Island::leave(Structure::Impl& structure) {
+  std::erase(structures_, &structure);
+  std::erase_if(components, [&](const auto& c) {
+    if (!c->is_of(structure)) return false;
+    hand_back(*c);
+    return true;
+  });
+  forget_last();
+}
+
+void Island::make_room() {
+  std::size_t room = 0;
+  for (const Structure::Impl* s : structures_) room += s->members.capacity();
+  enlisted_.reserve(room);
+  active_.reserve(room);
+}
+
+void Island::forget_last() {
+  enlisted_.clear();
+  active_.clear();
+  velocity_calls_ = 0;
 }
 
 // Joints are solved in the order in which they were initialised: the first does the work of all.
-bool Structure::Impl::enlist(Member* member, Component* component) {
-  const bool first = island_.velocity_calls > 0 || island_.enlisted.empty();
-  if (first) {
-    island_.enlisted.clear();
-    island_.active.clear();
-    island_.velocity_calls = 0;
-    if (std::exchange(reports.stepped, true) == false) {
-      reports.step = {};
-      reports.bodies_in_parts = 0;
-    }
+bool Island::enlist(Member* member, Component* component) {
+  const bool first = velocity_calls_ > 0 || enlisted_.empty();
+  if (first) forget_last();
+  enlisted_.push_back(member);
+  if (component == nullptr) {
+    member->structure->reports.open_step();
+  } else if (component->enlisted++ == 0) {
+    active_.push_back(component);
+    component->report([](Reports& r) { r.open_step(); });
   }
-  island_.enlisted.push_back(member);
-  if (component != nullptr && component->enlisted++ == 0) island_.active.push_back(component);
   return first;
 }
 
-void Structure::Impl::velocity(const b2SolverData& data) {
+void Island::velocity(const b2SolverData& data) {
   const int last = data.step.velocityIterations;
-  if (island_.velocity_calls == last) return;
-  if (island_.velocity_calls++ == 0) {
+  if (velocity_calls_ == last) return;
+  if (velocity_calls_++ == 0) {
     choose_contacts(data);
     std::size_t known = 0;
     bool fits = true;
-    for (Component* c : island_.active) {
+    for (Component* c : active_) {
       const std::size_t enlisted = std::exchange(c->enlisted, 0);
       known += enlisted;
-      fits = fits && enlisted == c->members.size() && c->look(data, island_.contacts, island_.stock);
+      fits = fits && enlisted == c->members.size() && c->look(data, contacts_, stock_);
     }
-    fits = fits && known == island_.enlisted.size();
+    fits = fits && known == enlisted_.size();
     if (!fits || !distribute()) {
       form();
-      for (Component* c : island_.active) c->look(data, island_.contacts, island_.stock);
+      for (Component* c : active_) c->look(data, contacts_, stock_);
       distribute();
     }
     hold_bullets();
-    for (Component* c : island_.active) c->first_velocity(data);
-    if (std::all_of(island_.active.begin(), island_.active.end(),
-                    [](const Component* c) { return c->whole(); })) {
-      reports.step.skipped += static_cast<int>(island_.active.size()) * (last - island_.velocity_calls);
-      island_.velocity_calls = last;
+    for (Component* c : active_) c->first_velocity(data);
+    if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->whole(); })) {
+      for (const Component* c : active_)
+        c->report([&](Reports& r) { r.step.skipped += last - velocity_calls_; });
+      velocity_calls_ = last;
     }
   } else {
-    for (Component* c : island_.active) c->next_velocity(data);
+    for (Component* c : active_) c->next_velocity(data);
   }
-  if (island_.velocity_calls < last) return;
-  for (Component* c : island_.active) {
+  if (velocity_calls_ < last) return;
+  for (Component* c : active_) {
     if (c->rests() || c->advanced()) continue;
     c->limit_speed(data);
     c->advance(data);
@@ -77,23 +111,23 @@ void Structure::Impl::velocity(const b2SolverData& data) {
   }
 }
 
-void Structure::Impl::position(const b2SolverData& data) {
-  for (Component* c : island_.active) c->position(data);
+void Island::position(const b2SolverData& data) {
+  for (Component* c : active_) c->position(data);
 }
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
-void Structure::Impl::form() {
-  for (Component* c : island_.active) dissolve(*c);
+void Island::form() {
+  for (Component* c : active_) hand_back(*c);
   std::erase_if(components, [&](const auto& c) {
-    return std::find(island_.active.begin(), island_.active.end(), c.get()) != island_.active.end();
+    return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
   });
-  island_.active.clear();
+  active_.clear();
 
   // Contacts change the order of joints between steps; elimination must not depend on it.
-  std::vector<Member*> all = island_.enlisted;
+  std::vector<Member*> all = enlisted_;
   std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> first_joint(static_cast<std::size_t>(world->GetBodyCount()), none);
+  std::vector<std::size_t> first_joint(static_cast<std::size_t>(world().GetBodyCount()), none);
   std::vector<const b2Body*> seen(first_joint.size());  // others have places in other islands, or none
   const auto first = [&](const b2Body& body) -> std::size_t& {
     const std::size_t place = IslandContacts::place_of(body);
@@ -116,8 +150,8 @@ void Structure::Impl::form() {
   }
   // What touches or is tied hangs together, too. Of bodies without joints, by way of those that they touch.
   std::vector<BodyPair> pairs;
-  for (const StockJoint& t : island_.stock) pairs.push_back({t.a(), t.b()});
-  for (const Touch& t : island_.contacts.touches()) pairs.push_back({t.a(), t.b()});
+  for (const StockJoint& t : stock_) pairs.push_back({t.a(), t.b()});
+  for (const Touch& t : contacts_.touches()) pairs.push_back({t.a(), t.b()});
   for (bool again = true; std::exchange(again, false);) {
     for (const BodyPair& pair : pairs) {
       if (!is_free(pair.a) || !is_free(pair.b)) continue;
@@ -160,23 +194,29 @@ void Structure::Impl::form() {
     auto& group = groups[k];
     if (group.empty()) continue;
     Component& c = form(std::move(group), std::move(touched[k]));
-    island_.active.push_back(&c);
+    active_.push_back(&c);
   }
 }
 
-Component& Structure::Impl::form(std::vector<Member*> group, std::vector<BodyPair> touching) {
-  Component& c = *components.emplace_back(
-      std::make_unique<Component>(std::move(group), def.solver, std::move(touching)));
-  c.structure = this;
-  c.solver.keeps_ledger = def.keep_ledger && def.solver == SolverKind::direct;
+Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touching) {
+  const SolverKind solver = group.front()->structure->def.solver;
+  Component& c =
+      *components.emplace_back(std::make_unique<Component>(std::move(group), solver, std::move(touching)));
+  for (const Member* m : c.members) {
+    if (c.is_of(*m->structure)) continue;
+    c.structures.push_back(m->structure);
+    c.solver.keeps_ledger |= m->structure->def.keep_ledger && solver == SolverKind::direct;
+  }
   return c;
 }
 
-void Structure::Impl::dissolve(Component& component) {
-  gone_.damping += component.solver.energies().damping;
-  gone_.numerical += component.solver.energies().numerical;
-  gone_.driven += component.solver.energies().driven;
-  gone_.contacts += component.solver.energies().contacts;
+void Island::dissolve(Component& component) {
+  hand_back(component);
+  std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
+}
+
+void Island::hand_back(Component& component) {
+  add(component.structures.front()->gone, component.solver.energies());
   component.solver.find_gaps();
   for (Member* m : component.members) {
     component.hand_back(*m);
@@ -185,4 +225,28 @@ void Structure::Impl::dissolve(Component& component) {
   }
 }
 
-}  // namespace ductile
+auto Island::state() const -> State {
+  State s{.next_id = next_id, .components = {}, .bullets = bullets_};
+  for (const auto& c : components) {
+    auto& formed = s.components.emplace_back(State::Formed{*c, {}});
+    for (const Member* m : c->members) formed.members.emplace_back(m->structure, m->id);
+  }
+  return s;
+}
+
+void Island::restore(const State& s) {
+  next_id = s.next_id;
+  bullets_ = s.bullets;
+  forget_last();
+  components.clear();
+  for (const State::Formed& saved : s.components) {
+    Component& c = *components.emplace_back(std::make_unique<Component>(saved.component));
+    for (std::size_t i = 0; i < saved.members.size(); ++i) {
+      const auto& [structure, id] = saved.members[i];
+      c.members[i] = structure->find(id);
+      c.members[i]->belong_to(&c);
+    }
+  }
+}
+
+}  // namespace ductile::dynamics

@@ -62,7 +62,7 @@ void ElasticPlasticJoint::set_state(const JointState& to) {
   if (member_ == nullptr || member_->broken) return;
   const double before = dissipated();
   member_->set_state(to);
-  member_->structure->count_as_gone(before - dissipated());
+  member_->structure->gone.dissipated += before - dissipated();
   wake();
 }
 

@@ -104,7 +104,7 @@ class Structure::Impl::Save {
   // Components whose bodies have changed since their last step will be formed anew before the next: they are
   // written as what they leave to their joints.
   void leave_unfit() {
-    for (const auto& c : s_.components) {
+    for (const auto& c : s_.island->components) {
       if (c->fits_bodies()) continue;
       Component& left = *unfit_.emplace(c.get(), std::make_unique<Component>(*c)).first->second;
       left.solver.find_gaps();
@@ -112,14 +112,9 @@ class Structure::Impl::Save {
   }
 
   std::uint32_t settings() {
-    JointEnergy gone = s_.gone_;
-    for (const auto& [there, left] : unfit_) {
-      gone.damping += left->solver.energies().damping;
-      gone.numerical += left->solver.energies().numerical;
-      gone.driven += left->solver.energies().driven;
-      gone.contacts += left->solver.energies().contacts;
-    }
-    std::uint32_t next_id = s_.next_id;
+    JointEnergy gone = s_.gone;
+    for (const auto& [there, left] : unfit_) add(gone, left->solver.energies());
+    std::uint32_t next_id = s_.island->next_id;
     a_.object("structure", [&](Archive& a) {
       bool iterative = s_.def.solver == SolverKind::iterative;
       a("iterative", iterative);
@@ -130,7 +125,7 @@ class Structure::Impl::Save {
       a("last_node", s_.nodes.last);
       a("energy", gone.dissipated, gone.damping, gone.numerical, gone.driven, gone.clamped, gone.contacts);
     });
-    if (a_.reads()) s_.gone_ = gone;
+    if (a_.reads()) s_.gone = gone;
     return next_id;
   }
 
@@ -143,7 +138,7 @@ class Structure::Impl::Save {
     if (std::adjacent_find(members.begin(), members.end(), twice) != members.end() ||
         (!members.empty() && members.back()->id >= next_id))
       a_.refuse("joints", "each must have an id of its own, below next_id");
-    s_.next_id = next_id;
+    s_.island->next_id = next_id;
     std::transform(members.begin(), members.end(), s_.joints.begin(), [](const auto& m) { return m->joint; });
   }
 
@@ -192,7 +187,7 @@ class Structure::Impl::Save {
 
   void components() {
     std::vector<Component*> all;
-    for (const auto& c : s_.components) {
+    for (const auto& c : s_.island->components) {
       if (!unfit_.contains(c.get())) all.push_back(c.get());
     }
     a_.list("components", all.size(), [&](Archive& a, std::size_t i) {
@@ -275,13 +270,12 @@ class Structure::Impl::Save {
   Component& form(Archive& a, const std::vector<std::uint32_t>& ids, std::vector<BodyPair> met) {
     std::vector<Member*> members;
     for (const std::uint32_t id : ids) {
-      const auto found = s_.find(id);
-      if (found == s_.members.end() || (*found)->component != nullptr)
-        a.refuse("joints", "names a joint twice, or none");
-      members.push_back(found->get());
+      Member* found = s_.find(id);
+      if (found == nullptr || found->component != nullptr) a.refuse("joints", "names a joint twice, or none");
+      members.push_back(found);
     }
     if (members.empty()) a.refuse("joints", "are none");
-    return s_.form(std::move(members), std::move(met));
+    return s_.island->form(std::move(members), std::move(met));
   }
 
   Impl& s_;
@@ -296,7 +290,7 @@ void Structure::Impl::clear() {
   for (std::uint32_t i = 0; i < members.size(); ++i) members[i]->id = i;  // some may stand in no order
   WorldArchive::clear(*world);
   nodes.orphans.clear();
-  gone_ = {};
+  gone = {};
 }
 
 namespace {

@@ -12,10 +12,23 @@ namespace ductile {
 
 using namespace dynamics;
 
-Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(watch_world(w, *this)) {}
+Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(nullptr) {
+  enter_world();
+}
+
+void Structure::Impl::enter_world() {
+  if (watch != nullptr) return;
+  for (const Impl* other : structures_in(*world)) {
+    if (other->def.solver == def.solver) island = other->island;
+  }
+  if (island == nullptr) island = std::make_shared<Island>();
+  island->enter(*this);
+  watch = watch_world(*world, *this);
+}
 
 Structure::Impl::~Impl() {
   if (watch == nullptr) return;
+  island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   std::vector<ElasticPlasticJoint*> broken;
   for (const auto& m : members) {
@@ -28,10 +41,10 @@ Structure::Impl::~Impl() {
 void Structure::Impl::watch_is_gone(bool with_world) {
   // Destroying the watch by hand comes here too: the joints, still there, go on as welds.
   if (watch == nullptr) return;
+  island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   members.clear();
   joints.clear();
-  components.clear();
   events.pending.clear();
   nodes.orphans.clear();
   events.told = 0;
@@ -53,7 +66,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   auto member = std::make_unique<Member>();
   Member& m = *member;
   m.structure = this;
-  m.id = next_id++;
+  m.id = island->next_id++;
   m.limits = {d.max_rotation, d.max_elongation, d.max_compression, d.max_slip};
   m.break_group = d.break_group;
   m.node = d.node;
@@ -86,8 +99,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
   m.set_state(d.state);
   members.push_back(std::move(member));
   joints.push_back(m.joint);
-  island_.enlisted.reserve(members.capacity());
-  island_.active.reserve(members.capacity());
+  island->make_room();
   events.pending.reserve(4 * members.capacity());
   if (d.node != 0) mark(*a), mark(*b);
   a->SetAwake(true);
@@ -96,33 +108,39 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
 }
 
 void Structure::Impl::forget(Member& member) {
-  if (member.component != nullptr) {
-    // The others carry on with what they were; the next island finds them in no component and forms anew.
-    Component& component = *member.component;
-    dissolve(component);
-    std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
-  }
-  for (const double joules : member.own.record.dissipated) gone_.dissipated += joules;
-  for (const double joules : member.own.record.stored) gone_.numerical += joules;  // lost with the joint
+  if (member.component != nullptr) island->dissolve(*member.component);
+  for (const double joules : member.own.record.dissipated) gone.dissipated += joules;
+  for (const double joules : member.own.record.stored) gone.numerical += joules;  // lost with the joint
   if (member.node != 0 && !member.broken) nodes.orphans.push_back(member.joint->def());
-  const auto place = find(member.id);
+  const auto place =
+      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.get() == &member; });
   joints.erase(joints.begin() + (place - members.begin()));
   members.erase(place);
 }
 
 JointEnergy Structure::Impl::energy() const {
-  JointEnergy sum = gone_;
+  JointEnergy sum = gone;
   for (const auto& m : members) {
     for (const double joules : m->record().stored) sum.elastic += joules;
     sum.dissipated += m->joint->dissipated();
   }
-  for (const auto& c : components) {
-    sum.damping += c->solver.energies().damping;
-    sum.numerical += c->solver.energies().numerical;
-    sum.driven += c->solver.energies().driven;
-    sum.contacts += c->solver.energies().contacts;
+  for (const auto& c : island->components) {
+    if (c->structures.front() == this) add(sum, c->solver.energies());
   }
   return sum;
+}
+
+void dynamics::add(JointEnergy& sum, const Energies& booked) {
+  sum.damping += booked.damping;
+  sum.numerical += booked.numerical;
+  sum.driven += booked.driven;
+  sum.contacts += booked.contacts;
+}
+
+void dynamics::Reports::open_step() {
+  if (std::exchange(stepped, true)) return;
+  step = {};
+  bodies_in_parts = 0;
 }
 
 void dynamics::Reports::close_step() {
@@ -137,11 +155,11 @@ void Structure::Impl::update() {
   if (watch == nullptr || events.telling) return;
   if (world->IsLocked())
     throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
-  let_bullets_go();
-  if (def.solver == SolverKind::direct && !world->GetSubStepping()) meet_guests();
+  island->let_bullets_go(*world);
+  if (def.solver == SolverKind::direct && !world->GetSubStepping()) island->meet_guests(*world);
   reports.close_step();
-  if (def.keep_ledger) {
-    for (const auto& c : components) gone_.clamped += c->close_ledger();
+  for (const auto& c : island->components) {
+    if (c->is_of(*this)) c->structures.front()->gone.clamped += c->close_ledger();
   }
   tell();
   if (watch == nullptr) return;
@@ -153,10 +171,10 @@ void Structure::Impl::update() {
   join_orphans();
 }
 
-auto Structure::Impl::find(std::uint32_t id) -> decltype(members)::iterator {
+Member* Structure::Impl::find(std::uint32_t id) const {
   const auto found = std::lower_bound(members.begin(), members.end(), id,
                                       [](const auto& m, std::uint32_t value) { return m->id < value; });
-  return found != members.end() && (*found)->id == id ? found : members.end();
+  return found != members.end() && (*found)->id == id ? found->get() : nullptr;
 }
 
 void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
@@ -173,17 +191,19 @@ void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
 }
 
 bool Structure::Impl::told_all() const {
-  const auto open = [](const auto& c) { return c->account.open; };
+  const auto open = [this](const auto& c) { return c->account.open && c->is_of(*this); };
   const auto broken = [](const auto& m) { return m->broken; };
   return !reports.stepped && events.pending.empty() && nodes.orphans.empty() && !events.telling &&
-         bullets_.empty() && std::none_of(components.begin(), components.end(), open) &&
+         !island->holds_bullets() &&
+         std::none_of(island->components.begin(), island->components.end(), open) &&
          std::none_of(members.begin(), members.end(), broken);
 }
 
 std::size_t Structure::Impl::bytes() const {
   std::size_t sum = sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
                     joints.capacity() * sizeof(void*) + events.pending.capacity() * sizeof(Events::Pending);
-  for (const auto& c : components) {
+  for (const auto& c : island->components) {
+    if (c->structures.front() != this) continue;
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
            c->mirrors.capacity() * sizeof(Mirror) + 2 * c->account.began.capacity() * sizeof(b2Velocity);
   }
@@ -193,36 +213,27 @@ std::size_t Structure::Impl::bytes() const {
 auto Structure::Impl::state() const -> State {
   State s{.def = def,
           .watch = watch,
-          .next_id = next_id,
+          .island = island,
+          .members = {},
+          .pending = {},
           .reports = reports,
           .nodes = nodes,
-          .bullets = bullets_,
-          .gone = gone_};
+          .gone = gone};
   s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.told), events.pending.end());
   for (const auto& m : members) s.members.push_back(*m);
-  for (const auto& c : components) {
-    std::vector<std::uint32_t> ids;
-    for (const Member* m : c->members) ids.push_back(m->id);
-    s.components.push_back({*c, std::move(ids)});
-  }
   return s;
 }
 
-// The joints are at their addresses again; members and components are made anew.
+// The joints are at their addresses again; members are made anew, and components after them.
 void Structure::Impl::restore(const State& s) {
   def = s.def;
   watch = s.watch;
-  next_id = s.next_id;
   reports = s.reports;
   nodes = s.nodes;
-  gone_ = s.gone;
+  gone = s.gone;
   events.pending.assign(s.pending.begin(), s.pending.end());
   events.told = 0;
-  bullets_ = s.bullets;
   broke_ = true;  // update() looks for itself
-  island_.enlisted.clear();
-  island_.active.clear();
-  components.clear();
   members.clear();
   joints.clear();
   for (const Member& saved : s.members) {
@@ -230,14 +241,6 @@ void Structure::Impl::restore(const State& s) {
     joints.push_back(saved.joint);
     saved.joint->member_ = members.back().get();
     members.back()->belong_to(nullptr);
-  }
-  for (const State::Formed& saved : s.components) {
-    components.push_back(std::make_unique<Component>(saved.component));
-    Component& c = *components.back();
-    for (std::size_t i = 0; i < saved.ids.size(); ++i) {
-      c.members[i] = find(saved.ids[i])->get();
-      c.members[i]->belong_to(&c);
-    }
   }
 }
 
@@ -284,7 +287,7 @@ std::vector<std::string> Structure::problems(const ElasticPlasticJointDef& def) 
 
 ElasticPlasticJoint* Structure::create_joint(const ElasticPlasticJointDef& def) {
   if (const auto problems = impl_->problems(def); !problems.empty()) refuse(problems);
-  if (impl_->watch == nullptr) impl_->watch = watch_world(*impl_->world, *impl_);
+  impl_->enter_world();
   impl_->join_orphans();
   return impl_->join(*impl_->world, def);
 }
@@ -300,7 +303,7 @@ ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJoi
   own.bodyA = weld->GetBodyA();
   own.bodyB = weld->GetBodyB();
   if (const auto problems = impl_->problems(own); !problems.empty()) refuse(problems);
-  if (impl_->watch == nullptr) impl_->watch = watch_world(*impl_->world, *impl_);
+  impl_->enter_world();
   return impl_->take(weld, own);
 }
 

@@ -8,21 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "component.h"
+#include "island.h"
 
 namespace ductile::dynamics {
 
 /// Marks a body as one of a node: a body that is made later at the same address has no mark.
 void mark(b2Body& body);
-
-/// The island that b2World is solving, and what of it is one problem.
-struct Island {
-  std::vector<Member*> enlisted;
-  std::vector<Component*> active;  // of the enlisted joints
-  int velocity_calls = 0;
-  IslandContacts contacts;
-  std::vector<StockJoint> stock;  // that hold its pieces, and what touches these
-};
 
 /// Events that wait for update(), and the handlers of the game.
 struct Events {
@@ -44,6 +35,7 @@ struct Reports {
   bool stepped = false;  // since the last update()
   std::size_t bodies_in_parts = 0;  // of the components that `step` counts as divided
 
+  void open_step();
   void close_step();
 };
 
@@ -76,11 +68,6 @@ struct Structure::Impl {
   /// Joins to each other what hung on bodies of nodes that are no more.
   void join_orphans();
 
-  // The phases of an island in b2World::Step, called by its joints.
-  bool enlist(dynamics::Member* member, dynamics::Component* component);  // whether it is the first
-  void velocity(const b2SolverData& data);
-  void position(const b2SolverData& data);
-
   /// All that goes from step to step.
   struct State;
   State state() const;
@@ -97,66 +84,58 @@ struct Structure::Impl {
   /// All bodies of the world go, unannounced.
   void clear();
   JointEnergy energy() const;
-  /// Books plastic work that no joint reports any more, J.
-  void count_as_gone(double dissipated) { gone_.dissipated += dissipated; }
+  /// Of joints and components that are no more.
+  JointEnergy gone;
 
   b2World* world;  // nullptr once it is gone, as far as known: that takes a watch
   StructureDef def;
   b2Body* watch;
   Structure* handle = nullptr;
-  std::uint32_t next_id = 0;
+  std::shared_ptr<dynamics::Island> island;
   std::vector<std::unique_ptr<dynamics::Member>> members;  // by id
   std::vector<ElasticPlasticJoint*> joints;                // as members
-  std::vector<std::unique_ptr<dynamics::Component>> components;
   dynamics::Events events;
   dynamics::Reports reports;
   dynamics::Nodes nodes;
-  /// Stops a body of the island whose velocity is no finite number: it would spread to all that hangs
-  /// together, for good.
-  void stop_if_not_finite(b2Body& body, const b2SolverData& data);
-
-  void look_for_breaks(dynamics::Component& component);
+  /// Of one that flows.
+  void look_for_break(dynamics::Member& member);
+  dynamics::Member* find(std::uint32_t id) const;
+  /// Takes part in its world, from the making on, or anew after all of the world's bodies were destroyed.
+  void enter_world();
 
  private:
-  void form();
-  dynamics::Component& form(std::vector<dynamics::Member*> group, std::vector<dynamics::BodyPair> touching);
-  // reach.cpp
-  void choose_contacts(const b2SolverData& data);
-  void choose_stock_joints();
-  void follow(b2Body& body);
-  bool may_take(const b2Body& body) const;
-  bool distribute();
-  // first_touch.cpp
-  void meet_guests();
-  void hold_bullets();
-  void let_bullets_go();
-  void dissolve(dynamics::Component& component);
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
   void say(dynamics::Member& member, JointEvent event);
   void tell();
-  decltype(members)::iterator find(std::uint32_t id);
 
-  dynamics::Island island_;
-  std::vector<b2Body*> bullets_;  // that are none until update()
-  bool broke_ = false;            // some joint, since the last update()
-  JointEnergy gone_;              // of components and joints that are no more
+  bool broke_ = false;  // some joint, since the last update()
 };
 
 struct Structure::Impl::State {
   StructureDef def;
   b2Body* watch;
-  std::uint32_t next_id;
+  std::shared_ptr<dynamics::Island> island;
   std::vector<dynamics::Member> members;
-  struct Formed {
-    dynamics::Component component;
-    std::vector<std::uint32_t> ids;  // of its members
-  };
-  std::vector<Formed> components;
   std::vector<dynamics::Events::Pending> pending;
   dynamics::Reports reports;
   dynamics::Nodes nodes;
-  std::vector<b2Body*> bullets;
   JointEnergy gone;
 };
+
+namespace dynamics {
+
+/// Of a component that joints of several structures form, each reports what its steps cost.
+template <class Count>
+void Component::report(const Count& count) const {
+  for (Structure::Impl* s : structures) count(s->reports);
+}
+
+/// Adds what a solver has booked.
+void add(JointEnergy& sum, const Energies& booked);
+
+/// After a step, of the joints that flow.
+void look_for_breaks(Component& component);
+
+}  // namespace dynamics
 
 }  // namespace ductile

@@ -95,7 +95,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// The joint as an elastic-plastic one; nullptr where it is another.
   static ElasticPlasticJoint* cast(b2Joint* joint);
 
-  std::uint32_t id() const;  ///< unique in its structure, never used again
+  std::uint32_t id() const;  ///< unique among all structures of its world, never used again
   b2Vec2 axis() const;       ///< unit, world
 
   // Forces of the last step, tension positive.
@@ -221,7 +221,7 @@ struct StructureDef {
 
 /// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
 /// the bodies since the start is elastic + dissipated + damping + numerical, of which `driven` came from
-/// drives and from bodies of prescribed velocity.
+/// drives and from bodies of prescribed velocity. Where structures touch, the first tells `damping` and on.
 struct JointEnergy {
   double elastic = 0;  ///< stored now: ½ Σ k e²
   double dissipated =
@@ -234,7 +234,7 @@ struct JointEnergy {
   double clamped = 0;   ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 
-/// What the last b2World::Step cost, over all islands.
+/// What the last b2World::Step cost, over all islands. Structures that touch report their one problem each.
 struct StepReport {
   int solves = 0;   ///< solutions of the structure's problem
   int resting = 0;  ///< components for which the step was the last one again
@@ -252,7 +252,7 @@ struct StepReport {
 
 /// The joints of one world, solved together. The structure finds which bodies hang together, and does so
 /// again when joints break, come or go and when bodies change. Make one per world, before its joints; destroy
-/// it before the world or after it, as you like. A world may have several, but a dynamic body joints of one.
+/// it before the world or after it. A world may have several: one problem, but a dynamic body joints of one.
 ///
 /// In the world it keeps one disabled static body without user data, the last in the list of bodies, by which
 /// it learns that the world is gone. It counts in GetBodyCount(), and no query, ray or contact finds it.

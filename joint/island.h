@@ -1,0 +1,87 @@
+// What b2World solves at a time, and what of it is one problem. All structures of a world that are solved
+// alike share one Island, so that what touches is solved together, whichever structure it is of.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "component.h"
+
+namespace ductile::dynamics {
+
+class Island {
+ public:
+  // The phases of an island in b2World::Step, called by its joints.
+  bool enlist(Member* member, Component* component);  // whether it is the first
+  void velocity(const b2SolverData& data);
+  void position(const b2SolverData& data);
+
+  // From the making of a structure to its end, or that of its world.
+  void enter(Structure::Impl& structure);
+  void leave(Structure::Impl& structure);
+  /// As many joints may be enlisted as the structures have; allocates.
+  void make_room();
+  /// Its joints carry on with what they were; the next step finds them in no component and forms anew.
+  void dissolve(Component& component);
+  Component& form(std::vector<Member*> group, std::vector<BodyPair> touching);
+
+  // After a step (first_touch.cpp).
+  void meet_guests(b2World& in);
+  void let_bullets_go(b2World& in);
+  bool holds_bullets() const { return !bullets_.empty(); }
+
+  /// All that goes from step to step.
+  struct State {
+    std::uint32_t next_id;
+    struct Formed {
+      Component component;
+      std::vector<std::pair<Structure::Impl*, std::uint32_t>> members;  // by id
+    };
+    std::vector<Formed> components;
+    std::vector<b2Body*> bullets;
+  };
+  State state() const;
+  /// After that of its structures.
+  void restore(const State& state);
+
+  /// Of the next joint: structures count together, so that the order of unknowns and rows is that of making.
+  std::uint32_t next_id = 0;
+  std::vector<std::unique_ptr<Component>> components;
+
+ private:
+  b2World& world() const;
+  bool direct() const;
+  std::size_t joints() const;  // of all structures
+  /// The component is no more.
+  void hand_back(Component& component);
+  void forget_last();
+  void form();
+  // reach.cpp
+  void choose_contacts(const b2SolverData& data);
+  void choose_stock_joints();
+  void follow(b2Body& body);
+  bool is_piece(const b2Body& body) const;
+  bool may_take(const b2Body& body) const;
+  bool distribute();
+  // first_touch.cpp
+  void hold_bullets();
+
+  std::vector<Structure::Impl*> structures_;
+  std::vector<Member*> enlisted_;
+  std::vector<Component*> active_;  // of the enlisted joints
+  int velocity_calls_ = 0;
+  IslandContacts contacts_;
+  std::vector<StockJoint> stock_;  // that hold its pieces, and what touches these
+  std::vector<b2Body*> bullets_;   // that are none until update()
+};
+
+/// Stops a body of the island whose velocity is no finite number: it would spread to all that hangs
+/// together, for good. Whether it was one.
+bool stop_if_not_finite(b2Body& body, const b2SolverData& data);
+
+}  // namespace ductile::dynamics
