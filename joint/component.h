@@ -157,6 +157,7 @@ struct Component {
   void set_warm_starts_aside();
   void set_ties_aside(const b2SolverData& data);
   void read_touches();
+  void steady(Contact& contact) const;
   void enter_contacts();
   void enter_ties();
   void return_contacts();

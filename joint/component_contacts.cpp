@@ -88,6 +88,25 @@ bool Component::touched_as_before() {
   return std::equal(rows.begin(), rows.end(), solver.contacts.begin(), solver.contacts.end(), is_same);
 }
 
+// A point stays where it is on its bodies while all that moves it is rounding of Box2D's floats: its rows are
+// so stiff that they would ask for a new factor in each step.
+void Component::steady(Contact& c) const {
+  const std::size_t k = outside_.contacts.size() - 1;
+  if (k >= solver.contacts.size()) return;
+  const Contact& last = solver.contacts[k];
+  if (last.id != c.id || last.a != c.a || last.b != c.b) return;
+  const b2Vec2 at = mirrors[z(c.a)].left.c;
+  constexpr double last_bits = 4 * std::numeric_limits<float>::epsilon();
+  const double near = last_bits * (1 + std::abs(at.x) + std::abs(at.y));
+  const auto moved = [](double x, double y) { return std::max(std::abs(x), std::abs(y)); };
+  if (std::max(moved(c.ax - last.ax, c.ay - last.ay), moved(c.bx - last.bx, c.by - last.by)) > near) return;
+  if (std::max(moved(c.normal_a.c - last.normal_a.c, c.normal_a.s - last.normal_a.s),
+               moved(c.normal_b.c - last.normal_b.c, c.normal_b.s - last.normal_b.s)) > last_bits)
+    return;
+  c.ax = last.ax, c.ay = last.ay, c.bx = last.bx, c.by = last.by;
+  c.normal_a = last.normal_a, c.normal_b = last.normal_b;
+}
+
 void Component::read_touches() {
   outside_.contacts.clear();
   for (const Touch& t : outside_.touches) {
@@ -111,6 +130,7 @@ void Component::read_touches() {
       c.tangent = p.tangent_impulse;
       c.id = t.contact->GetManifold()->points[k].id.key;
       outside_.contacts.push_back(c);
+      steady(outside_.contacts.back());
     }
   }
 }

@@ -60,7 +60,10 @@ class Solver : public System {
   /// The bodies' velocities jumped at the start of this step (blow.h): after begin(), before its first solve.
   void strike();
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
-  void push(std::size_t body, const Vec3& change) { newton_.push(*this, body, change); }
+  void push(std::size_t body, const Vec3& change) {
+    newton_.push(*this, body, change);
+    pushed_ = true;
+  }
   bool struck() const { return struck_; }
   /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
   /// again.
@@ -139,6 +142,7 @@ class Solver : public System {
   Motion motion_;                  // of the present step
   bool predicted_ = false;         // the next solve starts where prediction_ says
   bool struck_ = false;            // the present step is that of a blow
+  bool pushed_ = false;            // velocities changed since its first solve
 };
 
 }  // namespace ductile::dynamics

@@ -235,6 +235,18 @@ struct Built {
     world.CreateBody(&def)->CreateFixture(&fixture);
   }
 
+  /// A box that is no piece, kg/m².
+  b2Body* add_box(double x, double y, double width, double height, double density) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = vec(x, y);
+    b2PolygonShape box;
+    box.SetAsBox(static_cast<float>(width / 2), static_cast<float>(height / 2));
+    b2Body* body = world.CreateBody(&def);
+    body->CreateFixture(&box, static_cast<float>(density));
+    return body;
+  }
+
   static b2Vec2 vec(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
 
   static ElasticPlasticJointDef joint(const Layout& layout, const Layout::Weld& w, double h, b2Body* a,
@@ -275,6 +287,30 @@ struct Built {
 inline void shake(Built& b) {
   const double t = b.steps / 60.0;
   b.world.SetGravity(Built::vec(3 * std::cos(4 * std::numbers::pi * t), -10));
+}
+
+/// A block of a tonne in the middle of each bay of a frame's roof.
+inline void load_roof(Built& b, int size) {
+  for (int i = 0; i < size; ++i) b.add_box(2.5 * i + 1.25, 2.5 * size + 0.31, 0.5, 0.5, 4000);
+}
+
+/// Sixty boxes of 120 kg in six rows on the roof of a frame of 4 by 4 bays.
+inline void pile_on_roof(Built& b) {
+  for (int i = 0; i < 60; ++i) {
+    const int row = i / 10;
+    b.add_box(1.5 + 0.62 * (i % 10) + 0.15 * (row % 2), 10.26 + 0.41 * row, 0.6, 0.4, 500);
+  }
+}
+
+/// What the damping takes of gravity comes back as it goes, slowly, or a frame would sway for minutes.
+inline void calm(Built& b) {
+  for (const float by : {3.0f, 1.0f, 0.3f, 0.1f, 0.03f, 0.0f}) {
+    for (b2Body* piece : b.pieces) {
+      piece->SetLinearDamping(by);
+      piece->SetAngularDamping(by);
+    }
+    b.run(by == 3 ? 20 : 5);
+  }
 }
 
 }  // namespace ductile::bench

@@ -8,6 +8,7 @@
 
 #include "beam.h"
 #include "bodies.h"
+#include "structures.h"
 
 namespace ductile {
 namespace {
@@ -351,6 +352,42 @@ TEST(Contacts, JoinStructuresThatTouch) {
   for (const b2Body* b : raft) moment -= b->GetMass() * light.gravity * b->GetWorldCenter().x;
   EXPECT_NEAR(beam.joints.front()->force(rotation), moment, 1e-5 * -moment);
   EXPECT_EQ(beam.bounds_hit, 0);
+}
+
+// Costs by counts, of all steps of five seconds.
+StepReport sum_of(bench::Built& built) {
+  built.sum = {};
+  built.run(5);
+  return built.sum;
+}
+
+// Blocks that sway with a frame, ever so little, cost what the frame costs without them: a point of contact
+// stays where it is on its bodies, and so does the factor.
+TEST(ContactCost, ABlockThatRestsAddsNoRounds) {
+  StepReport counts[2];
+  for (const bool loaded : {false, true}) {
+    bench::Built built(bench::frame(4, 4), bench::Built::ours, 10);
+    if (loaded) bench::load_roof(built, 4);
+    bench::calm(built);
+    counts[loaded] = sum_of(built);
+  }
+  EXPECT_EQ(counts[1].solves, counts[0].solves);
+  EXPECT_LE(counts[1].rounds, 1.1 * counts[0].rounds);
+  EXPECT_LE(counts[1].factorisations, counts[0].factorisations + 3);
+  EXPECT_EQ(counts[1].bounds_hit, 0);
+}
+
+// A pile is Box2D's but for what touches the pieces. Each of its iterations pushes: the answer takes a round
+// or two and seldom a factorisation.
+TEST(ContactCost, APileTakesAFewRoundsAPush) {
+  bench::Built built(bench::frame(4, 4), bench::Built::ours, 10);
+  bench::pile_on_roof(built);
+  built.run(10);
+  const StepReport counts = sum_of(built);
+  EXPECT_LE(counts.solves, 8 * 300);
+  EXPECT_LE(counts.rounds, 3 * counts.solves);
+  EXPECT_LE(counts.factorisations, 0.5 * counts.solves);
+  EXPECT_EQ(counts.bounds_hit, 0);
 }
 
 // A load that rests lets the structure sleep, and is woken with it.
