@@ -382,10 +382,10 @@ TEST(ContactCost, ABlockThatRestsAddsNoRounds) {
 TEST(ContactCost, APileTakesAFewRoundsAPush) {
   bench::Built built(bench::frame(4, 4), bench::Built::ours, 10);
   bench::pile_on_roof(built);
-  built.run(10);
+  built.run(40);  // until it has settled: the frame swings under what fell on it
   const StepReport counts = sum_of(built);
   EXPECT_LE(counts.solves, 8 * 300);
-  EXPECT_LE(counts.rounds, 3 * counts.solves);
+  EXPECT_LE(counts.rounds, 2 * counts.solves);
   EXPECT_LE(counts.factorisations, 0.5 * counts.solves);
   EXPECT_EQ(counts.bounds_hit, 0);
 }
