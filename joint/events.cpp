@@ -34,7 +34,7 @@ void Structure::Impl::look_for_break(Member& m) {
   const double used = m.joint->capacity_used();
   if (!std::exchange(m.said.yielded, true)) {
     say(m, {JointEvent::yield, mode, m.joint, force[row], energy});
-  } else if (used >= m.said.used + def.flow_share) {
+  } else if (used > 0 ? used >= m.said.used + def.flow_share : energy >= 2 * m.said.energy) {
     m.said.used = used;
     say(m, {JointEvent::flow, mode, m.joint, force[row], energy});
   }

@@ -108,5 +108,22 @@ TEST(Events, TellOfFlowNowAndThen) {
   }
 }
 
+// Each event finds at least twice the work of the last, and none is left out.
+TEST(Events, TellOfFlowWithoutALimitAsItsWorkDoubles) {
+  const double cap = 7800 * 10 * 200 / 1.5;
+  Beam beam({.pieces = 1, .moment_cap = cap});
+  std::vector<JointEvent> events;
+  beam.structure.on_event([&](const JointEvent& e) { events.push_back(e); });
+  beam.run(14);
+  ASSERT_GE(events.size(), 4u);
+  EXPECT_EQ(events.front().kind, JointEvent::yield);
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    EXPECT_EQ(events[i].kind, JointEvent::flow);
+    EXPECT_NEAR(events[i].worked, events[i].energy - events[i - 1].energy, 1e-9 * events[i].energy);
+    EXPECT_GE(events[i].energy, 2 * events[i - 1].energy);
+  }
+  EXPECT_LT(beam.joints[0]->dissipated(), 2 * events.back().energy);
+}
+
 }  // namespace
 }  // namespace ductile

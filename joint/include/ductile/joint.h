@@ -114,7 +114,8 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double elongation() const;            ///< m: Σ plastic lengthening
   double compression() const;           ///< m: Σ plastic shortening
   double slip() const;                  ///< m: Σ|plastic shear|
-  /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break.
+  /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break:
+  /// there dissipated() tells how much it went through.
   double capacity_used() const;
   /// 0 unloaded … 1 yields … 2 broken: stage_of() in stage.h.
   double stage() const;
@@ -214,8 +215,9 @@ struct JointEvent {
 
 struct StructureDef {
   SolverKind solver = SolverKind::direct;
-  double flow_share =
-      0.1;  ///< JointEvent::flow comes each time a joint has used up so much more of its limit
+  /// JointEvent::flow comes each time a joint has used up so much more of its limit; of a joint without one,
+  /// each time its plastic work has doubled.
+  double flow_share = 0.1;
   bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
 };
 
