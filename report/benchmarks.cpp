@@ -63,17 +63,18 @@ Result run_benchmarks(const Context& context) {
       "and with residual stresses of rolling. Here bars yield in hinges at points, as soon as N and M of the "
       "whole section are on its yield surface. Where a column carries eight tenths of its yield force, as in "
       "Vogel's portal, that overrates the frame; in his six storeys, half that, it matters little.",
-      "What the six storeys' bars are cut into matters little: hinges form at cuts, off their places by half "
-      "a part at most.",
+      ("What the six storeys' bars are cut into matters little: hinges form at cuts, off their places by "
+       "half "
+       "a part at most."),
       "The blows in motion are on beams so weak that they last several steps at 60 Hz. Those were chosen "
       "after a first choice, whose numbers are not kept, was 11.7 and −21.5 % off at 60 Hz. Since then steps "
       "of a blow are solved in parts; the same blows on beams that are as strong as steel, over in two "
       "steps, stand below. So does a beam that stretches, beside an estimate by one mode, which overrates it "
       "by an eighth where deflections are small.",
-      "Experiments are not here: no source of the tables of Parkes' cantilevers (1955), Humphreys' (1965) "
-      "and Symonds and Jones' (1972) clamped beams, Liu and Jones' struck ones (1987) and Clark's rings "
-      "(1962) could be read, nor of El-Zanaty's portal and of Baker's and Horne's tests. For the rate at "
-      "which mild steel flows a material has Cowper and Symonds' law; it is held against its integral."};
+      ("Experiments are not here: no source of the tables of Parkes' cantilevers (1955), Humphreys' (1965) "
+       "and Symonds and Jones' (1972) clamped beams, Liu and Jones' struck ones (1987) and Clark's rings "
+       "(1962) could be read, nor of El-Zanaty's portal and of Baker's and Horne's tests. For the rate at "
+       "which mild steel flows a material has Cowper and Symonds' law; it is held against its integral.")};
   const auto worst = [](const std::vector<Benchmark>& rows) {
     double most = 0;
     for (const Benchmark& b : rows) most = std::max(most, std::abs(b.deviation()));

@@ -43,7 +43,8 @@ struct ClampedBeam {
       j->set_caps(rotation, moment(yield_stress), moment(yield_stress));
     }
     const auto joint = [&](std::size_t i) { return static_cast<ElasticPlasticJoint*>(built.joints[i]); };
-    if (!stretches) joint(static_cast<std::size_t>(2 * n))->set_caps(axial, 0, 0);
+    const int last = 2 * n;
+    if (!stretches) joint(static_cast<std::size_t>(last))->set_caps(axial, 0, 0);
     if (mass > 0) joint(built.joints.size() - 1)->set_caps(rotation, unlimited, unlimited);
     middle = built.pieces[static_cast<std::size_t>(n - 1)];
     to_middle = static_cast<float>(half / n / 2);
@@ -208,12 +209,12 @@ std::vector<Benchmark> blow_benchmarks(const Context& context) {
                       rigid = "rigid-plastic, 20 m × 1 m on two clamps, one slides, f_y = 35 MPa, ";
     rows.push_back({"Mass that falls on a clamped beam",
                     "Parkes, 1958: his cantilever, with half the mass and 2 M_p", "worked out here; not read",
-                    rigid + "half the beam's mass at 8 m/s in its middle" + hz, "set of the middle [m]",
-                    FallingMass::exact(), FallingMass::sag(n, dt), allowed});
+                    fmt::format("{}half the beam's mass at 8 m/s in its middle{}", rigid, hz),
+                    "set of the middle [m]", FallingMass::exact(), FallingMass::sag(n, dt), allowed});
     rows.push_back({"Clamped beam under an impulse",
                     "Symonds; Jones, Structural Impact: m v² L²/(6 M_p), L half the span",
-                    "closed form; not read", rigid + "all of it at 8 m/s" + hz, "set of the middle [m]",
-                    Impulse::exact(), Impulse::sag(n, dt), allowed});
+                    "closed form; not read", fmt::format("{}all of it at 8 m/s{}", rigid, hz),
+                    "set of the middle [m]", Impulse::exact(), Impulse::sag(n, dt), allowed});
     rows.push_back(
         {"Bar stopped by a hinge that depends on the rate of strain",
          "Cowper and Symonds, 1957: I ω' = −M_p (1 + (ω/R)^(1/q)), R = D L_p/y", "integrated here",
@@ -250,20 +251,21 @@ std::vector<Benchmark> strong_blow_benchmarks(const Context& context) {
     const int n = fine ? 20 : 10;
     const std::string hz = fmt::format("; {} pieces, {:g} Hz", 2 * n, 1 / dt),
                       rigid = "rigid-plastic, 20 m × 1 m on two clamps, f_y = ";
-    rows.push_back({"Mass that falls on a clamped beam, at the yield stress of steel",
-                    "Parkes, 1958: his cantilever, with half the mass and 2 M_p", "worked out here; not read",
-                    rigid + "350 MPa, one slides, half the beam's mass at 8 m/s in its middle" + hz,
-                    "set of the middle [m]", FallingMass::exact(Steel::fy),
-                    FallingMass::sag(n, dt, Steel::fy), allowed});
-    rows.push_back({"Clamped beam under an impulse, at the yield stress of steel",
-                    "Symonds; Jones, Structural Impact: m v² L²/(6 M_p), L half the span",
-                    "closed form; not read", rigid + "350 MPa, one slides, all of it at 8 m/s" + hz,
-                    "set of the middle [m]", Impulse::exact(Steel::fy), Impulse::sag(n, dt, Steel::fy),
-                    allowed});
+    rows.push_back(
+        {"Mass that falls on a clamped beam, at the yield stress of steel",
+         "Parkes, 1958: his cantilever, with half the mass and 2 M_p", "worked out here; not read",
+         fmt::format("{}350 MPa, one slides, half the beam's mass at 8 m/s in its middle{}", rigid, hz),
+         "set of the middle [m]", FallingMass::exact(Steel::fy), FallingMass::sag(n, dt, Steel::fy),
+         allowed});
+    rows.push_back(
+        {"Clamped beam under an impulse, at the yield stress of steel",
+         "Symonds; Jones, Structural Impact: m v² L²/(6 M_p), L half the span", "closed form; not read",
+         fmt::format("{}350 MPa, one slides, all of it at 8 m/s{}", rigid, hz), "set of the middle [m]",
+         Impulse::exact(Steel::fy), Impulse::sag(n, dt, Steel::fy), allowed});
     rows.push_back(
         {"Clamped beam that stretches under an impulse",
          "Jones, Structural Impact, an estimate by one mode: W/H = ½ (√(1 + 3λ/4) − 1), λ = m v² L²/(M_p H)",
-         "closed form; not read", rigid + "35 MPa, both hold, all of it at 16 m/s" + hz,
+         "closed form; not read", fmt::format("{}35 MPa, both hold, all of it at 16 m/s{}", rigid, hz),
          "set of the middle [m]", StretchedBeam::estimate(), StretchedBeam::sag(n, dt), 0.125});
   }
   return rows;

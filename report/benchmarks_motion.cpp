@@ -156,7 +156,8 @@ struct FourBars {
       b.pieces[static_cast<std::size_t>(i)]->SetAngularVelocity(-1);
       b.pieces[static_cast<std::size_t>(i)]->SetLinearVelocity(vec(0.5, 0));
     }
-    for (int i = 0; i < n; ++i) b.pieces[static_cast<std::size_t>(n + 1 + i)]->SetLinearVelocity(vec(1, 0));
+    for (int i = n + 1; i < 2 * n + 1; ++i)
+      b.pieces[static_cast<std::size_t>(i)]->SetLinearVelocity(vec(1, 0));
     const double end = 2 * pi * revolutions;
     double before = 0;
     for (long i = 0, steps = std::lround(60 / dt); i < steps; ++i) {
