@@ -4,9 +4,9 @@
 // with contacts as rows of each. Box2D sees one step: it moves bodies with their mean velocities, before its
 // iterations of positions they get those at the end, and contacts have the sums of their impulses.
 //
-// That takes that nothing but the solver changes the bodies' velocities in the step; and that supports rest:
-// what rigid rows are strained by between supports that move apart, they would answer a thousand times as
-// hard, as their springs go with the step.
+// Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest:
+// the springs of rigid rows grow with the inverse square of the step, so that between supports that move
+// apart a step of 1/60 s in parts would find their forces a thousand times as large.
 #include <algorithm>
 #include <cmath>
 #include <utility>

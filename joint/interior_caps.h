@@ -4,7 +4,7 @@
 //   Δs = D (lack + J Δv + τ⁺ − τ⁻)      1/D = 1/G + z⁺/(p⁺ + ηz⁺) + z⁻/(p⁻ + ηz⁻)      τ = (z p − μ)/(p + ηz)
 //   Δz = ± z/(p + ηz) Δs − τ            Δp = ∓ Δs + η Δz
 // Both caps of a row are one Pair. A cap that is infinite has z = 0, p = `far` and no μ: it takes part in
-// nothing, without being asked for.
+// nothing, without being asked for. In D, 1/G is at least least_compliance().
 #pragma once
 
 #include <algorithm>

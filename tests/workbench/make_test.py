@@ -292,7 +292,8 @@ class Bridge(driven.Window):
         self.key("Escape")
         self.wait(lambda: "open filter" not in self.state["controls"])
 
-    def test_turned_by_an_angle_that_is_typed(self):
+    def make_a_column_by_keys(self):
+        """In a new scene: beam1, from (0, 0) to (0, 2), chosen."""
         self.key("n", "Control_L")
         self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
         self.key("Return")
@@ -302,6 +303,9 @@ class Bridge(driven.Window):
         self.key("9")
         self.key("Return")
         self.key("Return")
+
+    def test_turned_by_an_angle_that_is_typed(self):
+        self.make_a_column_by_keys()
         self.key("t", "Control_L")
         self.reach("turn angle")
         self.key("Return")
@@ -354,15 +358,7 @@ class Bridge(driven.Window):
         self.assertAlmostEqual(self.state["cost"] / (1.5 * 7850 * 2 * 2 * 0.2 * 0.1), 1, 9)
 
     def test_copied_pasted_and_cut(self):
-        self.key("n", "Control_L")
-        self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
-        self.key("Return")
-        for _ in range(4):
-            self.key("Up")
-        self.key("Return")  # from (0, 0) to (0, 2)
-        self.key("9")
-        self.key("Return")
-        self.key("Return")
+        self.make_a_column_by_keys()
         self.assertEqual(self.state["chosen"], ["beam1"])
         self.key("c", "Control_L")
         self.key("v", "Control_L")
