@@ -3,8 +3,10 @@
 // its way is put back to where it did, and the next step finds a contact as it should be.
 //
 // Box2D does so for bullets, but then lets the two meet alone, the piece without its structure. So a bullet
-// that is near a piece is none while the world steps. Sub-stepping, Box2D is at it between two calls of Step,
-// and is left alone. Written against Box2D 2.4.1.
+// that is near a piece is none while the world steps. One that came near in the step, as it was made or set
+// off within a step's way, has met its piece alone: that impact is undone, and the next step finds the two
+// where they met, as fast as they were. Sub-stepping, Box2D is at it between two calls of Step, and is left
+// alone. Written against Box2D 2.4.1.
 
 #include <box2d/b2_time_of_impact.h>
 
@@ -12,11 +14,23 @@
 #include <cmath>
 
 #include "box2d_private.h"
+#include "frames.h"
 #include "structure.h"
 
 namespace ductile::dynamics {
 
+DUCTILE_REVEAL(b2Contact, m_toiCount, int32);
+
 namespace {
+
+b2Position pose_of(b2Body& body) {
+  const b2Sweep& sweep = of(body, b2Body_m_sweep{});
+  return {sweep.c, sweep.a};
+}
+
+float central_inertia(const b2Body& body) {
+  return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
+}
 
 bool is_piece(const b2Body* body) {
   for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) {
@@ -25,7 +39,7 @@ bool is_piece(const b2Body* body) {
   return false;
 }
 
-/// Calls visit(contact, piece, guest) for what may touch the bodies of a component.
+/// Calls visit(contact, mirror of the piece, guest) for what may touch the bodies of a component.
 template <class Visit>
 void each_near(const Component& component, const Visit& visit) {
   for (std::size_t i = 0; i < component.solver.free_bodies(); ++i) {
@@ -34,7 +48,7 @@ void each_near(const Component& component, const Visit& visit) {
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& c = *e->contact;
       if (c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor()) continue;
-      if (is_free(e->other) && !is_piece(e->other)) visit(c, *m.body, *e->other);
+      if (is_free(e->other) && !is_piece(e->other)) visit(c, m, *e->other);
     }
   }
 }
@@ -74,6 +88,29 @@ void put_back(b2Body& guest, float share, const b2Vec2& gravity) {
   if (speed2 > 2 * gain) guest.SetLinearVelocity(std::sqrt(1 - 2 * gain / speed2) * v);
 }
 
+/// Whether Box2D let the piece meet a bullet alone in the last step.
+bool met_alone(const b2Contact& contact, const Mirror& piece) {
+  return of(contact, b2Contact_m_toiCount{}) > 0 && !same(piece.left, pose_of(*piece.body));
+}
+
+// The guest's share of an impact: what the piece has of it, the other way. Their sweeps begin where they met.
+void undo_impact(const Mirror& piece, b2Body& guest) {
+  const b2Vec2 P = piece.body->GetMass() * (piece.body->GetLinearVelocity() - piece.given.v);
+  const float moment = central_inertia(*piece.body) * (piece.body->GetAngularVelocity() - piece.given.w) +
+                       b2Cross(of(*piece.body, b2Body_m_sweep{}).c0 - of(guest, b2Body_m_sweep{}).c0, P);
+  guest.SetLinearVelocity(guest.GetLinearVelocity() + 1 / guest.GetMass() * P);
+  if (const float inertia = central_inertia(guest); inertia > 0)
+    guest.SetAngularVelocity(guest.GetAngularVelocity() + moment / inertia);
+}
+
+void put_back(const Mirror& piece) {
+  b2Sweep& sweep = of(*piece.body, b2Body_m_sweep{});
+  piece.body->SetTransform(piece.left.c - b2Mul(b2Rot(piece.left.a), sweep.localCenter), piece.left.a);
+  sweep.c = sweep.c0 = piece.left.c;
+  piece.body->SetLinearVelocity(piece.given.v);
+  piece.body->SetAngularVelocity(piece.given.w);
+}
+
 }  // namespace
 
 void Island::meet_guests(b2World& in) {
@@ -82,8 +119,18 @@ void Island::meet_guests(b2World& in) {
     float share;
   };
   std::vector<Meeting> meetings;
+  std::vector<const Mirror*> met;  // pieces that a bullet met alone
   for (const auto& c : components) {
-    each_near(*c, [&](const b2Contact& contact, b2Body& piece, b2Body& guest) {
+    each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& guest) {
+      b2Body& piece = *mirror.body;
+      if (met_alone(contact, mirror)) {
+        meetings.push_back({&guest, 0});
+        if (std::find(met.begin(), met.end(), &mirror) != met.end())
+          return;  // at another point, or by another
+        undo_impact(mirror, guest);
+        met.push_back(&mirror);
+        return;
+      }
       if (contact.IsTouching() || !guest.IsAwake()) return;
       const b2Sweep& s = of(guest, b2Body_m_sweep{});
       if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
@@ -94,6 +141,7 @@ void Island::meet_guests(b2World& in) {
       if (share < 1) meetings.push_back({&guest, share});
     });
   }
+  for (const Mirror* m : met) put_back(*m);
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {
@@ -106,7 +154,7 @@ void Island::meet_guests(b2World& in) {
 void Island::hold_bullets() {
   if (!direct() || world().GetSubStepping()) return;
   for (const Component* c : active_) {
-    each_near(*c, [this](const b2Contact&, b2Body&, b2Body& guest) {
+    each_near(*c, [this](const b2Contact&, const Mirror&, b2Body& guest) {
       if (!guest.IsBullet()) return;
       guest.SetBullet(false);
       bullets_.push_back(&guest);

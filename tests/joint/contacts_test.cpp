@@ -129,6 +129,72 @@ TEST_P(TipImpact, NeverGoesThrough) {
 INSTANTIATE_TEST_SUITE_P(OfPieces, TipImpact,
                          testing::Combine(testing::Values(1.0, 10.0, 100.0, 1000.0), testing::Bool()));
 
+/// A plate of 30 mm between two walls, and a block of so many times a piece's mass above it.
+struct Plate {
+  static constexpr BeamDef def{.pieces = 10,
+                               .length = 10,
+                               .height = 0.03,
+                               .youngs_modulus = 210e9,
+                               .moment_cap = 355e6 * 0.03 * 0.03 / 4};
+  Beam beam{def};
+  b2Body* block;
+
+  Plate(double ratio, double above) {
+    ElasticPlasticJointDef end;
+    end.Initialize(beam.pieces.back(), beam.wall, beam.point(def.length), {1, 0});
+    beam.set_rows(end, 0.5);
+    beam.structure.create_joint(end);
+    block = add(beam.world,
+                {.x = 5.3, .bottom = def.height / 2 + above, .mass = ratio * beam.pieces.front()->GetMass()});
+  }
+};
+
+class PlateImpact : public testing::TestWithParam<std::tuple<double, bool>> {};
+
+// From within a step's way, where Box2D knows no contact of the two before they meet.
+TEST_P(PlateImpact, NeverGoesThrough) {
+  const auto [ratio, bullet] = GetParam();
+  for (const double speed : {3.0, 10.0, 30.0, 60.0}) {
+    for (int phase = 0; phase < 10; ++phase) {
+      Plate plate(ratio, 0.1 * phase * speed * dt);
+      plate.block->SetLinearVelocity(vec(0, -speed));
+      plate.block->SetBullet(bullet);
+      double deepest = 1;
+      for (int i = 0; i < 60; ++i) {
+        plate.beam.run(dt);
+        for (const b2Body* piece : plate.beam.pieces) {
+          const b2Vec2 at = piece->GetLocalPoint(plate.block->GetWorldCenter());
+          if (std::abs(at.x) < 0.5) deepest = std::min(deepest, double{at.y});
+        }
+      }
+      EXPECT_GT(deepest, 0) << speed << ", " << phase;
+      EXPECT_EQ(plate.beam.bounds_hit, 0);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(OfPieces, PlateImpact,
+                         testing::Combine(testing::Values(1.0, 10.0, 100.0, 1000.0), testing::Bool()));
+
+// A bullet that Box2D let meet a piece alone is where they met, as fast as it was, and so is the piece.
+TEST(FirstTouch, OfABulletWithoutTheStructureIsUndone) {
+  Plate plate(10, 0.5);
+  plate.beam.world.SetGravity({0, 0});
+  plate.block->SetLinearVelocity({0, -60});
+  plate.block->SetBullet(true);
+  plate.beam.world.Step(static_cast<float>(dt), 8, 3);
+  EXPECT_GT(plate.block->GetLinearVelocity().y, -59.0f);  // it has met one
+  plate.beam.structure.update();
+  EXPECT_NEAR(plate.block->GetLinearVelocity().y, -60, 1e-4);
+  EXPECT_NEAR(plate.block->GetLinearVelocity().x, 0, 1e-4);
+  EXPECT_NEAR(plate.block->GetAngularVelocity(), 0, 1e-3);
+  const double bottom = plate.block->GetPosition().y - 0.25;
+  EXPECT_NEAR(bottom, Plate::def.height / 2, 4 * b2_linearSlop);
+  for (const b2Body* piece : plate.beam.pieces) {
+    EXPECT_LT(piece->GetLinearVelocity().Length(), 1e-4);
+    EXPECT_NEAR(piece->GetPosition().y, 0, 1e-6);
+  }
+}
+
 class Restitution : public testing::TestWithParam<std::tuple<double, double>> {};
 
 // In free flight: v' = e v between the block and the piece it hits, and no momentum is lost.
