@@ -59,11 +59,11 @@ WorldArchive::WorldArchive(b2World& world)
 }
 
 void WorldArchive::clear(b2World& world) {
-  b2DestructionListener* const told = std::exchange(of(world, b2World_m_destructionListener{}), nullptr);
+  b2DestructionListener* const listener = std::exchange(of(world, b2World_m_destructionListener{}), nullptr);
   for (b2Body* body : in_order_of_creation(world.GetBodyList())) {
     if (!Structure::is_watch(*body)) world.DestroyBody(body);
   }
-  world.SetDestructionListener(told);
+  world.SetDestructionListener(listener);
 }
 
 void WorldArchive::body(Archive& a, const char* key, b2Body*& body) {

@@ -135,7 +135,7 @@ struct Component {
   std::vector<Mirror> mirrors;   // as solver.bodies
   Origin origin;                 // of the solver's poses
   Account account;
-  std::vector<Structure::Impl*> structures;  // of its members; the first tells its energies
+  std::vector<Structure::Impl*> structures;  // of its members; the first reports its energies
   std::size_t enlisted = 0;                  // joints of it that the island has, while these are enlisted
 
  private:

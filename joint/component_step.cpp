@@ -34,7 +34,7 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone &= i >= solver.free_bodies() || m.only_ours();
-    if (rest_ == Rest::none) take(m, data);  // while the body is at hand
+    if (rest_ == Rest::none) take(m, data);  // while the body is in the cache
     masses &= m.has_its_mass();
   }
   coupling_ = alone ? Coupling::none : Coupling::partly;
@@ -368,7 +368,7 @@ void Component::advance(const b2SolverData& data) {
   }
   solver.advance();
   bool kinematic = false;
-  // Where nothing else moves them, position() tells it, if it is called at all.
+  // Where nothing else moves them, position() writes their poses, if it is called at all.
   const bool later = alone() && data.step.positionIterations > 0;
   for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);

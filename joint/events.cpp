@@ -81,21 +81,21 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
 
 // The handler may destroy anything: joints are looked up by id each time. It may throw: an event that
 // it got is not delivered again.
-void Structure::Impl::tell() {
-  struct Telling {
-    bool& telling;
-    explicit Telling(bool& flag) : telling(flag) { telling = true; }
-    ~Telling() { telling = false; }
-  } telling(events.telling);
-  while (events.told < events.pending.size()) {
-    Events::Pending p = events.pending[events.told++];
+void Structure::Impl::deliver() {
+  struct Delivering {
+    bool& flag;
+    explicit Delivering(bool& set) : flag(set) { flag = true; }
+    ~Delivering() { flag = false; }
+  } delivering(events.delivering);
+  while (events.delivered < events.pending.size()) {
+    Events::Pending p = events.pending[events.delivered++];
     const Member* member = find(p.id);
     if (!events.handler || member == nullptr) continue;
     p.event.at = member->joint->GetAnchorA();
     events.handler(p.event);
   }
   events.pending.clear();
-  events.told = 0;
+  events.delivered = 0;
 }
 
 }  // namespace ductile

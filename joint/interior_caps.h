@@ -116,14 +116,14 @@ class CappedRows {
   }
 
   /// The direction, where the rows' velocities change by so much.
-  void direct(const Rows& change, Direction& told) {
+  void direct(const Rows& change, Direction& direction) {
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r.ds = r.D * (r.lack + change[i] + (r.aim[0] - r.aim[1]));
       const Pair along{r.ds, -r.ds};
       r.dz = r.weight * along - r.aim;
       r.dp = r.hardening * r.dz - along;
-      for (int side : {0, 1}) told.see(r.p[side], r.z[side], r.dp[side], r.dz[side]);
+      for (int side : {0, 1}) direction.see(r.p[side], r.z[side], r.dp[side], r.dz[side]);
     }
   }
 

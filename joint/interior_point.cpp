@@ -191,16 +191,16 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
     if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
   }
   hessian.solve({d_.data(), system.free});
-  Direction told;
+  Direction direction;
   each([&](std::size_t k, auto& rows) {
     const Joint& j = system.joints[k];
-    rows.direct(relative_velocity(j, d_[z(j.a)], d_[z(j.b)]), told);
+    rows.direct(relative_velocity(j, d_[z(j.a)], d_[z(j.b)]), direction);
   });
   for (std::size_t k = 0; k < turns_.size(); ++k) {
     const TurnInertia& t = system.turn_inertias[k];
     turns_[k].ds = t.inertia * (turns_[k].lack + d_[z(t.b)].w - d_[z(t.a)].w);
   }
-  return told;
+  return direction;
 }
 
 void InteriorPoint::move(double step) {

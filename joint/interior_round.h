@@ -1,5 +1,5 @@
-// What the rows of all joints tell a round of the interior point method: how far it is, and how far it may
-// go.
+// What the rows of all joints report to a round of the interior point method: the distance of its iterate
+// from the minimum, and the step that bounds allow.
 #pragma once
 
 #include <limits>

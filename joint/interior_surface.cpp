@@ -128,7 +128,7 @@ Rows SurfaceRows::aim(double mu, double second_order) {
   return ds;
 }
 
-void SurfaceRows::direct(const Rows& change, Direction& told) {
+void SurfaceRows::direct(const Rows& change, Direction& direction) {
   Row4 y = lack_;
   for (std::size_t i = 0; i < 3; ++i) y[i] = holds(i) ? y[i] + change[i] : 0;
   const Row4 c = project(y);
@@ -137,7 +137,7 @@ void SurfaceRows::direct(const Rows& change, Direction& told) {
     const double u = dot(b.q, c);
     b.dz = b.weight * (u - b.aim);
     b.dp = b.missing - u / b.weight;
-    told.see(b.p, b.z, b.dp, b.dz);
+    direction.see(b.p, b.z, b.dp, b.dz);
   }
 }
 

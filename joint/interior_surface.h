@@ -42,7 +42,7 @@ class SurfaceRows {
   void measure(const Rows& x, Distance& d);
   Coupling eliminate(const Scratch& scratch);
   Rows aim(double mu, double second_order);
-  void direct(const Rows& change, Direction& told);
+  void direct(const Rows& change, Direction& direction);
   void move(double step);
   unsigned regime() const;
 

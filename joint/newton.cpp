@@ -59,7 +59,8 @@ double Newton::target(const System& system, const Evaluation& at) const {
 // An old factor is kept while the rounds that it still needs cost less than a new one (Hairer & Wanner,
 // Solving ODEs II, IV.8, decide so about Jacobians).
 // 1. Nothing is gained where it is of the present tangents.
-// 2. A row that changed its regime costs a round of conjugate gradients; otherwise the contraction tells.
+// 2. A row that changed its regime costs a round of conjugate gradients; otherwise the contraction predicts
+//    how many are left.
 // 3. What rows that changed their regime ask for is but a guess, as rounding may deny conjugate directions:
 //    one round more than that is enough.
 bool Newton::worth_refactoring(const System& system, const Hessian& hessian, const Evaluation& at,
@@ -75,7 +76,8 @@ bool Newton::worth_refactoring(const System& system, const Hessian& hessian, con
 }
 
 // What changed its regime in the last round asks for a round of its own: where there are more such rows than
-// rounds left, these would be lost. The first two tell little, as they start from the last step's regimes.
+// rounds left, these would be lost. The first two rounds predict little: they start from the last step's
+// regimes.
 bool Newton::hands_over(const System& system, const Evaluation& at, const Round& round) const {
   const int bound = system.contacts.empty() ? tunables.flow_rounds : tunables.contact_rounds;
   return round.number >= bound || (round.number >= 2 && at.changed > bound - round.number);

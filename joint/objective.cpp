@@ -26,7 +26,7 @@ double square(const System& system, std::span<Vec3> g) {
   return norm;
 }
 
-void add_impulses(System& system, std::span<Vec3> g, Evaluation& told) {
+void add_impulses(System& system, std::span<Vec3> g, Evaluation& at) {
   int changed = 0;
   unsigned crossed = 0, any = 0;
   const Body* bodies = system.bodies.data();
@@ -52,10 +52,10 @@ void add_impulses(System& system, std::span<Vec3> g, Evaluation& told) {
     }
   }
   add_turn_impulses(system, g);
-  told.changed = changed;
-  told.crossed = crossed != 0;
-  told.flows = any != 0;
-  told.curved = (any & on_surface) != 0;
+  at.changed = changed;
+  at.crossed = crossed != 0;
+  at.flows = any != 0;
+  at.curved = (any & on_surface) != 0;
 }
 
 void inertial_gradient(const System& system, std::span<Vec3> g) {

@@ -48,7 +48,7 @@ inline Vec3 momentum(const Body& b, const Vec3& v) { return {b.mass * v.x, b.mas
 double square(const System& system, std::span<Vec3> g);
 
 /// Adds Jᵀ s to g and writes each joint's impulses, its regime, and the x of those that flow.
-void add_impulses(System& system, std::span<Vec3> g, Evaluation& told);
+void add_impulses(System& system, std::span<Vec3> g, Evaluation& at);
 
 /// ∇f into g at the bodies' v, once `change(i, body)` has changed each of them.
 template <class Change>

@@ -306,7 +306,8 @@ Structure::Impl& impl_of(const Structure& structure) {
 
 Archive::Json written(const Structure& structure) {
   Structure::Impl& impl = impl_of(structure);
-  if (!impl.told_all()) throw std::logic_error("save: call Structure::update() after the step, then save");
+  if (!impl.delivered_all())
+    throw std::logic_error("save: call Structure::update() after the step, then save");
   Archive::Json document;
   Archive archive(document, false);
   Structure::Impl::Save(impl, archive).run();

@@ -69,9 +69,9 @@ double StepLaws::deferred_share(System& system, double h) {
     all += now;
     r.deferred_drift = now;
   }
-  const double waits = (1 - share) * (deferred < all ? std::sqrt(deferred / all) : 1);
-  for (JointRecord& r : system.records) r.deferred_drift *= waits * waits;
-  return waits;
+  const double deferred_now = (1 - share) * (deferred < all ? std::sqrt(deferred / all) : 1);
+  for (JointRecord& r : system.records) r.deferred_drift *= deferred_now * deferred_now;
+  return deferred_now;
 }
 
 // A rigid row's spring goes with the step, and keeps its force. Where a spring was edited, or a rigid one's
@@ -150,7 +150,7 @@ bool StepLaws::begin(System& system, double h) {
   h_ = h;
   delta_ = delta;
   const bool drifts = h < drift_time;
-  const double waits = deferred_share(system, h);
+  const double deferred = deferred_share(system, h);
   if (!changed && !drifts) {
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
@@ -164,14 +164,14 @@ bool StepLaws::begin(System& system, double h) {
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
-    Rows strain, waiting{};
+    Rows strain, drift{};
     for (unsigned i = 0; i < 3; ++i) {
       strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
-      if (drifts && j.G[i] > 0 && !is_slack(j, r, i)) waiting[i] = waits * beyond_force(j, r, i);
+      if (drifts && j.G[i] > 0 && !is_slack(j, r, i)) drift[i] = deferred * beyond_force(j, r, i);
     }
     if (changed) follow_law(j, r, strain);
     for (unsigned i = 0; i < 3; ++i) {
-      const double e = r.gap[i] - j.neutral[i] - waiting[i];
+      const double e = r.gap[i] - j.neutral[i] - drift[i];
       j.bias[i] = j.relaxation[i] * (e + j.trend[i]) - j.carry[i] * j.rate[i];
     }
   }

@@ -103,7 +103,7 @@ class Draft {
     if (lower_impulse > 0 || upper_impulse > 0) rows.links[0].goes_on &= ~(1u << row);
     const double over = gap[row] - lower, under = upper - gap[row];
     open(J);
-    tell(lower_impulse, row, -1, true);
+    channel(lower_impulse, row, -1, true);
     if (upper - lower < 2 * slop[row]) {
       hold(row, (over - under) / 2);
     } else {
@@ -111,15 +111,15 @@ class Draft {
       open(J);
       if (under < out_of_reach[row]) set(row, unlimited, -way(row, under), unlimited, 0);
     }
-    tell(upper_impulse, row, 1, true);
+    channel(upper_impulse, row, 1, true);
   }
   /// The impulse that Box2D keeps of the last link's row, or of some of them.
-  void tell(float& impulse, unsigned row, int sense, bool one_sided = false) {
+  void channel(float& impulse, unsigned row, int sense, bool one_sided = false) {
     Rows of_row{};
     of_row[row] = sense;
-    tell(impulse, of_row, one_sided);
+    channel(impulse, of_row, one_sided);
   }
-  void tell(float& impulse, const Rows& sense, bool one_sided = false) {
+  void channel(float& impulse, const Rows& sense, bool one_sided = false) {
     const auto link = static_cast<unsigned>(rows.count - 1);
     rows.channels[rows.channel_count++] = {&impulse, link, sense, one_sided};
     for (unsigned i = 0; i < 3; ++i) rows.links[link].impulse[i] += sense[i] * double{impulse};
@@ -176,10 +176,10 @@ void draft(b2RevoluteJoint& j, const Places& at, Draft& d) {
   locate(d, j, at, inverse(at.a.turn), j.GetReferenceAngle());
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);
-  d.tell(of(j, b2RevoluteJoint_m_impulse{}).x, axial, -1);
-  d.tell(of(j, b2RevoluteJoint_m_impulse{}).y, shear, -1);
+  d.channel(of(j, b2RevoluteJoint_m_impulse{}).x, axial, -1);
+  d.channel(of(j, b2RevoluteJoint_m_impulse{}).y, shear, -1);
   if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
-  d.tell(of(j, b2RevoluteJoint_m_motorImpulse{}), rotation, -1);
+  d.channel(of(j, b2RevoluteJoint_m_motorImpulse{}), rotation, -1);
   limit(d, j, rotation, b2RevoluteJoint_m_lowerImpulse{}, b2RevoluteJoint_m_upperImpulse{});
 }
 
@@ -187,10 +187,10 @@ void draft(b2PrismaticJoint& j, const Places& at, Draft& d) {
   locate(d, j, at, axis_of(j), j.GetReferenceAngle());
   d.hold(shear, d.gap[shear]);
   d.hold(rotation, d.gap[rotation]);
-  d.tell(of(j, b2PrismaticJoint_m_impulse{}).x, shear, -1);
-  d.tell(of(j, b2PrismaticJoint_m_impulse{}).y, rotation, -1);
+  d.channel(of(j, b2PrismaticJoint_m_impulse{}).x, shear, -1);
+  d.channel(of(j, b2PrismaticJoint_m_impulse{}).y, rotation, -1);
   if (j.IsMotorEnabled()) d.drive(axial, j.GetMotorSpeed(), j.GetMaxMotorForce());
-  d.tell(of(j, b2PrismaticJoint_m_motorImpulse{}), axial, -1);
+  d.channel(of(j, b2PrismaticJoint_m_motorImpulse{}), axial, -1);
   limit(d, j, axial, b2PrismaticJoint_m_lowerImpulse{}, b2PrismaticJoint_m_upperImpulse{});
 }
 
@@ -202,7 +202,7 @@ void draft(b2DistanceJoint& j, const Places& at, Draft& d) {
     return;
   }
   float& impulse = of(j, b2DistanceJoint_m_impulse{});
-  d.tell(impulse, axial, -1);
+  d.channel(impulse, axial, -1);
   if (j.GetMinLength() == j.GetMaxLength()) return d.hold(axial, d.gap[axial] - j.GetMinLength());
   if (j.GetStiffness() > 0) d.spring(axial, d.gap[axial] - j.GetLength(), j.GetStiffness(), j.GetDamping());
   d.limit(axial, j.GetMinLength(), j.GetMaxLength(), of(j, b2DistanceJoint_m_lowerImpulse{}),
@@ -212,11 +212,11 @@ void draft(b2DistanceJoint& j, const Places& at, Draft& d) {
 void draft(b2WheelJoint& j, const Places& at, Draft& d) {
   locate(d, j, at, axis_of(j));
   if (j.GetStiffness() > 0) d.spring(axial, d.gap[axial], j.GetStiffness(), j.GetDamping());
-  d.tell(of(j, b2WheelJoint_m_springImpulse{}), axial, -1);
+  d.channel(of(j, b2WheelJoint_m_springImpulse{}), axial, -1);
   d.hold(shear, d.gap[shear]);
-  d.tell(of(j, b2WheelJoint_m_impulse{}), shear, -1);
+  d.channel(of(j, b2WheelJoint_m_impulse{}), shear, -1);
   if (j.IsMotorEnabled()) d.drive(rotation, j.GetMotorSpeed(), j.GetMaxMotorTorque());
-  d.tell(of(j, b2WheelJoint_m_motorImpulse{}), rotation, -1);
+  d.channel(of(j, b2WheelJoint_m_motorImpulse{}), rotation, -1);
   limit(d, j, axial, b2WheelJoint_m_lowerImpulse{}, b2WheelJoint_m_upperImpulse{});
 }
 
@@ -225,14 +225,14 @@ void draft(b2WeldJoint& j, const Places& at, Draft& d) {
   b2Vec3& impulse = of(j, b2WeldJoint_m_impulse{});
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);
-  d.tell(impulse.x, axial, -1);
-  d.tell(impulse.y, shear, -1);
+  d.channel(impulse.x, axial, -1);
+  d.channel(impulse.y, shear, -1);
   if (j.GetStiffness() > 0) {
     d.spring(rotation, d.gap[rotation], j.GetStiffness(), j.GetDamping());
   } else {
     d.hold(rotation, d.gap[rotation]);
   }
-  d.tell(impulse.z, rotation, -1);
+  d.channel(impulse.z, rotation, -1);
 }
 
 // Along and across what the spring asks for, in which direction the force is that Box2D limits. A is not
@@ -260,8 +260,8 @@ void draft(b2MouseJoint& j, const Places& at, Draft& d) {
   const double across = at_most ? 0.04 : half;
   d.spring(axial, d.gap[axial], k, c, std::sqrt(1 - across * across) * most);
   d.spring(shear, d.gap[shear], k, c, across * most);
-  d.tell(impulse.x, Rows{-pull.c, pull.s, 0});
-  d.tell(impulse.y, Rows{-pull.s, -pull.c, 0});
+  d.channel(impulse.x, Rows{-pull.c, pull.s, 0});
+  d.channel(impulse.y, Rows{-pull.s, -pull.c, 0});
 }
 
 // The way from the ground's anchors over both bodies, length A + ratio · length B, is one row.
@@ -289,7 +289,7 @@ void draft(b2PulleyJoint& j, const Places& at, Draft& d) {
   J.bu *= ratio;
   d.open(J);
   d.hold(axial, a + ratio * b - (double{j.GetLengthA()} + ratio * j.GetLengthB()));
-  d.tell(of(j, b2PulleyJoint_m_impulse{}), axial, 1);
+  d.channel(of(j, b2PulleyJoint_m_impulse{}), axial, 1);
 }
 
 }  // namespace

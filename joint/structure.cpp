@@ -47,7 +47,7 @@ void Structure::Impl::watch_is_gone(bool with_world) {
   joints.clear();
   events.pending.clear();
   nodes.orphans.clear();
-  events.told = 0;
+  events.delivered = 0;
   watch = nullptr;
   if (with_world) world = nullptr;
 }
@@ -152,7 +152,7 @@ void dynamics::Reports::close_step() {
 }
 
 void Structure::Impl::update() {
-  if (watch == nullptr || events.telling) return;
+  if (watch == nullptr || events.delivering) return;
   if (world->IsLocked())
     throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
   island->let_bullets_go(*world);
@@ -161,7 +161,7 @@ void Structure::Impl::update() {
   for (const auto& c : island->components) {
     if (c->is_of(*this)) c->structures.front()->gone.clamped += c->close_ledger();
   }
-  tell();
+  deliver();
   if (watch == nullptr) return;
   if (std::exchange(broke_, false)) {
     for (std::size_t i = members.size(); i-- > 0;) {
@@ -190,10 +190,10 @@ void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {
   for (Mirror& m : c->mirrors) m.left.c -= new_origin;
 }
 
-bool Structure::Impl::told_all() const {
+bool Structure::Impl::delivered_all() const {
   const auto open = [this](const auto& c) { return c->account.open && c->is_of(*this); };
   const auto broken = [](const auto& m) { return m->broken; };
-  return !reports.stepped && events.pending.empty() && nodes.orphans.empty() && !events.telling &&
+  return !reports.stepped && events.pending.empty() && nodes.orphans.empty() && !events.delivering &&
          !island->holds_bullets() &&
          std::none_of(island->components.begin(), island->components.end(), open) &&
          std::none_of(members.begin(), members.end(), broken);
@@ -219,7 +219,7 @@ auto Structure::Impl::state() const -> State {
           .reports = reports,
           .nodes = nodes,
           .gone = gone};
-  s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.told), events.pending.end());
+  s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.delivered), events.pending.end());
   for (const auto& m : members) s.members.push_back(*m);
   return s;
 }
@@ -232,7 +232,7 @@ void Structure::Impl::restore(const State& s) {
   nodes = s.nodes;
   gone = s.gone;
   events.pending.assign(s.pending.begin(), s.pending.end());
-  events.told = 0;
+  events.delivered = 0;
   broke_ = true;  // update() looks for itself
   members.clear();
   joints.clear();

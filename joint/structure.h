@@ -24,8 +24,8 @@ struct Events {
     JointEvent event;
   };
   std::vector<Pending> pending;
-  std::size_t told = 0;  // of them
-  bool telling = false;  // the handler is at work
+  std::size_t delivered = 0;  // of them
+  bool delivering = false;    // the handler is at work
 };
 
 struct Reports {
@@ -80,7 +80,7 @@ struct Structure::Impl {
   void shift_origin(const b2Vec2& new_origin, dynamics::Member& caller);
   std::size_t bytes() const;
   /// Whether update() has delivered all events of the last step and removed what broke.
-  bool told_all() const;
+  bool delivered_all() const;
   /// All bodies of the world go, unannounced.
   void clear();
   JointEnergy energy() const;
@@ -106,7 +106,7 @@ struct Structure::Impl {
  private:
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
   void say(dynamics::Member& member, JointEvent event);
-  void tell();
+  void deliver();
 
   bool broke_ = false;  // some joint, since the last update()
 };

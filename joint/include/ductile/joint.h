@@ -223,7 +223,7 @@ struct StructureDef {
 
 /// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
 /// the bodies since the start is elastic + dissipated + damping + numerical, of which `driven` came from
-/// drives and from bodies of prescribed velocity. Where structures touch, the first tells `damping` and on.
+/// drives and from bodies of prescribed velocity. Where structures touch, the first reports `damping` and on.
 struct JointEnergy {
   double elastic = 0;  ///< stored now: ½ Σ k e²
   double dissipated =
