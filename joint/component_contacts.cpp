@@ -31,18 +31,28 @@ int Component::index_of(const b2Body* body) const {
   return at != by_address_.end() && at->first == body ? at->second : -1;
 }
 
-// Velocities as they were before the contacts' stored impulses went into them.
+// Velocities as they were before the contacts' stored impulses went into them. The floats are those of
+// b2ContactSolver::WarmStart(), in its order: where they give Box2D's velocities, no rounding is in those.
 void Component::set_warm_starts_aside() {
+  const auto warm = [](Mirror& m, const b2Vec2& arm, float by_mass, float by_inertia, const b2Vec2& P) {
+    m.expected.w += by_inertia * b2Cross(arm, P);
+    m.expected.v += by_mass * P;
+    m.exact -= {double{by_mass} * P.x, double{by_mass} * P.y, double{by_inertia} * b2Cross(arm, P)};
+  };
   for (const Touch& t : outside_.touches) {
     const VelocityConstraint& v = *t.velocity;
-    const b2Vec2 n = v.normal, l{n.y, -n.x};
-    Vec3 &a = mirrors[z(t.in_a)].exact, &b = mirrors[z(t.in_b)].exact;
+    const b2Vec2 tangent = b2Cross(v.normal, 1.0f);
     for (int32 k = 0; k < v.count; ++k) {
       const PointConstraint& p = v.points[k];
-      const double s = p.normal_impulse, t_ = p.tangent_impulse;
-      const double x = s * n.x + t_ * l.x, y = s * n.y + t_ * l.y;
-      a += {v.inverse_mass_a * x, v.inverse_mass_a * y, v.inverse_inertia_a * (p.ra.x * y - p.ra.y * x)};
-      b -= {v.inverse_mass_b * x, v.inverse_mass_b * y, v.inverse_inertia_b * (p.rb.x * y - p.rb.y * x)};
+      const b2Vec2 P = p.normal_impulse * v.normal + p.tangent_impulse * tangent;
+      warm(mirrors[z(t.in_a)], p.ra, -v.inverse_mass_a, -v.inverse_inertia_a, P);
+      warm(mirrors[z(t.in_b)], p.rb, v.inverse_mass_b, v.inverse_inertia_b, P);
+    }
+  }
+  for (const Touch& t : outside_.touches) {
+    for (const int body : {t.in_a, t.in_b}) {
+      Mirror& m = mirrors[z(body)];
+      if (solver.is_free(body) && same_bits(m.expected, m.taken)) m.exact = m.alone;
     }
   }
 }

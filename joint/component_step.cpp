@@ -84,8 +84,8 @@ bool Component::as_before(const b2SolverData& data) const {
 }
 
 // The velocity that Box2D brings. Where its floats, bit by bit, are what gravity and damping make of those
-// that we gave, so are the doubles: rounded anew in each step, they would shake what swings, and spoil the
-// forecast.
+// that we gave, and what contacts' stored impulses add to that (set_warm_starts_aside()), so are the doubles:
+// rounded anew in each step, they would shake what swings or rests, and spoil the forecast.
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
@@ -97,14 +97,15 @@ void Component::take(Mirror& m, const b2SolverData& data) {
   const b2Vec2& gravity = m.body->GetWorld()->GetGravity();
   const float h = data.step.dt, scale = m.body->GetGravityScale();
   const float damping = m.body->GetLinearDamping(), turn_damping = m.body->GetAngularDamping();
-  b2Velocity v = m.given;
+  b2Velocity& v = m.expected = m.given;
   v.v += h * m.mass.inverse_mass * (scale * m.mass.mass * gravity);
   v.v *= 1.0f / (1.0f + h * damping);
   v.w *= 1.0f / (1.0f + h * turn_damping);
-  if (v.v == m.taken.v && v.w == m.taken.w) {
-    const double weight = double{h} * scale, slower = 1 / (1 + double{h} * damping);
-    m.exact = {slower * (m.exact.x + weight * gravity.x), slower * (m.exact.y + weight * gravity.y),
-               m.exact.w / (1 + double{h} * turn_damping)};
+  const double weight = double{h} * scale, slower = 1 / (1 + double{h} * damping);
+  m.alone = {slower * (m.exact.x + weight * gravity.x), slower * (m.exact.y + weight * gravity.y),
+             m.exact.w / (1 + double{h} * turn_damping)};
+  if (same_bits(v, m.taken)) {
+    m.exact = m.alone;
   } else {
     m.exact = in_doubles(m.taken);
     const b2Vec2 jump = m.body->GetLinearVelocity() - m.given.v;

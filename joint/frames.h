@@ -19,6 +19,8 @@ inline bool same(const b2Position& a, const b2Position& b) {
   return same(a.c.x, b.c.x) && same(a.c.y, b.c.y) && same(a.a, b.a);
 }
 
+inline bool same_bits(const b2Velocity& a, const b2Velocity& b) { return a.v == b.v && a.w == b.w; }
+
 inline Vec3 into_own_frame(const Turn& turn, double x, double y, double w) {
   return {turn.c * x + turn.s * y, turn.c * y - turn.s * x, w};
 }
