@@ -110,9 +110,11 @@ void Component::steady(Contact& c) const {
   const double near = last_bits * (1 + std::abs(at.x) + std::abs(at.y));
   const auto moved = [](double x, double y) { return std::max(std::abs(x), std::abs(y)); };
   if (std::max(moved(c.ax - last.ax, c.ay - last.ay), moved(c.bx - last.bx, c.by - last.by)) > near) return;
-  if (std::max(moved(c.normal_a.c - last.normal_a.c, c.normal_a.s - last.normal_a.s),
-               moved(c.normal_b.c - last.normal_b.c, c.normal_b.s - last.normal_b.s)) > last_bits)
-    return;
+  // What turns a body moves its point by so much.
+  const auto turns = [&](const Turn& now, const Turn& then, double x, double y) {
+    return moved(now.c - then.c, now.s - then.s) > std::max(last_bits, near / moved(x, y));
+  };
+  if (turns(c.normal_a, last.normal_a, c.ax, c.ay) || turns(c.normal_b, last.normal_b, c.bx, c.by)) return;
   c.ax = last.ax, c.ay = last.ay, c.bx = last.bx, c.by = last.by;
   c.normal_a = last.normal_a, c.normal_b = last.normal_b;
 }

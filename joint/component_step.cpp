@@ -73,7 +73,7 @@ bool Component::as_before(const b2SolverData& data) const {
   const float slack = this->slack();
   for (const Mirror& m : mirrors) {
     if (!m.present) continue;
-    if (!same(m.pose_in(data), m.left)) return false;
+    if (!m.stays(m.pose_in(data))) return false;
     if (m.type == b2_staticBody) continue;
     const b2Velocity& v = data.velocities[m.island_index];
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
@@ -150,10 +150,10 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     const b2Position at = m.pose_in(data);
     if (m.type == b2_staticBody) m.exact = {};
-    if (m.guest && !same(at, m.left)) {
+    if (m.guest && !m.stays(at)) {
       put(solver.places[i], origin.relative(m.left = at));
     } else {
-      moved |= !same(at, m.left);
+      moved |= !m.stays(at);
     }
     start_from(i);
   }
@@ -171,7 +171,7 @@ void Component::first_velocity(const b2SolverData& data) {
       goal_[i] = solver.places[i].pose;
       if (m.guest) continue;
       const b2Position at = m.pose_in(data);
-      goal_[i] = same(at, m.left) ? solver.places[i].pose : origin.relative(at);
+      goal_[i] = m.stays(at) ? solver.places[i].pose : origin.relative(at);
       if (m.type == b2_staticBody) m.left = at;
     }
     if (direct()) {
@@ -326,7 +326,7 @@ void Component::position(const b2SolverData& data) {
     goal_[i] = solver.places[i].pose;
     if (!mirrors[i].present) continue;
     b2Position& at = data.positions[mirrors[i].island_index];
-    const bool kept = same(at, mirrors[i].left);
+    const bool kept = mirrors[i].stays(at);
     if (mirrors[i].guest && !kept) {
       put(solver.places[i], goal_[i] = origin.relative(mirrors[i].left = at));
       continue;

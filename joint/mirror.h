@@ -4,6 +4,10 @@
 
 #include <box2d/box2d.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "frames.h"
 #include "pose.h"
 #include "tape.h"
 #include "vec3.h"
@@ -54,6 +58,14 @@ struct Mirror {
   b2Position pose_in(const b2SolverData& data) const {
     return type == b2_staticBody ? b2Position{body->GetWorldCenter(), body->GetAngle()}
                                  : data.positions[island_index];
+  }
+  /// Whether nothing has pushed it from where it was left. Box2D corrects a guest's pose, and turns it by
+  /// what its place is rounded by.
+  bool stays(const b2Position& at) const {
+    if (!guest || !(mass.gyration > 0)) return same(at, left);
+    const float rounding = 2.4e-7f * std::max({1.0f, std::abs(left.c.x), std::abs(left.c.y)});
+    return same(at.c.x, left.c.x) && same(at.c.y, left.c.y) &&
+           std::abs(at.a - left.a) <= std::max(rounding / mass.gyration, 2.4e-7f * std::abs(left.a));
   }
   void keep(Tape& tape);
 };

@@ -45,6 +45,7 @@ void Newton::forget() {
 }
 
 double Newton::tolerance_of(const System& system) const {
+  if (stands_) return tunables.standing_tolerance;
   return system.contacts.empty() ? tunables.tolerance : tunables.contact_tolerance;
 }
 
@@ -186,6 +187,7 @@ Evaluation Newton::solve_by_interior_point(System& system, Hessian& hessian, Sol
 
 Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
                        const LinearPrediction* prediction, SolveReport& report) {
+  stands_ = !system.contacts.empty() && last.speed2 <= 1e-10 * last.impulse2;
   Round round;
   round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0;
   // Rounds that do not end in a solution leave impulses that are far from any.

@@ -30,6 +30,9 @@ struct NewtonTunables {
   /// Likewise with contacts, which are not known as well: root moments good to 1e-7. With 1e-8 a swaying
   /// frame of 2000 joints under load takes three rounds a step instead of two.
   double contact_tolerance = 1e-7;
+  /// Likewise, of a structure that stands still under what touches it: what the other tolerances leave would
+  /// shake its stiff rows, and it would not come to rest, where nothing is solved any more.
+  double standing_tolerance = 1e-9;
   /// Rounds after which a solve in which rows flow is handed to the interior point method: many rows change
   /// their regime against each other, and each round finds out about few of them.
   int flow_rounds = 5;
@@ -88,6 +91,7 @@ class Newton {
   std::vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;
   bool gradient_known_ = false;
+  bool stands_ = false;  // as of the last step
   double left2_ = 0, pushed2_ = 0;
   /// |∇f|² falls by so many times in a round with a factor of an earlier step.
   double contraction_ = 1e6;
