@@ -445,14 +445,12 @@ TEST(ContactCost, ABlockThatRestsAddsNoRounds) {
 
 // Of steel that damps, a frame under load comes to rest, and nothing is solved any more.
 TEST(ContactCost, ALoadedFrameComesToRest) {
-  for (const bool loaded : {false, true}) {
-    bench::Layout layout = bench::frame(4, 4);
-    layout.damping = 0.05;  // s: c/k
-    bench::Built built(layout, bench::Built::ours, 10);
-    if (loaded) bench::load_roof(built, 4);
-    built.run(60);
-    EXPECT_EQ(sum_of(built).solves, 0) << loaded;
-  }
+  bench::Layout layout = bench::frame(15, 15);
+  layout.damping = 0.05;  // s: c/k
+  bench::Built built(layout, bench::Built::ours, 10);
+  bench::load_roof(built, 15);
+  built.run(60);
+  EXPECT_EQ(sum_of(built).solves, 0);
 }
 
 // A pile is Box2D's but for what touches the pieces. Each of its iterations pushes: the answer takes a round
