@@ -60,8 +60,8 @@ void add_line(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& 
     for (const auto& [column, b] : w) entries.emplace_back(row, column, N / drawn * a * b);
 }
 
-// What acts at the end of a support's arm, the support and loads there, acts on the bent bar, w beside the
-// rigid piece: where the support holds its end, −w is how far the rigid piece is off it.
+// What acts at the end of a support's arm, the support and loads there, acts on the bent bar, not on the
+// rigid piece, which is off the support.
 void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, const Equilibrium& statics,
                  std::size_t index, Point force, const std::function<double(const Plan::Load&)>& dead) {
   const PlannedJoint& joint = plan.joints[index];
@@ -72,16 +72,16 @@ void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan,
   const Index row = 3 * static_cast<Index>(index);
   const bool along_axis = std::abs(dot(across, joint.axis)) > 0.99;
   if (!along_axis && std::abs(dot(across, joint.axis)) > 0.01) return;
-  if (k[row + (along_axis ? axial : shear)] == 0) return;
+  const double k_across = k[row + (along_axis ? axial : shear)];
+  if (k_across == 0) return;
   double N = -dot(force, arm.along);  // the support pulls its piece back
   for (const Plan::Load& load : plan.loads)
     if (load.piece == joint.b && length(load.at - joint.anchor) < 1e-6 * arm.length)
       N += dead(load) * dot(load.def.force, arm.along);
-  const Eigen::Matrix2d form = N * curved_at_support(arm, k[row + rotation]);
+  const Eigen::Matrix2d form = N * curved_at_support(arm, k_across, k[row + rotation]);
   const int c = statics.column[static_cast<std::size_t>(joint.b)];
   const auto s = statics.scale(joint.b);
-  const Eigen::Vector2d columns[] = {
-      {0, -s[0] * across.x}, {0, -s[1] * across.y}, {s[2], -s[2] * arm.length}};
+  const Eigen::Vector2d columns[] = {{0, s[0] * across.x}, {0, s[1] * across.y}, {s[2], s[2] * arm.length}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) entries.emplace_back(c + i, c + j, columns[i].dot(form * columns[j]));
 }

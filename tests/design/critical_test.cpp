@@ -20,7 +20,8 @@ constexpr double within = 1e-3;
 // Euler's bars neither shear nor shorten.
 Plan slender(const SceneDef& scene) {
   Plan plan = calibrate(scene);
-  for (PlannedJoint& joint : plan.joints) joint.stiffness.N = joint.stiffness.Q = unlimited;
+  for (PlannedJoint& joint : plan.joints)
+    if (joint.a >= 0) joint.stiffness.N = joint.stiffness.Q = unlimited;  // supports are as they are
   return plan;
 }
 double critical(const SceneDef& scene) { return critical_load(slender(scene)).factor; }
@@ -80,6 +81,33 @@ TEST(CriticalLoad, AColumnOnASpring) {
     const double phi = root(0.01, pi / 2 - 1e-6, [&](double x) { return x * std::tan(x) - k; });
     EXPECT_NEAR(critical(sprung) / (phi * phi * EI / (L * L)), 1, within) << k;
   }
+}
+
+// On pins, one of which gives across: the bar turns as a whole at k L, or bends at Euler's load.
+TEST(CriticalLoad, AColumnThatASpringHoldsAcross) {
+  for (const double share : {0.003, 0.3, 0.9, 1.5, 100.}) {
+    SceneDef sprung = on_two_pins();
+    sprung.supports[1].fix_y = false;
+    sprung.supports[1].stiffness_y = share * pi * pi * EI / (L * L * L);
+    EXPECT_NEAR(critical(sprung) / (std::min(share, 1.) * pi * pi * EI / (L * L)), 1, within) << share;
+  }
+}
+
+// Clamped against turning at one end and free to turn at the other, held across by a spring at either:
+// tan φ = φ − φ³ EI/kL³, between the free column's π/2 and 4.4934.
+TEST(CriticalLoad, AClampedColumnThatASpringHoldsAcross) {
+  for (const double k : {0.1, 10., 1000.})
+    for (const bool at_clamp : {true, false}) {
+      SceneDef sprung = on_two_pins();
+      SupportDef &clamp = sprung.supports[0], &end = sprung.supports[1];
+      clamp.fix_angle = true;
+      SupportDef& gives = at_clamp ? clamp : end;
+      gives.fix_y = false;
+      gives.stiffness_y = k * EI / (L * L * L);
+      const auto f = [&](double x) { return std::sin(x) - std::cos(x) * (x - x * x * x / k); };
+      const double phi = root(pi / 2, 4.4934, f);
+      EXPECT_NEAR(critical(sprung) / (phi * phi * EI / (L * L)), 1, within) << k << at_clamp;
+    }
 }
 
 // A stepped column, fixed at its foot: stiff over the lower half. k₁ tan(k₁ L/2) = k₂ cot(k₂ L/2).
