@@ -8,6 +8,8 @@
 // Math. 8 (1951) 373).
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "ductile/targets.h"
 #include "structures.h"
 
@@ -86,6 +88,50 @@ TEST(LeastMass, RaosPortal) {
   EXPECT_NEAR(bears(least.scene, 1) / unit, 7, 7e-5);
   EXPECT_NEAR(bears(least.scene, 3) / unit, 5, 5e-5);
   EXPECT_NEAR(least.mass / mass(1, unit) / 212, 1, 1e-5);
+}
+
+// A. G. M. Michell, The limits of economy of material in frame-structures, Phil. Mag. 8 (1904) 589: of all
+// frames on one side of a line that carry a force F in the middle between two supports 2a apart on it, the
+// lightest is half a wheel of volume (π/2) F a (1/P + 1/Q), P and Q what bars bear in tension and compression
+// (the formula as later papers quote it; of his only the first page was read). Of all bars between the ends
+// of n spokes and the hub, the rim and the spokes are lightest: tan(π/2n) F in each spoke and the same over
+// 2 sin(π/2n) in the rim make 2n tan(π/2n) F a, and a displacement that stretches spokes by 1 and shortens
+// the rim by 1 strains a bar over m sectors by 1 − 2m tan(π/2n)/tan(mπ/2n), which is between −1 and 1. It
+// falls to Michell's π F a as n grows.
+TEST(LeastMass, MichellsHalfWheel) {
+  const double a = 10, F = 1e6, drawn = 1e-5, pi = std::acos(-1.0);
+  double last = std::numeric_limits<double>::infinity();
+  for (const int n : {2, 4, 6}) {
+    SceneDef scene;
+    scene.gravity = {};
+    std::vector<Point> nodes{{0, 0}};
+    for (int i = 0; i <= n; ++i) nodes.push_back({-a * std::cos(pi * i / n), a * std::sin(pi * i / n)});
+    std::vector<std::vector<std::string>> at(nodes.size());
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+        if (i == 1 && j + 1 == nodes.size()) continue;  // along two spokes
+        BodyDef bar =
+            member("bar" + std::to_string(i) + "." + std::to_string(j), nodes[i], nodes[j], false, 0.5);
+        bar.cuts.pop_back();
+        bar.depth = drawn;
+        groups.push_back({scene.bodies.size()});
+        for (const std::size_t end : {i, j}) at[end].push_back(bar.name);
+        scene.bodies.push_back(bar);
+      }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      scene.joints.push_back(node(at[i], nodes[i]));
+      scene.joints.back().overrides = {.moment = 0, .axial = unlimited, .shear = unlimited};
+    }
+    scene.supports = {{.body = at[1][0], .at = nodes[1], .fix_x = true, .fix_y = true},
+                      {.body = at.back()[0], .at = nodes.back(), .fix_y = true}};
+    scene.loads = {{.body = at[0][0], .at = nodes[0], .force = {0, -F}}};
+    const double volume = least_mass(scene, groups, 1).mass / mass_per_volume, unit = F * a / 350e6;
+    EXPECT_NEAR(volume / unit / (2 * n * std::tan(pi / (2 * n))), 1, 1e-5) << n;
+    EXPECT_GT(volume, pi * unit);
+    EXPECT_LT(volume, last);
+    last = volume;
+  }
 }
 
 // Fixed feet, V in the middle of the beam and H at its height, span 1.2 h. Active are the beam's mechanism
