@@ -73,7 +73,10 @@ class Artist {
     if (panel_.hinges.empty()) draw_joints();
     const std::vector<Arrow> arrows = loads();
     for (const Arrow& arrow : arrows) avoid(arrow);
-    for (const Arrow& arrow : arrows) draw_arrow(to, arrow);
+    // What acts alike on the next point, as a load that is spread along a bar, needs no label of its own.
+    for (std::size_t i = 0; i < arrows.size(); ++i)
+      draw_arrow(to, arrows[i],
+                 i > 0 && arrows[i].force == arrows[i - 1].force && arrows[i].moment == arrows[i - 1].moment);
     if (!panel_.hinges.empty()) draw_joints();  // no arrow covers a hinge's number
   }
 
@@ -259,14 +262,16 @@ class Artist {
   }
 
   struct Shaft {
-    Point tail, tip, along;  // px
+    Point at, tail, tip, along;  // px
   };
+  /// From where it acts, or to there where its tip would be outside of the panel.
   Shaft shaft(const Arrow& arrow) const {
     const double force = std::hypot(arrow.force.x, arrow.force.y);
     const Point at = px(Pose(plan_, panel_, arrow.piece)(arrow.at));
-    if (force == 0) return {at, at, {}};
-    const Point along{arrow.force.x / force, -arrow.force.y / force};
-    return {at, at + 60 * mark_ * along, along};
+    if (force == 0) return {at, at, at, {}};
+    const Point along{arrow.force.x / force, -arrow.force.y / force}, shaft = 60 * mark_ * along;
+    const bool turned = !frame_.place.holds(at + shaft) && frame_.place.holds(at - shaft);
+    return {at, turned ? at - shaft : at, turned ? at : at + shaft, along};
   }
 
   void avoid(const Arrow& arrow) {
@@ -274,18 +279,18 @@ class Artist {
     if (arrow.force != Point{}) labels_.avoid(s.tail, s.tip);
     if (arrow.moment != 0)
       for (const double turn : {-1., 1.})
-        labels_.avoid(s.tail + Point{-18, turn * 18}, s.tail + Point{18, turn * 18});
+        labels_.avoid(s.at + Point{-18, turn * 18}, s.at + Point{18, turn * 18});
   }
 
-  void draw_arrow(Node to, const Arrow& arrow) {
+  void draw_arrow(Node to, const Arrow& arrow, bool again) {
     const double force = std::hypot(arrow.force.x, arrow.force.y);
     if (force == 0 && arrow.moment == 0) return;
-    const auto [at, tip, along] = shaft(arrow);
+    const auto [at, tail, tip, along] = shaft(arrow);
     Node group = add(to, "g", "class", "load", "stroke", ink, "stroke-width", "2.4", "fill", "none");
     if (force > 0) {
       const double x = along.x, y = along.y;
       add(group, "path", "d",
-          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", at.x, at.y, tip.x - 6 * x, tip.y - 6 * y));
+          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", tail.x, tail.y, tip.x - 6 * x, tip.y - 6 * y));
       add(group, "path", "fill", ink, "stroke", "none", "d",
           fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", tip.x, tip.y, tip.x - 12 * x - 5 * y,
                       tip.y - 12 * y + 5 * x, tip.x - 12 * x + 5 * y, tip.y - 12 * y - 5 * x));
@@ -293,7 +298,7 @@ class Artist {
       // beyond its tip.
       std::vector<Labels::Spot> spots;
       for (const double share : {0.6, 0.85, 0.3, 1.1}) {
-        const Point p = at + share * (tip - at);
+        const Point p = tail + share * (tip - tail);
         if (std::abs(x) > std::abs(y)) {
           spots.push_back({p + Point{0, -9}, "middle"});
           spots.push_back({p + Point{0, 20}, "middle"});
@@ -303,7 +308,7 @@ class Artist {
         }
       }
       spots.push_back({tip + Point{12 * x, 14 * y + 4}, x < -0.3 ? "end" : x > 0.3 ? "start" : "middle"});
-      labels_.write(group, quantity(force, "N"), spots);
+      labels_.write(group, quantity(force, "N"), spots, !again);
     }
     if (arrow.moment != 0) {
       // Three quarters of a circle; counter-clockwise is positive.
@@ -316,7 +321,8 @@ class Artist {
                      {at + Point{-24, -12}, "end"},
                      {at + Point{24, 22}},
                      {at + Point{-24, 22}, "end"},
-                     {at + Point{0, -26}, "middle"}});
+                     {at + Point{0, -26}, "middle"}},
+                    !again);
     }
   }
 

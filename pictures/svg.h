@@ -32,6 +32,7 @@ struct Box {
     add(Point{other.x1, other.y1});
   }
   bool empty() const { return !(x0 <= x1); }
+  bool holds(Point p) const { return x0 <= p.x && p.x <= x1 && y0 <= p.y && p.y <= y1; }
   double width() const { return x1 - x0; }
   double height() const { return y1 - y0; }
   Box grown(double by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }

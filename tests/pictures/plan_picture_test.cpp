@@ -311,6 +311,47 @@ TEST(Picture, LabelsLieBesideEachOther) {
           << i << " " << j;
 }
 
+// Forty equal loads along a bar: some are labelled, and no label lies on another.
+TEST(Picture, EqualLoadsInARowShareLabels) {
+  Plan plan = beam();
+  plan.loads.clear();
+  for (int i = 0; i < 40; ++i) {
+    const Point at{0.1 * i, 1};
+    plan.loads.push_back({1 + i / 10, at, {.body = "beam", .at = at, .force = {0, -4e3}}});
+  }
+  const auto document = parse(picture_svg(plan, {.panels = {Panel{}}}));
+  std::vector<Point> labels;
+  for (const Node& load : all(document, "load"))
+    if (const Node text = load.child("text")) {
+      EXPECT_EQ(words(load), "4 kN\n");
+      labels.push_back({text.attribute("x").as_double(), text.attribute("y").as_double()});
+    }
+  EXPECT_EQ(all(document, "load").size(), 40u);
+  EXPECT_GT(labels.size(), 3u);
+  EXPECT_LT(labels.size(), 40u);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_TRUE(std::abs(labels[i].x - labels[j].x) >= 28 || std::abs(labels[i].y - labels[j].y) >= 12)
+          << i << " " << j;
+}
+
+// An arrow that would leave the panel, as under the lowest bar, ends where it acts instead.
+TEST(Picture, ArrowsStayInThePanel) {
+  Plan plan = beam();
+  plan.pieces[0].outline = {{{0, -0.01}, {0, 0.01}, {-0.01, 0}}};
+  for (const double down : {1., -1.}) {
+    plan.loads = {{4, {3.9, 0.5}, {.body = "beam", .at = {3.9, 0.5}, .force = {0, -down * 1e3}}}};
+    const auto document = parse(picture_svg(plan, {.panels = {Panel{}, Panel{}, Panel{}}}));
+    const auto panel = document.document_element().child("g").child("rect");
+    const double low = panel.attribute("y").as_double(), high = low + panel.attribute("height").as_double();
+    const std::string d =
+        all(document, "load").front().child("path").next_sibling("path").attribute("d").value();
+    const double tip = std::stod(d.substr(d.find(' ') + 1));
+    EXPECT_GE(tip, low);
+    EXPECT_LE(tip, high);
+  }
+}
+
 TEST(Picture, IsThatOfASimulation) {
   Simulation simulation(beam());
   for (int i = 0; i < 30; ++i) simulation.step();
