@@ -7,7 +7,7 @@
 namespace ductile {
 
 std::string governing(const Plan& plan, const StaticCheck& check) {
-  if (check.first_to_yield.empty()) return "nothing: no joint has a limit";
+  if (check.first_to_yield.empty()) return "nothing: no load makes a joint yield";
   const auto first = static_cast<std::size_t>(check.first_to_yield.front());
   const auto& usage = check.joints[first].usage;
   const std::array rows{std::pair(usage.N, "N"), std::pair(usage.Q, "Q"), std::pair(usage.M, "M")};

@@ -126,6 +126,7 @@ Json json(const Plan& plan) {
   return {{"bodies", std::move(bodies)},
           {"joints", std::move(joints)},
           {"profiles", profiles_json(plan)},
+          {"remarks", remarks(plan)},
           {"left_out", std::move(left_out)}};
 }
 
@@ -155,7 +156,8 @@ std::string table(const Plan& plan, const std::string& scene) {
   }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
     text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
-  if (const std::string profiles = profile_lines(plan); !profiles.empty()) text += '\n' + profiles;
+  if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
+    text += '\n' + notes;
   return text;
 }
 

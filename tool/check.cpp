@@ -55,6 +55,7 @@ Json json(const Plan& plan, const Found& found) {
           {"first_fibre", json(plan, found.fibre)},
           {"first_hinge", json(plan, found.hinge)},
           {"profiles", profiles_json(plan)},
+          {"remarks", remarks(plan)},
           {"time", check.time},
           {"loose", std::move(loose)}};
 }
@@ -87,7 +88,8 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
                         widest, shown(j.N), shown(j.Q), shown(j.M), percent(j.usage.N), percent(j.usage.Q),
                         percent(j.usage.M), shown(found.fibre.joints[i]), shown(j.yields_at));
   }
-  if (const std::string profiles = profile_lines(plan); !profiles.empty()) text += '\n' + profiles;
+  if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
+    text += '\n' + notes;
   if (check.time > 0) text += fmt::format("\nthe loads are those from {:g} s on\n", check.time);
   for (std::size_t i = 0; i < check.loose.size(); ++i)
     text += (i == 0 ? "\nloose, and not looked at: " : ", ") + piece_name(plan, check.loose[i]);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -162,6 +163,60 @@ double ductility(const Material& material) {
   return material.youngs_modulus > 0
              ? material.fracture_strain * material.youngs_modulus / material.yield_stress
              : std::numeric_limits<double>::infinity();
+}
+
+namespace {
+
+/// Names in the order in which they came, the first few of them.
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
+}
+
+/// Of a body's section; without one, as of bodies without material, infinite.
+double least_ductile(const BodyDef& body) {
+  double least = std::numeric_limits<double>::infinity();
+  if (body.profile.empty() && body.material) least = ductility(*body.material);
+  for (const Region& region : body.profile) least = std::min(least, ductility(region.material));
+  return least;
+}
+
+}  // namespace
+
+std::vector<std::string> remarks(const Plan& plan) {
+  std::vector<double> heights(plan.bodies.size());  // of the highest section of a joint
+  for (const PlannedJoint& joint : plan.joints)
+    for (const int piece : {joint.a, joint.b}) {
+      if (piece < 0 || !plan.is_dynamic(piece)) continue;
+      double& height = heights[static_cast<std::size_t>(plan.pieces[static_cast<std::size_t>(piece)].body)];
+      height = std::max(height, joint.height);
+    }
+  std::vector<std::string> result, high;
+  std::map<std::string, std::vector<std::string>> breaking;  // bodies, by how far they yield
+  for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
+    if (heights[i] == 0) continue;
+    if (heights[i] > too_high) high.push_back(plan.bodies[i].name);
+    if (const double strain = least_ductile(plan.bodies[i]); strain < least_ductility)
+      breaking[fmt::format("{:.2g}", strain)].push_back(plan.bodies[i].name);
+  }
+  for (const auto& [strain, names] : breaking)
+    result.push_back(fmt::format(
+        "{}: breaks at {} times the yield strain, before a plastic hinge turns; design with the first fibre",
+        list_of(names), strain));
+  if (!high.empty())
+    result.push_back(
+        fmt::format("{}: {:g} m high where it is cut: scenes are in metres; drawn in millimetres, it needs "
+                    "0.001 of every coordinate, of depths, too",
+                    list_of(high), *std::max_element(heights.begin(), heights.end())));
+  return result;
+}
+
+std::string remark_lines(const Plan& plan) {
+  std::string text;
+  for (const std::string& remark : remarks(plan)) text += remark + '\n';
+  return text;
 }
 
 std::string title_of(const std::string& scene_file) {

@@ -79,9 +79,18 @@ Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.
 std::string shown(double value);
 
-/// ε_f/ε_y: how many times its yield strain a material bears; infinite where E is not known. A plastic moment
-/// needs several.
+/// What one has to know of a plan's capacities: which bodies break before a hinge turns, and whether a
+/// drawing seems to be in millimetres. As lines of a table and for --json.
+std::vector<std::string> remarks(const Plan& plan);
+std::string remark_lines(const Plan& plan);
+
+/// A section of more metres than this was drawn in millimetres.
+inline constexpr double too_high = 20;
+
+/// ε_f/ε_y: how many times its yield strain a material bears; infinite where E is not known.
 double ductility(const Material& material);
+/// What a plastic moment needs of it.
+inline constexpr double least_ductility = 5;
 
 /// What a picture of it is called: "scenes/harbour_crane.scene.json" is "Harbour crane".
 std::string title_of(const std::string& scene_file);

@@ -47,7 +47,8 @@ Json json(const Plan& plan, const Found& found, const Options& options) {
   Json result{{"load_factor", number(found.limit.load_factor)},
               {"hinges", std::move(hinges)},
               {"time", found.limit.time},
-              {"critical_load_factor", number(found.critical.factor)}};
+              {"critical_load_factor", number(found.critical.factor)},
+              {"remarks", remarks(plan)}};
   if (options.second_order) {
     result["second_order_load_factor"] = number(found.pushover.load_factor);
     result["hinges_at"] = Json::array();
@@ -90,6 +91,7 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
                           shown(Q), shown(M));
     }
   }
+  text += remark_lines(plan);
   if (found.limit.time > 0) text += fmt::format("the loads are those from {:g} s on\n", found.limit.time);
   return text;
 }

@@ -137,7 +137,7 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
   std::vector<std::string> result;
   const double extent = std::max(section.extent({1, 0}).second - section.extent({1, 0}).first,
                                  section.extent({0, 1}).second - section.extent({0, 1}).first);
-  if (extent > 20)
+  if (extent > too_high)
     result.push_back(
         fmt::format("it is {:g} m across: sections are in metres; drawn in millimetres, it needs 0.001 of "
                     "every coordinate",
@@ -156,7 +156,7 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
     result.push_back(fmt::format("class 4 in compression: it buckles locally at N = {:.6g} N, A_eff f_y",
                                  -A_eff * subject.regions.front().material.compression()));
   for (const Region& region : subject.regions) {
-    if (const double strain = ductility(region.material); strain < 5) {
+    if (const double strain = ductility(region.material); strain < least_ductility) {
       result.push_back(
           fmt::format("a material breaks at {:.2g} times its yield strain: M is not reached; design with "
                       "yield_moment",
