@@ -35,8 +35,8 @@ Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
   double reach = 0;
   for (const Point& p : plan.pieces[static_cast<std::size_t>(piece)].outline.outer)
     reach = std::max(reach, dot(p - joint.anchor, outward) / 2);
-  const double EI = section->elastic({0, -1}).EI;
-  return EI > 0 ? Arm{reach, EI, -outward} : Arm{};
+  const Elastic e = section->elastic({0, -1});
+  return e.EI > 0 ? Arm{reach, e.EI, -outward, 5. / 6 * e.EA / 2.6} : Arm{};
 }
 
 // rad per N m.
@@ -119,14 +119,13 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
   return arms;
 }
 
-// Complementary energy ½ ∫ (M + F s)²/EI ds of each arm, F across it at its end, s from there. The root of an
-// inverse is the inverse of a root.
-Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
-  Root rigid = k.cwiseSqrt().asDiagonal();
+namespace {
+
+// m/N …: of (u, v, φ) per (N, Q, M), by complementary energy ½ ∫ (M + F s)²/EI ds of each arm, F across it at
+// its end, s from there. Turns are the arms', but for a support's spring.
+Matrix3d flexibility_of(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
   Matrix3d flexibility = k.cwiseInverse().asDiagonal();
-  const bool bends = compliance(arms) > 0;
-  if (bends)  // is the arms', but for a support's spring
-    flexibility(rotation, rotation) = joint.a >= 0 ? 0 : support_gives(k[rotation], compliance(arms));
+  flexibility(rotation, rotation) = joint.a >= 0 ? 0 : support_gives(k[rotation], compliance(arms));
   for (const Arm& arm : arms) {
     if (arm.length == 0) continue;
     const Vector3d n = across(joint, arm), turn = Vector3d::UnitZ();
@@ -135,11 +134,28 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
     flexibility += l * l / (2 * arm.EI) * (n * turn.transpose() + turn * n.transpose());
     flexibility += l / arm.EI * turn * turn.transpose();
   }
-  if (!bends) return rigid;
+  return flexibility;
+}
+
+// Of the joint's slip v, in (θ_a, θ_b, v), what is a spring's between the bars: all but their own shear.
+Vector3d jump(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
+  double gives = 1 / k[shear];
+  for (const Arm& arm : arms)
+    if (arm.length > 0) gives -= arm.GA > 0 ? arm.length / arm.GA : gives;
+  if (gives <= same / k[shear]) return Vector3d::Zero();
+  const Vector3d Q = flexibility_of(joint, arms, k).inverse().row(shear);
+  return gives * Vector3d(-Q[rotation], Q[rotation], Q[shear]);
+}
+
+}  // namespace
+
+// The root of an inverse is the inverse of a root.
+Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k) {
+  if (!(compliance(arms) > 0)) return k.cwiseSqrt().asDiagonal();
   std::vector<int> rows;
   for (int row = 0; row < 3; ++row)
     if (k[row] > 0) rows.push_back(row);
-  const Eigen::MatrixXd own = flexibility(rows, rows), lower = own.llt().matrixL();
+  const Eigen::MatrixXd own = flexibility_of(joint, arms, k)(rows, rows), lower = own.llt().matrixL();
   const Eigen::MatrixXd inverse = lower.inverse();
   Root root = Root::Zero();
   root(rows, rows) = inverse;
@@ -148,18 +164,24 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
 
 // ∫ w'² ds of the cubic whose ends' slopes are α and β against its chord's, ψ = (ℓ_a θ_a + v + ℓ_b θ_b)/ℓ,
 //   ℓ ψ² + ℓ (4 α² − 2 α β + 4 β²)/30,
-// less that of two straight halves with the joint's slip between them, ℓ_a θ_a² + ℓ_b θ_b² + 2 φ v.
-Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, std::array<double, 2> follow) {
+// less that of two straight halves with the joint's slip between them, ℓ_a θ_a² + ℓ_b θ_b² + 2 φ v. A
+// spring's part of v bends nothing: 2 φ_j v of it, φ_j the bars' slope where they meet.
+Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Vector3d& k,
+                std::array<double, 2> follow) {
   const double a = arms[0].length, b = arms[1].length, length = a + b;
   if (length == 0 || joint.a < 0 || joint.node != 0 || is_free(joint, axial) || is_free(joint, shear) ||
       is_free(joint, rotation))
     return Matrix3d::Zero();
-  const Vector3d slip = Vector3d::UnitZ(), turn(follow[0], follow[1], 0), chord = Vector3d(a, b, 1) / length;
+  const Vector3d slip = Vector3d::UnitZ(), turn(follow[0], follow[1], 0), apart = jump(joint, arms, k),
+                 chord = (Vector3d(a, b, 1) - apart) / length;
+  const double of_a = a > 0 ? a / arms[0].EI / compliance(arms) : 0;
+  const Vector3d meet(1 - of_a, of_a, 0);
   const Vector3d alpha = Vector3d::UnitX() - chord, beta = Vector3d::UnitY() - chord;
   Matrix3d form = length * chord * chord.transpose();
   form += length / 30 * (4 * alpha * alpha.transpose() + 4 * beta * beta.transpose());
   form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());
   form -= turn * slip.transpose() + slip * turn.transpose();
+  form += meet * apart.transpose() + apart * meet.transpose();
   form.diagonal() -= Vector3d(a, b, 0);
   return form;
 }

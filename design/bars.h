@@ -23,9 +23,10 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan);
 /// Of a joint of stiffness k = (k_N, k_Q, k_M; 0 in free rows), with the arms of both sides.
 Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Eigen::Vector3d& k);
 
-/// What the bars add to the geometric stiffness of rigid pieces: times N, in (θ_a, θ_b, v). `follow`: the
-/// shares of both turns that the joint's axis follows. 0 where the joint stands for no bar, or a row is free.
-Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms,
+/// What the bars add to the geometric stiffness of rigid pieces: times N, in (θ_a, θ_b, v), of a joint of
+/// stiffness k. `follow`: the shares of both turns that the joint's axis follows. 0 where the joint stands
+/// for no bar, or a row is free.
+Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Eigen::Vector3d& k,
                        std::array<double, 2> follow);
 
 /// The same of a support's arm, in (θ, d): the turn of its piece, and how far to the left of the support the

@@ -27,10 +27,11 @@ struct End {
 
 // N times the bars' form in (θ_a, θ_b, v), v = Σ ± (Je·x + e·r θ).
 void add_curved(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& joint,
-                const std::array<Arm, 2>& arms, double N, const std::vector<End>& ends) {
+                const std::array<Arm, 2>& arms, const Eigen::Vector3d& k, double N,
+                const std::vector<End>& ends) {
   std::array<double, 2> follow{};
   for (const End& end : ends) follow[end.sign > 0] = end.follow;
-  const Eigen::Matrix3d form = N * curved(joint, arms, follow);
+  const Eigen::Matrix3d form = N * curved(joint, arms, k, follow);
   if (form.isZero(0)) return;
   const Point across = left(joint.axis);
   std::vector<std::pair<int, Eigen::Vector3d>> columns;  // of x, y and θ of both: their (θ_a, θ_b, v)
@@ -176,7 +177,8 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
     if (j.node != 0)
       add_node(entries, plan, j, statics.arms()[i], force, ends, dead);
     else
-      add_curved(entries, j, statics.arms()[i], N, ends);
+      add_curved(entries, j, statics.arms()[i], statics.stiffness().segment<3>(3 * static_cast<Index>(i)), N,
+                 ends);
   }
   for (const Plan::Load& load : plan.loads) {
     const int c = column(load.piece);

@@ -37,6 +37,7 @@ struct Arm {
   double length = 0;  ///< m; 0: none
   double EI = 0;      ///< N m²
   Point along;        ///< unit, toward the joint
+  double GA = 0;      ///< N, with the shear coefficient; 0: not known
 };
 
 /// √k of one joint: (N, Q, M) = √kᵀ √k (u, v, θ).

@@ -110,6 +110,20 @@ TEST(CriticalLoad, AClampedColumnThatASpringHoldsAcross) {
     }
 }
 
+// The same on a bearing that gives across, between the column and its foundation.
+TEST(CriticalLoad, AColumnOnABearing) {
+  for (const double k : {0.1, 10., 1000.}) {
+    SceneDef scene = cantilever(n, 0);
+    scene.joints[0].overrides.stiffness_shear = k * EI / (L * L * L);
+    scene.joint.stiffness_shear = scene.joint.stiffness_axial = unlimited;
+    scene.supports = {{.body = "beam", .at = {L, 0}, .fix_y = true}};
+    scene.loads[0].force = {-1, 0};
+    const auto f = [&](double x) { return std::sin(x) - std::cos(x) * (x - x * x * x / k); };
+    const double phi = root(pi / 2, 4.4934, f);
+    EXPECT_NEAR(critical_load(calibrate(scene)).factor / (phi * phi * EI / (L * L)), 1, within) << k;
+  }
+}
+
 // A stepped column, fixed at its foot: stiff over the lower half. k₁ tan(k₁ L/2) = k₂ cot(k₂ L/2).
 TEST(CriticalLoad, ASteppedColumn) {
   SceneDef scene = cantilever(n / 2, 0);
