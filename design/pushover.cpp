@@ -209,7 +209,7 @@ class Pushing {
 Pushover second_order_limit(const Plan& plan, bool fixed_gravity) {
   for (const PlannedJoint& joint : plan.joints)
     if (joint.carries != Carries::both)
-      throw InvalidInput({{"joint '" + joint.name + "'", "goes slack, which --second-order does not follow",
+      throw InvalidInput({{"joint '" + joint.name + "'", "may go slack, which --second-order does not follow",
                            "ask for the collapse load without it, or make it carry both ways"}});
   std::vector<Yield> yields;
   for (const PlannedJoint& joint : plan.joints) yields.emplace_back(plan, joint);

@@ -15,6 +15,7 @@
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/rolled.h"
+#include "ductile/section.h"
 
 namespace ductile::tool {
 
@@ -183,6 +184,15 @@ double least_ductile(const BodyDef& body) {
   return least;
 }
 
+/// Whether it would bend sideways, too, under a moment in the scene's plane, which nothing in a scene does.
+bool bends_sideways(const BodyDef& body) {
+  if (body.profile.empty()) return false;
+  const Section section(body.profile);
+  const PrincipalAxes axes = section.principal_axes();
+  const double I_max = section.elastic(axes.strong).I, I_min = section.elastic(axes.weak).I;
+  return (I_max - I_min) * std::abs(axes.strong.x * axes.strong.y) > 1e-6 * I_max;
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Plan& plan) {
@@ -193,11 +203,12 @@ std::vector<std::string> remarks(const Plan& plan) {
       double& height = heights[static_cast<std::size_t>(plan.pieces[static_cast<std::size_t>(piece)].body)];
       height = std::max(height, joint.height);
     }
-  std::vector<std::string> result, high;
+  std::vector<std::string> result, high, sideways;
   std::map<std::string, std::vector<std::string>> breaking;  // bodies, by how far they yield
   for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
     if (heights[i] == 0) continue;
     if (heights[i] > too_high) high.push_back(plan.bodies[i].name);
+    if (bends_sideways(plan.bodies[i])) sideways.push_back(plan.bodies[i].name);
     if (const double strain = least_ductile(plan.bodies[i]); strain < least_ductility)
       breaking[fmt::format("{:.2g}", strain)].push_back(plan.bodies[i].name);
   }
@@ -205,6 +216,11 @@ std::vector<std::string> remarks(const Plan& plan) {
     result.push_back(fmt::format(
         "{}: breaks at {} times the yield strain, before a plastic hinge turns; design with the first fibre",
         list_of(names), strain));
+  if (!sideways.empty())
+    result.push_back(
+        list_of(sideways) +
+        ": the scene's plane is no principal one of its section; M and stiffness hold with it kept "
+        "from bending sideways");
   if (!high.empty())
     result.push_back(
         fmt::format("{}: {:g} m high where it is cut: scenes are in metres; drawn in millimetres, it needs "

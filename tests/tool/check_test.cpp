@@ -87,6 +87,24 @@ TEST(CheckCommand, TellsOfMaterialsWithoutPlasticHinges) {
   }
 }
 
+// An angle's principal axes lie across its drawn ones; an I-section's and a channel's do not.
+TEST(CheckCommand, TellsOfSectionsThatWouldBendSideways) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& profile) {
+    const std::string scene = folder.write("scene.json", R"({"bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "beam", "outline": [[0,0],[3,0],[3,0.1],[0,0.1]], "material": "S355", "profile": ")" +
+                                                             profile + R"(", "split": {"pieces": 3}}],
+      "joints": [{"between": ["wall","beam"]}]})");
+    return run("check " + scene + " --json").json()["remarks"];
+  };
+  EXPECT_EQ(remarks("IPE100"), json::array());
+  EXPECT_EQ(remarks("U100"), json::array());
+  ASSERT_EQ(remarks("L100x100x10").size(), 1u);
+  EXPECT_NE(remarks("L100x50x8")[0].get<std::string>().find("beam: the scene's plane is no principal one"),
+            std::string::npos);
+}
+
 TEST(CheckCommand, TellsOfADrawingInMillimetres) {
   const Folder folder;
   const auto remarks = [&](double unit) {
