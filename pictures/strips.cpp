@@ -21,7 +21,8 @@ struct Action {
 };
 
 Action of_joint(const PlannedJoint& joint, const JointReading& carries, double sign) {
-  return {joint.anchor, sign * (carries.N * joint.axis + carries.Q * left(joint.axis)), sign * carries.M,
+  return {sign > 0 ? joint.anchor : joint.far_anchor(),
+          sign * (carries.N * joint.axis + carries.Q * left(joint.axis)), sign * carries.M,
           joint.height > 0 ? &joint : nullptr};
 }
 

@@ -12,6 +12,8 @@
 
 #include "ductile/colours.h"
 #include "ductile/files.h"
+#include "ductile/plane.h"
+#include "ductile/strips.h"
 
 namespace ductile {
 namespace {
@@ -309,6 +311,28 @@ TEST(Picture, LabelsLieBesideEachOther) {
       EXPECT_TRUE(labels[i].x1 <= labels[j].x0 || labels[j].x1 <= labels[i].x0 ||
                   std::abs(labels[i].y - labels[j].y) >= 12)
           << i << " " << j;
+}
+
+// The same beam, which a rope pulls up by 4 kN 2.5 m out, in the middle of a piece: M = −2 kN · 1.5 m there.
+TEST(Picture, ARopePullsWhereItIsFixed) {
+  Plan plan = beam();
+  plan.gravity = {};
+  const Point top{0, 2}, fixed{2.5, 0.5};
+  plan.joints.push_back(
+      {.name = "rope", .a = 0, .b = 3, .anchor = top, .axis = unit(fixed - top), .end = fixed});
+  std::vector<JointReading> joints;
+  for (const PlannedJoint& joint : plan.joints) {
+    const double x = joint.anchor.x, lift = x < fixed.x ? 4e3 : 0;
+    joints.push_back({.N = -lift / 0.6, .Q = lift - 2e3, .M = -2e3 * (4 - x) + lift * (fixed.x - x)});
+  }
+  joints.back() = {.N = 4e3 * std::hypot(1, 0.6) / 0.6};
+  std::size_t stations = 0;
+  for (const picture::Strip& strip : picture::strips(plan, joints))
+    for (const picture::Station& s : strip.stations) {
+      ++stations;
+      EXPECT_NEAR(s.M, -2e3 * (4 - s.at.x) + 4e3 * std::max(0., fixed.x - s.at.x), 1) << s.at.x;
+    }
+  EXPECT_GT(stations, 16u);
 }
 
 // Forty equal loads along a bar: some are labelled, and no label lies on another.
