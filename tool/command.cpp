@@ -14,6 +14,7 @@
 
 #include "ductile/files.h"
 #include "ductile/level.h"
+#include "ductile/moments.h"
 #include "ductile/rolled.h"
 #include "ductile/section.h"
 
@@ -193,6 +194,27 @@ bool bends_sideways(const BodyDef& body) {
   return (I_max - I_min) * std::abs(axes.strong.x * axes.strong.y) > 1e-6 * I_max;
 }
 
+/// Bars of one piece that joints hold in several places: such a piece is rigid.
+std::vector<std::string> rigid_bars(const Plan& plan) {
+  std::vector<int> joints(plan.pieces.size()), pieces(plan.bodies.size());
+  for (const PlannedJoint& joint : plan.joints)
+    for (const int piece : {joint.a, joint.b})
+      if (piece >= 0) ++joints[static_cast<std::size_t>(piece)];
+  for (const Piece& piece : plan.pieces) ++pieces[static_cast<std::size_t>(piece.body)];
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const Piece& piece = plan.pieces[i];
+    if (joints[i] < 2 || pieces[static_cast<std::size_t>(piece.body)] > 1 || piece.circle > 0 ||
+        !plan.is_dynamic(static_cast<int>(i)))
+      continue;
+    const AreaMoments m = moments(piece.outline);
+    const LongAxis axis = long_axis(piece.outline, m);
+    constexpr double slender = 4;  // length over mean width
+    if ((axis.high - axis.low) * (axis.high - axis.low) > slender * m.area) names.push_back(piece.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Plan& plan) {
@@ -212,6 +234,9 @@ std::vector<std::string> remarks(const Plan& plan) {
     if (const double strain = least_ductile(plan.bodies[i]); strain < least_ductility)
       breaking[fmt::format("{:.2g}", strain)].push_back(plan.bodies[i].name);
   }
+  if (const std::vector<std::string> rigid = rigid_bars(plan); !rigid.empty())
+    result.push_back(list_of(rigid) +
+                     ": one piece is rigid, it neither bends nor yields nor buckles; split it into several");
   for (const auto& [strain, names] : breaking)
     result.push_back(fmt::format(
         "{}: breaks at {} times the yield strain, before a plastic hinge turns; design with the first fibre",

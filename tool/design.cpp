@@ -233,15 +233,17 @@ std::string run(const Options& options) {
   if (options.json) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
     if (has_order) result["critical_load_factor"] = number(critical);
+    result["remarks"] = remarks(plan);
     return result.dump() + "\n";
   }
   std::string of;
   for (const std::size_t i : bodies)
     if (!options.each) of += (of.empty() ? " of " : ", ") + scene.bodies[i].name;
-  return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n{}", options.scene.name, options.by, answer.shown, of,
+  return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n{}{}", options.scene.name, options.by, answer.shown, of,
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
-                     has_order ? buckling_line(options.second_order, critical) + '\n' : "");
+                     has_order ? buckling_line(options.second_order, critical) + '\n' : "",
+                     remark_lines(plan));
 }
 
 }  // namespace

@@ -105,6 +105,25 @@ TEST(CheckCommand, TellsOfSectionsThatWouldBendSideways) {
             std::string::npos);
 }
 
+// A beam that is not split is told of, a block and a beam of several pieces are not.
+TEST(CheckCommand, TellsOfBarsThatAreRigid) {
+  const Folder folder;
+  const auto remarks = [&](double length, int pieces) {
+    const std::string l = std::to_string(length);
+    const std::string scene =
+        folder.write("scene.json", R"({"bodies": [{"name": "beam", "outline": [[0,0],[)" + l + ",0],[" + l +
+                                       R"(,0.3],[0,0.3]], "material": "S355", "split": {"pieces": )" +
+                                       std::to_string(pieces) + R"(}}],
+      "supports": [{"body": "beam", "at": [0,0], "fix": ["x","y"]}, {"body": "beam", "at": [)" +
+                                       l + R"(,0], "fix": ["y"]}]})");
+    return run("check " + scene + " --json").json()["remarks"];
+  };
+  ASSERT_EQ(remarks(6, 1).size(), 1u);
+  EXPECT_NE(remarks(6, 1)[0].get<std::string>().find("beam: one piece is rigid"), std::string::npos);
+  EXPECT_EQ(remarks(6, 4), json::array());
+  EXPECT_EQ(remarks(0.6, 1), json::array());
+}
+
 TEST(CheckCommand, TellsOfADrawingInMillimetres) {
   const Folder folder;
   const auto remarks = [&](double unit) {
