@@ -78,6 +78,7 @@ std::vector<Polyline> flatten(const std::vector<Subpath>& path, double tolerance
   std::size_t total = 0;
   std::vector<Polyline> lines;
   for (const Subpath& subpath : path) {
+    if (subpath.curves.empty() && !subpath.closed) continue;  // a move alone draws nothing
     Polyline line{{subpath.start}, subpath.closed};
     Point start = subpath.start;
     const auto add = [&](const Point& p) {

@@ -27,6 +27,7 @@ struct Around {
   std::vector<Clip> clips;
   std::vector<std::string> names;
   std::vector<Node> uses;  ///< what is shown as a copy
+  bool whole = false;      ///< clips are not asked for
   int depth = 0;
 };
 
@@ -51,14 +52,9 @@ Point origin_of(const Style& style, const Point& view) {
   return origin;
 }
 
-/// CSS writes transforms with units; in px and deg they mean what the attribute's plain numbers do.
 Affine transform_of(const Style& style, const Point& view) {
-  std::string text(get(style, "transform"));
+  const std::string_view text = get(style, "transform");
   if (text.empty() || text == "none") return {};
-  for (const char* unit : {"px", "deg"}) {
-    for (auto at = text.find(unit); at != std::string::npos; at = text.find(unit))
-      text.erase(at, std::string_view(unit).size());
-  }
   if (const auto box = get(style, "transform-box"); box != "" && box != "view-box")
     throw ShapeError("transform-box", "is not taken", "put the transform into a matrix");
   const Point origin = origin_of(style, view);
@@ -80,7 +76,7 @@ bool speaks(const Node& node) {
 
 class Walk {
  public:
-  Walk(const Document& document, bool all) : document_(document), all_(all) {}
+  Walk(const Document& document, Take take) : document_(document), take_(take) {}
 
   void visit(const Node& node, const Around& around);
   /// The shape's number among all of its kind, shown or not.
@@ -94,12 +90,13 @@ class Walk {
   void enter(const Node& node, Around here, std::string_view kind);
   void use(const Node& node, const Around& here);
   void frame(const Node& node, Around& here, const Point& corner, const Point& size) const;
-  void clip(const Node& node, Around& here, std::string_view property);
+  void clip(const Node& node, Around& here, const Style& of, std::string_view property, int depth = 0);
+  Affine box_of(const Node& node, Around here);
   std::string place(const Node& node) const { return document_.name + ":" + title(node); }
   std::string title(const Node& node) const;
 
   const Document& document_;
-  bool all_;  // what the page does not show, too
+  Take take_;
   std::map<Node, int> numbers_;
   std::map<std::string, int> counts_;
   std::size_t visits_ = 0;
@@ -127,7 +124,8 @@ void Walk::visit(const Node& node, const Around& around) {
   constexpr int most_depth = 256;
   const std::string_view kind = local_name(node);
   const bool container = among(kind, containers);
-  if (!container && !is_shape(node) && kind != "use" && !among(kind, unlike) && !(kind == "symbol" && all_))
+  if (!container && !is_shape(node) && kind != "use" && !among(kind, unlike) &&
+      !(kind == "symbol" && take_ == Take::all))
     return;
   if (!speaks(node)) return;
   if (around.depth > most_depth) {
@@ -139,7 +137,7 @@ void Walk::visit(const Node& node, const Around& around) {
   Around here = around;
   ++here.depth;
   here.style = document_.sheet.style(node, around.style);
-  if (get(here.style, "display") == "none" && !all_) return;
+  if (get(here.style, "display") == "none" && take_ != Take::all) return;
   if (among(kind, unlike)) {
     const bool text = kind == "text";
     shown.not_taken.push_back({place(node), text ? "is text" : "is no shape",
@@ -152,11 +150,11 @@ void Walk::visit(const Node& node, const Around& around) {
   }
   try {
     here.to = here.to * transform_of(here.style, here.view);
-    clip(node, here, "clip-path");
-    clip(node, here, "mask");
-    const std::string_view opacity = get(here.style, "opacity");
-    if (!all_ && (opacity == "0" || opacity == "0%" || opacity == "0.0")) return;
-    if (const std::string_view filter = get(here.style, "filter"); !filter.empty() && filter != "none")
+    if (take_ == Take::seen && number(here.style, "opacity", 1) <= 0) return;
+    clip(node, here, here.style, "clip-path");
+    clip(node, here, here.style, "mask");
+    const std::string_view filter = get(here.style, "filter");
+    if (take_ != Take::outlines && !filter.empty() && filter != "none")
       shown.not_taken.push_back({place(node), "has a filter, which is not taken", "expand it into shapes"});
     enter(node, std::move(here), kind);
   } catch (const ShapeError& error) {
@@ -171,15 +169,16 @@ void Walk::enter(const Node& node, Around here, std::string_view kind) {
   if (kind == "use") return use(node, here);
   if (is_shape(node)) {
     const std::string_view visibility = get(here.style, "visibility");
-    if (!all_ && (visibility == "hidden" || visibility == "collapse")) return;
-    for (const char* marker : {"marker-start", "marker-mid", "marker-end"}) {
-      if (const auto value = get(here.style, marker); !value.empty() && value != "none") {
+    if (take_ != Take::all && (visibility == "hidden" || visibility == "collapse")) return;
+    for (const char* marker : {"marker", "marker-start", "marker-mid", "marker-end"}) {
+      if (const auto value = get(here.style, marker);
+          take_ != Take::outlines && !value.empty() && value != "none") {
         shown.not_taken.push_back(
             {place(node), "has markers, which are not taken", "expand them into shapes"});
         break;
       }
     }
-    if (!all_ && !document_.paints(here.style, "fill", "black") &&
+    if (take_ == Take::seen && !document_.paints(here.style, "fill", "black") &&
         !document_.paints(here.style, "stroke", "none")) {
       return;  // a guide, or the frame of an icon
     }
@@ -239,7 +238,7 @@ void Walk::use(const Node& node, const Around& around) {
   if (kind == "symbol" || kind == "svg") {
     const Around outside = here;
     here.style = document_.sheet.style(target, here.style);
-    if (get(here.style, "display") == "none" && !all_) return;
+    if (get(here.style, "display") == "none" && take_ != Take::all) return;
     const auto side = [&](const char* name, double whole) {
       const double own = user_length(here.style, name, whole, whole);
       return user_length(around.style, name, whole, own);
@@ -259,9 +258,33 @@ void Walk::use(const Node& node, const Around& around) {
   }
 }
 
-void Walk::clip(const Node& node, Around& here, std::string_view property) {
-  std::string_view value = get(here.style, property);
-  if (value.empty() || value == "none") return;
+/// From the unit square to the box around what an element fills, in its own coordinates (SVG 2 §8.10).
+Affine Walk::box_of(const Node& node, Around here) {
+  Walk within(document_, take_ == Take::all ? Take::all : Take::outlines);
+  within.visits_ = visits_;
+  here.to = {};
+  here.clips.clear();
+  here.whole = true;
+  within.enter(node, here, local_name(node));
+  visits_ = within.visits_;
+  Bounds box;
+  for (const Painted& shape : within.shown.shapes) {
+    if (shape.problem) continue;  // it is said where it is shown
+    const Bounds own = document_.box(shape);
+    if (own.empty()) continue;
+    box.add(own.low);
+    box.add(own.high);
+  }
+  if (box.empty()) return {0, 0, 0, 0, 0, 0};
+  return {box.size().x, 0, 0, box.size().y, box.low.x, box.low.y};
+}
+
+/// The clipPath or mask that a style names; `of` is the node's own, or that of a clip of it, which is cut,
+/// too.
+void Walk::clip(const Node& node, Around& here, const Style& of, std::string_view property, int depth) {
+  const std::string_view value = get(of, property);
+  if (value.empty() || value == "none" || here.whole) return;
+  if (depth > most_clips_deep) throw ShapeError(std::string(property), "clips itself", "take the circle out");
   const auto open = value.find('('), close = value.find(')');
   std::string_view reference;
   if (value.starts_with("url") && open < close && close != std::string_view::npos) {
@@ -279,12 +302,35 @@ void Walk::clip(const Node& node, Around& here, std::string_view property) {
     }
     return;  // what is not there does not clip
   }
-  here.clips.push_back({element, {}, here.to, property == "mask"});
+  const bool mask = property == "mask";
+  const std::string_view kind = local_name(element);
+  if (kind != (mask ? "mask" : "clipPath")) {
+    throw ShapeError(std::string(property), "is a <" + std::string(kind) + ">",
+                     mask ? "name a mask" : "name a clipPath");
+  }
+  const Style style = document_.sheet.style(element, {});
+  const std::string_view units = element.attribute("maskUnits").value(),
+                         content = element.attribute(mask ? "maskContentUnits" : "clipPathUnits").value();
+  const bool region_in_box = mask && units != "userSpaceOnUse", in_box = content == "objectBoundingBox";
+  const Affine box = region_in_box || in_box ? box_of(node, here) : Affine{};
+  Clip cut{element, {}, in_box ? here.to * box : here.to, mask};
+  if (mask) {
+    const Point whole = region_in_box ? Point{1, 1} : here.view;
+    const Point corner{user_length(style, "x", whole.x, -0.1 * whole.x),
+                       user_length(style, "y", whole.y, -0.1 * whole.y)},
+        size{user_length(style, "width", whole.x, 1.2 * whole.x),
+             user_length(style, "height", whole.y, 1.2 * whole.y)};
+    const Affine to = region_in_box ? here.to * box : here.to;
+    for (const Point p : {Point{0, 0}, Point{size.x, 0}, size, Point{0, size.y}})
+      cut.frame.push_back(to(corner + p));
+  }
+  here.clips.push_back(std::move(cut));
+  for (const char* own : {"clip-path", "mask"}) clip(node, here, style, own, depth + 1);
 }
 
 /// Numbers the shapes, and visits `from` with what is around it.
-Shown walk(const Document& document, const Node& from, const Around& around, bool all) {
-  Walk walk(document, all);
+Shown walk(const Document& document, const Node& from, const Around& around, Take take) {
+  Walk walk(document, take);
   struct Counter : pugi::xml_tree_walker {
     Walk& walk;
     explicit Counter(Walk& of) : walk(of) {}
@@ -319,7 +365,7 @@ Shown Document::shown(const Affine& page) const {
   Around around;
   around.to = page;
   around.view = view();
-  Shown all = walk(*this, root, around, false);
+  Shown all = walk(*this, root, around, Take::seen);
   if (const auto& rules = sheet.not_taken; !rules.empty()) {
     all.not_taken.push_back(
         {name + ":style",
@@ -338,17 +384,17 @@ Shown Document::held(const Node& element, const Affine& page) const {
     around.style = sheet.style(node, around.style);
     around.to = around.to * transform_of(around.style, around.view);
   }
-  return walk(*this, element, around, true);
+  return walk(*this, element, around, Take::all);
 }
 
-Shown Document::shown_in(const Node& element, const Affine& to, const Point& view) const {
+Shown Document::shown_in(const Node& element, const Affine& to, const Point& view, Take take) const {
   Around around;
   around.to = to;
   around.view = view;
   for (const Node& node : ancestors(element)) around.style = sheet.style(node, around.style);
   // The clipPath's own transform comes on top of the coordinates of what it clips.
   around.to = around.to * transform_of(around.style, around.view);
-  return walk(*this, element, around, false);
+  return walk(*this, element, around, take);
 }
 
 }  // namespace ductile::svg

@@ -21,13 +21,6 @@ struct Length {
 constexpr double usual_font = 16;  // px
 
 Length parse_length(std::string_view text, const char* name) {
-  static constexpr std::array<std::pair<std::string_view, double>, 7> units{{{"px", 1},
-                                                                             {"in", 96},
-                                                                             {"cm", 96 / 2.54},
-                                                                             {"mm", 96 / 25.4},
-                                                                             {"Q", 96 / 101.6},
-                                                                             {"pt", 96. / 72},
-                                                                             {"pc", 16}}};
   const auto refuse = [&](const std::string& what) {
     throw ShapeError(name, what, "write a number, or a length in px, in, cm, mm, Q, pt, pc, em or ex");
   };
@@ -50,9 +43,8 @@ Length parse_length(std::string_view text, const char* name) {
     if (unit == "ex") length.value /= 2;
     return length;
   }
-  const auto known = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == unit; });
-  if (known == units.end()) refuse("has the unit \"" + std::string(unit) + "\"");
-  length.unit = known->second;
+  length.unit = px_of(unit);
+  if (!length.unit) refuse("has the unit \"" + std::string(unit) + "\"");
   return length;
 }
 
@@ -109,6 +101,16 @@ std::string with_entities(std::string_view text, const std::string& file) {
 std::string_view get(const Style& style, std::string_view property, std::string_view missing) {
   const auto found = style.find(property);
   return found == style.end() ? missing : found->second;
+}
+
+double number(const Style& style, const char* property, double missing) {
+  const std::string_view text = get(style, property);
+  if (text.empty()) return missing;
+  try {
+    return Numbers(text).number() * (text.back() == '%' ? 0.01 : 1);
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError(property, error.what(), "write a number");
+  }
 }
 
 double user_length(std::string_view text, const char* name, double whole, double em) {
@@ -183,7 +185,8 @@ Document::Document(std::string_view data, std::string file) : name(std::move(fil
     bool for_each(Node& node) override {
       if (const auto id = node.attribute("id")) document.ids.emplace(id.value(), node);
       if (const auto label = node.attribute("inkscape:label")) document.labels.emplace(label.value(), node);
-      if (local_name(node) == "style") {
+      const std::string_view media = trimmed(node.attribute("media").value());
+      if (local_name(node) == "style" && (media.empty() || media == "all" || media == "screen")) {
         for (const Node& text : node.children()) document.sheet.add(text.value());
       }
       return true;

@@ -17,13 +17,19 @@
 
 namespace ductile::svg {
 
-/// What cuts a shape: a clipPath or mask element, or the frame of a nested view.
+/// What cuts a shape: a clipPath, a mask within its region, or the frame of a nested view.
 struct Clip {
-  pugi::xml_node element;  ///< none: the frame
-  Ring frame;              ///< on the page
-  Affine to;               ///< from the coordinates in which the element stands to the page
+  pugi::xml_node element;  ///< none: the frame alone
+  Ring frame;              ///< on the page; of a clipPath none
+  Affine to;               ///< from the coordinates of the element's content to the page
   bool mask = false;
 };
+
+constexpr int most_clips_deep = 8;
+
+/// What of a drawing is looked at: what a browser paints; what is there, painted or not, as a clipPath takes
+/// it; or also what is hidden.
+enum class Take { seen, outlines, all };
 
 struct Painted {
   pugi::xml_node node;
@@ -75,22 +81,27 @@ struct Document {
   Shown held(const pugi::xml_node& element, const Affine& page) const;
 
   /// The same of a part of a clipPath or mask, whose coordinates `to` brings to the page.
-  Shown shown_in(const pugi::xml_node& element, const Affine& to, const Point& view) const;
+  Shown shown_in(const pugi::xml_node& element, const Affine& to, const Point& view, Take take) const;
 
   /// The connected areas that a shape covers within what clips it, the largest first. A ring that is as it
   /// was drawn keeps its first point and its direction.
   std::vector<Outline> areas(const Painted& shape, double tolerance) const;
   /// The diagonal of a box around it, m. Throws ShapeError where its data is wrong.
   double extent(const Painted& shape) const;
+  /// Around what it fills, or would fill, on the page. Throws ShapeError where its data is wrong.
+  Bounds box(const Painted& shape) const;
 
  private:
-  std::vector<Ring> painted(const Painted& shape, double tolerance) const;
-  std::vector<Ring> clip_area(const Clip& clip, const Painted& of, double tolerance, int depth) const;
+  Layer filled(const Painted& shape, double tolerance) const;
+  Layer stroked(const Painted& shape, double tolerance) const;
+  std::vector<Ring> clip_area(const Clip& clip, const Point& view, double tolerance, int depth) const;
   std::vector<Ring> within(std::vector<Ring> rings, const Painted& shape, double tolerance, int depth) const;
 };
 
 bool is_shape(const pugi::xml_node& node);
 
+/// A number of a style, percentages as parts of 1.
+double number(const Style& style, const char* property, double missing);
 /// A length of a style in user units; `whole` is what a percentage is of.
 double user_length(const Style& style, const char* name, double whole, double missing = 0);
 /// The same of a text; `em` is the size of its font.

@@ -1,6 +1,7 @@
 #include "svg_path.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -278,6 +279,33 @@ std::vector<Subpath> rectangle(Point corner, double width, double height, double
   return std::move(tracer.path);
 }
 
+std::optional<double> px_of(std::string_view unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 7> units{{{"px", 1},
+                                                                             {"in", 96},
+                                                                             {"cm", 96 / 2.54},
+                                                                             {"mm", 96 / 25.4},
+                                                                             {"Q", 96 / 101.6},
+                                                                             {"pt", 96. / 72},
+                                                                             {"pc", 16}}};
+  for (const auto& [name, px] : units)
+    if (name == unit) return px;
+  return std::nullopt;
+}
+
+namespace {
+
+/// What a number with this unit means as the attribute's plain one: px, or degrees (CSS Values 4 §7.1).
+double unit_in_transform(std::string_view unit) {
+  if (unit.empty() || unit == "deg") return 1;
+  if (unit == "grad") return 0.9;
+  if (unit == "rad") return 1 / degree;
+  if (unit == "turn") return 360;
+  if (const auto px = px_of(unit)) return *px;
+  throw std::invalid_argument("has the unit \"" + std::string(unit) + "\"");
+}
+
+}  // namespace
+
 Affine parse_transform(std::string_view text) {
   Affine all;
   Numbers in(text);
@@ -290,7 +318,11 @@ Affine parse_transform(std::string_view text) {
       const std::string_view name = in.name();
       std::vector<double> n;
       if (in.peek() != '(') refuse("has no name with '(' where one should stand");
-      for (in.take(); in.peek() != ')' && n.size() <= 6;) n.push_back(in.number());
+      for (in.take(); in.peek() != ')' && n.size() <= 6;) {
+        n.push_back(in.number());
+        n.back() *= unit_in_transform(in.name());
+        if (in.peek() == ',') in.take();
+      }
       if (in.peek() == ')') in.take();
       if (in.peek() == ',') in.take();
       const auto has = [&](std::size_t least, std::size_t most) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -79,13 +80,16 @@ class Numbers {
   std::size_t at_ = 0;
 };
 
+/// How many px of 1/96 inch a unit is (CSS Values 4 §6.2); nothing where it has no size of its own.
+std::optional<double> px_of(std::string_view unit);
+
 /// Path data: M L H V C S Q T A Z, absolute and relative.
 std::vector<Subpath> parse_path(std::string_view data, const Affine& to);
 std::vector<Subpath> polygon(std::string_view points, bool closed, const Affine& to);
 std::vector<Subpath> ellipse(Point center, double rx, double ry, const Affine& to);
 std::vector<Subpath> rectangle(Point corner, double width, double height, double rx, double ry,
                                const Affine& to);
-/// A list of matrix, translate, scale, rotate, skewX, skewY.
+/// A list of matrix, translate, scale, rotate, skewX, skewY, and what CSS has beside these, with its units.
 Affine parse_transform(std::string_view text);
 
 /// The largest length of a direction of length 1 after the map.

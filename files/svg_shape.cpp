@@ -16,16 +16,6 @@ namespace {
 
 using Node = pugi::xml_node;
 
-double number(const Style& style, const char* property, double missing) {
-  const std::string_view text = get(style, property);
-  if (text.empty()) return missing;
-  try {
-    return Numbers(text).number() * (text.back() == '%' ? 0.01 : 1);
-  } catch (const std::invalid_argument& error) {
-    throw ShapeError(property, error.what(), "write a number");
-  }
-}
-
 /// A length > 0, or the reason why there is no area.
 double positive(const char* name, double length) {
   if (!(length > 0)) throw ShapeError(name, "is not > 0", "such a shape has no area");
@@ -110,20 +100,11 @@ Pen pen_of(const Style& style, const Point& view) {
   pen.miter_limit = number(style, "stroke-miterlimit", 4);
   const std::string_view dashes = get(style, "stroke-dasharray");
   if (!dashes.empty() && dashes != "none") {
-    Numbers in(dashes);
-    try {
-      while (!in.end()) {
-        double dash = in.number();
-        if (in.peek() == '%') {
-          in.take();
-          dash *= diagonal / 100;
-        }
-        in.name();  // px
-        if (in.peek() == ',') in.take();
-        pen.dashes.push_back(dash);
-      }
-    } catch (const std::invalid_argument& error) {
-      throw ShapeError("stroke-dasharray", error.what(), "write lengths");
+    for (std::string_view rest = trimmed(dashes); !rest.empty();) {
+      const std::string_view dash = rest.substr(0, rest.find_first_of(", \t\r\n"));
+      pen.dashes.push_back(user_length(dash, "stroke-dasharray", diagonal, font_size(style)));
+      rest = trimmed(rest.substr(dash.size()));
+      if (rest.starts_with(',')) rest = trimmed(rest.substr(1));
     }
     if (std::any_of(pen.dashes.begin(), pen.dashes.end(), [](double d) { return d < 0; })) pen.dashes.clear();
     pen.dash_offset = user_length(style, "stroke-dashoffset", diagonal, pen.dash_offset);
@@ -150,6 +131,12 @@ std::vector<Ring> without_slivers(std::vector<Ring> rings, double tolerance) {
     return std::abs(doubled_area_of(ring)) < tolerance * perimeter;
   });
   return rings;
+}
+
+double length_of(const Polyline& line) {
+  double whole = line.closed ? length(line.points.front() - line.points.back()) : 0;
+  for (std::size_t i = 1; i < line.points.size(); ++i) whole += length(line.points[i] - line.points[i - 1]);
+  return whole;
 }
 
 bool finite(const Bounds& box) {
@@ -194,93 +181,111 @@ double Document::extent(const Painted& shape) const {
   return length(box.high - box.low);
 }
 
-std::vector<Ring> Document::painted(const Painted& shape, double tolerance) const {
-  std::vector<Layer> layers;
-  const bool fill = paints(shape.style, "fill", "black") && local_name(shape.node) != "line";
-  if (fill) {
-    layers.push_back({filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance),
-                      even_odd(shape.style, "fill-rule")});
+Bounds Document::box(const Painted& shape) const {
+  const auto path = curves(shape, shape.to);
+  const Bounds coarse = box_around(path);  // of control points, too
+  Bounds box;
+  if (path.empty() || !finite(coarse)) return box;
+  for (const Polyline& line : flatten(path, 1e-6 * length(coarse.high - coarse.low))) {
+    for (const Point& p : line.points) box.add(p);
   }
-  if (paints(shape.style, "stroke", "none")) {
-    // A pen is round in the shape's own coordinates; unless it is told to keep its width on the page.
-    const Pen pen = pen_of(shape.style, shape.view);
-    const bool fixed = get(shape.style, "vector-effect") == "non-scaling-stroke";
-    if (fixed)
-      throw ShapeError("vector-effect", "is not taken", "give the stroke a width in the shape's units");
-    const double growth = stretch(shape.to);
-    if (pen.width > 0 && growth > 0) {
-      auto rings = stroke(flatten(curves(shape, {}), tolerance / growth), pen, tolerance / growth);
-      for (Ring& ring : rings) {
-        for (Point& p : ring) p = shape.to(p);
-      }
-      layers.push_back({std::move(rings), false});
-    }
-  }
-  return overlay(layers, Overlay::unite);
+  return box;
 }
 
-std::vector<Ring> Document::clip_area(const Clip& clip, const Painted& of, double tolerance,
+Layer Document::filled(const Painted& shape, double tolerance) const {
+  if (!paints(shape.style, "fill", "black") || local_name(shape.node) == "line") return {};
+  return {filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance),
+          even_odd(shape.style, "fill-rule")};
+}
+
+Layer Document::stroked(const Painted& shape, double tolerance) const {
+  if (!paints(shape.style, "stroke", "none")) return {};
+  // A pen is round in the shape's own coordinates; unless it is told to keep its width on the page.
+  Pen pen = pen_of(shape.style, shape.view);
+  if (get(shape.style, "vector-effect") == "non-scaling-stroke")
+    throw ShapeError("vector-effect", "is not taken", "give the stroke a width in the shape's units");
+  const double growth = stretch(shape.to);
+  if (!(pen.width > 0 && growth > 0)) return {};
+  const auto lines = flatten(curves(shape, {}), tolerance / growth);
+  if (const double own = shape.node.attribute("pathLength").as_double(); own > 0) {
+    double whole = 0;  // dashes are measured as if the path were as long as it says
+    for (const Polyline& line : lines) whole += length_of(line);
+    for (double& dash : pen.dashes) dash *= whole / own;
+    pen.dash_offset *= whole / own;
+  }
+  Layer layer{stroke(lines, pen, tolerance / growth), false};
+  for (Ring& ring : layer.rings) {
+    for (Point& p : ring) p = shape.to(p);
+  }
+  return layer;
+}
+
+namespace {
+
+/// White shows and black hides; what is between is neither there nor gone.
+bool shows(const Style& style, const char* property) {
+  std::string paint = lower(get(style, property, "black"));
+  if (paint == "currentcolor") paint = lower(get(style, "color", "black"));
+  std::erase(paint, ' ');
+  for (const char* white : {"#fff", "#ffffff", "white", "rgb(255,255,255)", "rgb(100%,100%,100%)"})
+    if (paint == white) return true;
+  for (const char* black : {"#000", "#000000", "black", "rgb(0,0,0)", "rgb(0%,0%,0%)"})
+    if (paint == black) return false;
+  throw ShapeError("mask", "is half transparent: \"" + paint + "\"", "paint it white where it shows");
+}
+
+}  // namespace
+
+std::vector<Ring> Document::clip_area(const Clip& clip, const Point& view, double tolerance,
                                       int depth) const {
   if (!clip.element) return {clip.frame};
-  if (depth > 8) throw ShapeError("clip-path", "clips itself", "take the circle out");
-  const std::string_view kind = local_name(clip.element);
-  if (kind != "clipPath" && kind != "mask") {
-    throw ShapeError(clip.mask ? "mask" : "clip-path", "is a <" + std::string(kind) + ">",
-                     "name a clipPath or a mask");
-  }
-  Painted around;  // the element itself, in the coordinates of what it clips
-  around.node = clip.element;
-  around.to = clip.to;
-  const std::string_view units =
-      clip.element.attribute(clip.mask ? "maskContentUnits" : "clipPathUnits").value();
-  if (units == "objectBoundingBox") {
-    if (clip.to.a != of.to.a || clip.to.e != of.to.e || clip.to.f != of.to.f) {
-      throw ShapeError("clip-path", "is in units of a group's box", "give it userSpaceOnUse");
-    }
-    const Bounds box = box_around(curves(of, {}));
-    around.to = clip.to * Affine{box.high.x - box.low.x, 0, 0, box.high.y - box.low.y, box.low.x, box.low.y};
-  }
+  const char* const property = clip.mask ? "mask" : "clip-path";
+  if (depth > most_clips_deep) throw ShapeError(property, "clips itself", "take the circle out");
+  const bool alpha = get(sheet.style(clip.element, {}), "mask-type") == "alpha";
   std::vector<Ring> area;
   for (const Node& child : clip.element.children()) {
     if (child.type() != pugi::node_element) continue;
-    for (Painted& shape : shown_in(child, around.to, of.view).shapes) {
-      if (shape.problem) throw ShapeError("clip-path", shape.problem->what, shape.problem->remedy);
-      if (clip.mask) {
-        // White shows and black hides; what is between is neither there nor gone.
-        const bool filled = paints(shape.style, "fill", "black");
-        const std::string paint =
-            lower(filled ? get(shape.style, "fill", "black") : get(shape.style, "stroke"));
-        const bool white = paint == "#fff" || paint == "#ffffff" || paint == "white" ||
-                           paint == "rgb(255,255,255)" ||
-                           get(sheet.style(clip.element, {}), "mask-type") == "alpha";
-        const bool black = paint == "#000" || paint == "#000000" || paint == "black";
-        if (!white && !black)
-          throw ShapeError("mask", "is half transparent: \"" + std::string(paint) + "\"",
-                           "paint it white where it shows");
-        auto rings = within(painted(shape, tolerance), shape, tolerance, depth + 1);
+    const Shown part = shown_in(child, clip.to, view, clip.mask ? Take::seen : Take::outlines);
+    if (!part.not_taken.empty()) {
+      const Problem& first = part.not_taken.front();
+      throw ShapeError(property, "has a part that " + first.what, first.remedy);
+    }
+    for (const Painted& shape : part.shapes) {
+      if (shape.problem) throw ShapeError(property, shape.problem->what, shape.problem->remedy);
+      const auto lay = [&](Layer layer, bool white) {
+        auto rings = within(overlay({std::move(layer)}, Overlay::unite), shape, tolerance, depth + 1);
         area = overlay({{std::move(area)}, {std::move(rings)}}, white ? Overlay::unite : Overlay::subtract);
+      };
+      if (!clip.mask) {
+        lay({filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance),
+             even_odd(shape.style, "clip-rule")},
+            true);
         continue;
       }
-      const auto lines = flatten(curves(shape, shape.to), tolerance);
-      auto rings =
-          overlay({{filled_rings(lines, tolerance), even_odd(shape.style, "clip-rule")}}, Overlay::unite);
-      rings = within(std::move(rings), shape, tolerance, depth + 1);
-      area = overlay({{std::move(area)}, {std::move(rings)}}, Overlay::unite);
+      if (Layer fill = filled(shape, tolerance); !fill.rings.empty())
+        lay(std::move(fill), alpha || shows(shape.style, "fill"));
+      if (Layer line = stroked(shape, tolerance); !line.rings.empty())
+        lay(std::move(line), alpha || shows(shape.style, "stroke"));
     }
   }
+  if (clip.mask) area = overlay({{std::move(area)}, {{clip.frame}}}, Overlay::intersect);
   return area;
 }
 
 std::vector<Ring> Document::within(std::vector<Ring> rings, const Painted& shape, double tolerance,
                                    int depth) const {
   for (const Clip& clip : shape.clips) {
-    rings = overlay({{std::move(rings)}, {clip_area(clip, shape, tolerance, depth)}}, Overlay::intersect);
+    rings =
+        overlay({{std::move(rings)}, {clip_area(clip, shape.view, tolerance, depth)}}, Overlay::intersect);
   }
   return rings;
 }
 
 std::vector<Outline> Document::areas(const Painted& shape, double tolerance) const {
-  auto areas = outlines(without_slivers(within(painted(shape, tolerance), shape, tolerance, 0), tolerance));
+  auto areas = outlines(
+      without_slivers(within(overlay({filled(shape, tolerance), stroked(shape, tolerance)}, Overlay::unite),
+                             shape, tolerance, 0),
+                      tolerance));
   const auto drawn = filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance);
   constexpr std::size_t few = 1000;  // comparing takes quadratic time
   const auto as_drawn = [&](Ring& ring) {

@@ -132,7 +132,7 @@ void cut(const Polyline& line, const Pen& pen, std::vector<Polyline>& out) {
   double offset = std::fmod(pen.dash_offset, period);
   if (offset < 0) offset += period;
   std::size_t at = 0;
-  while (offset >= lengths[at]) {
+  while (offset > 0 && offset >= lengths[at]) {  // a dash of no length at the start is one, too
     offset -= lengths[at];
     at = (at + 1) % lengths.size();
   }

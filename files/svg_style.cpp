@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace ductile::svg {
 namespace {
 
 using Node = pugi::xml_node;
 
-constexpr std::array<std::string_view, 15> inherited{"clip-rule",
+constexpr std::array<std::string_view, 19> inherited{"clip-rule",
                                                      "color",
                                                      "fill",
                                                      "fill-opacity",
                                                      "fill-rule",
                                                      "font-size",
+                                                     "marker",
+                                                     "marker-end",
+                                                     "marker-mid",
+                                                     "marker-start",
                                                      "stroke",
                                                      "stroke-dasharray",
                                                      "stroke-dashoffset",
@@ -24,35 +29,21 @@ constexpr std::array<std::string_view, 15> inherited{"clip-rule",
                                                      "stroke-width",
                                                      "visibility"};
 // Geometry is a matter of style, too (SVG 2 §8.9).
-constexpr std::array<std::string_view, 23> own{"clip-path",
-                                               "cx",
-                                               "cy",
-                                               "display",
-                                               "filter",
-                                               "height",
-                                               "marker-end",
-                                               "marker-mid",
-                                               "marker-start",
-                                               "mask",
-                                               "mask-type",
-                                               "opacity",
-                                               "overflow",
-                                               "r",
-                                               "rx",
-                                               "ry",
-                                               "transform",
-                                               "transform-box",
-                                               "transform-origin",
-                                               "vector-effect",
-                                               "width",
-                                               "x",
-                                               "y"};
+constexpr std::array<std::string_view, 20> own{
+    "clip-path",     "cx",       "cy", "display", "filter", "height",    "mask",          "mask-type",
+    "opacity",       "overflow", "r",  "rx",      "ry",     "transform", "transform-box", "transform-origin",
+    "vector-effect", "width",    "x",  "y"};
 
-bool known(std::string_view property) {
-  const auto in = [&](const auto& list) {
-    return std::find(list.begin(), list.end(), property) != list.end();
+/// The property as it is written here, whose case CSS is free in; empty where it is of no use to geometry.
+std::string_view known(std::string_view property) {
+  const auto same = [&](std::string_view name) {
+    return std::equal(name.begin(), name.end(), property.begin(), property.end(),
+                      [](char a, unsigned char b) { return a == std::tolower(b); });
   };
-  return in(inherited) || in(own);
+  for (const std::string_view name : inherited)
+    if (same(name)) return name;
+  const auto found = std::find_if(own.begin(), own.end(), same);
+  return found == own.end() ? std::string_view() : *found;
 }
 bool is_own(std::string_view property) { return std::find(own.begin(), own.end(), property) != own.end(); }
 
@@ -69,33 +60,49 @@ void each_declaration(std::string_view text, const Take& take) {
   while (!text.empty()) {
     std::string_view value = part_until(text, ";");
     if (value.find(':') == std::string_view::npos) continue;
-    const std::string_view property = trimmed(part_until(value, ":"));
+    const std::string_view property = known(trimmed(part_until(value, ":")));
     value = trimmed(value);
     const auto mark = value.rfind('!');
     const bool important = mark != std::string_view::npos && trimmed(value.substr(mark + 1)) == "important";
     if (important) value = trimmed(value.substr(0, mark));
-    if (known(property) && !value.empty()) take(property, value, important);
+    if (!property.empty() && !value.empty()) take(property, value, important);
   }
 }
 
-bool has_class(const Node& node, std::string_view name) {
-  std::string_view list = node.attribute("class").value();
+bool has_word(std::string_view list, std::string_view word) {
   while (!list.empty()) {
-    if (part_until(list, " \t\r\n\f") == name) return true;
+    if (part_until(list, " \t\r\n\f") == word) return true;
   }
   return false;
 }
 
-/// "[a]", "[a=b]" or "[a='b']".
+/// "[a]", "[a=b]", "[a^='b']" and so on (Selectors 3 §6.3).
 bool has_attribute(const Node& node, std::string_view test) {
   test = test.substr(1, test.size() - 2);
   const auto equals = test.find('=');
-  const std::string name(trimmed(test.substr(0, equals)));
-  const auto attribute = node.attribute(name.c_str());
-  if (equals == std::string_view::npos) return !attribute.empty();
+  std::string_view name = trimmed(test.substr(0, equals));
+  const char how = name.empty() ? '=' : name.back();
+  const bool marked =
+      equals != std::string_view::npos && std::string_view("^$*~|").find(how) != std::string_view::npos;
+  if (marked) name.remove_suffix(1);
+  const auto attribute = node.attribute(std::string(trimmed(name)).c_str());
+  if (attribute.empty() || equals == std::string_view::npos) return !attribute.empty();
   std::string_view value = trimmed(test.substr(equals + 1));
   if (value.size() >= 2 && (value[0] == '"' || value[0] == '\'')) value = value.substr(1, value.size() - 2);
-  return !attribute.empty() && attribute.value() == value;
+  const std::string_view has = attribute.value();
+  if (!marked) return has == value;
+  if (how == '|') return has == value || has.starts_with(std::string(value) + "-");
+  if (value.empty()) return false;
+  switch (how) {
+    case '^':
+      return has.starts_with(value);
+    case '$':
+      return has.ends_with(value);
+    case '*':
+      return has.find(value) != std::string_view::npos;
+    default:
+      return has_word(has, value);
+  }
 }
 
 /// Of what one points at or has visited, or of what is beside the element: never so on a page at rest.
@@ -113,7 +120,7 @@ bool fits_part(const Node& node, std::string_view part) {
     case '#':
       return node.attribute("id").value() == part.substr(1);
     case '.':
-      return has_class(node, part.substr(1));
+      return has_word(node.attribute("class").value(), part.substr(1));
     case '[':
       return has_attribute(node, part);
     case ':':
@@ -243,7 +250,7 @@ Style StyleSheet::style(const Node& node, const Style& parent) const {
   };
   for (const auto& attribute : node.attributes()) {
     const std::string_view value = trimmed(attribute.value());
-    if (known(attribute.name()) && !value.empty()) set(style, attribute.name(), value);
+    if (known(attribute.name()) == attribute.name() && !value.empty()) set(style, attribute.name(), value);
   }
   const auto declare = [&](std::string_view property, std::string_view value, bool is_important) {
     set(is_important ? important : style, property, value);

@@ -524,6 +524,86 @@ INSTANTIATE_TEST_SUITE_P(
              "<mask id='m'><path d='M0 5H100' fill='none' stroke='white' stroke-width='2'/></mask>"
              "<rect id='a' width='50' height='10' mask='url(#m)'/>",
              {{"a", 100}}},
+        Seen{"mask_of_a_stroke_around_a_fill",
+             "<mask id='m'><rect x='20' y='20' width='60' height='60' fill='black' stroke='white' "
+             "stroke-width='10'/></mask><rect id='a' x='10' y='10' width='80' height='80' mask='url(#m)'/>",
+             {{"a", 70 * 70 - 50 * 50}}},
+        Seen{"mask_within_its_region",
+             "<mask id='m' maskUnits='userSpaceOnUse' x='0' y='0' width='20' height='9'>"
+             "<rect width='100' height='100' fill='RGB(255, 255, 255)'/></mask>"
+             "<rect id='a' width='50' height='50' mask='url(#m)'/>",
+             {{"a", 180}}},
+        // A tenth of the box wider on each side, unless the mask says otherwise (CSS Masking 1 §7.3).
+        Seen{"mask_within_its_usual_region",
+             "<mask id='m'><rect width='100' height='100' fill='white'/></mask>"
+             "<rect id='a' x='10' y='10' width='40' height='40' stroke='black' stroke-width='30' "
+             "mask='url(#m)'/>",
+             {{"a", 48 * 48}}},
+        Seen{"mask_in_a_box",
+             "<mask id='m' maskContentUnits='objectBoundingBox'><rect width='.5' height='.25' "
+             "fill='white'/></mask><rect id='a' x='10' y='10' width='40' height='40' mask='url(#m)'/>",
+             {{"a", 20 * 10}}},
+        // The box around both is 40 wide: a cut at 35 leaves half of the second.
+        Seen{"clipped_to_the_box_of_a_group",
+             "<clipPath id='p' clipPathUnits='objectBoundingBox'><rect width='.875' height='1'/></clipPath>"
+             "<g clip-path='url(#p)' transform='scale(2)'><rect id='a' width='10' height='10'/>"
+             "<rect id='b' x='30' width='10' height='10'/></g>",
+             {{"a", 400}, {"b", 200}}},
+        Seen{"clipped_to_the_box_of_a_copy",
+             "<clipPath id='p' clipPathUnits='objectBoundingBox'><rect width='.5' height='1'/></clipPath>"
+             "<defs><rect id='b' x='20' width='10' height='10'/></defs><use id='a' href='#b' x='5' "
+             "clip-path='url(#p)'/>",
+             {{"a", 50}}},
+        // A parabola 40 wide and 20 high, whose control point is 40 up: of its area 2/3 · 40 · 20 goes what
+        // is above half of it, 40/√2 wide and 10 high.
+        Seen{"clipped_to_the_box_of_a_curve",
+             "<clipPath id='p' clipPathUnits='objectBoundingBox'><rect width='1' height='.5'/></clipPath>" +
+                 path("M0 0 Q20 40 40 0 Z", "clip-path='url(#p)'"),
+             {{"a", 2. / 3 * 40 * 20 - 2. / 3 * 40 / std::numbers::sqrt2 * 10}}},
+        Seen{"clip_that_is_clipped",
+             "<clipPath id='p'><rect width='5' height='100'/></clipPath>"
+             "<clipPath id='q' clip-path='url(#p)'><rect width='100' height='6'/></clipPath>"
+             "<rect id='a' width='50' height='50' clip-path='url(#q)'/>",
+             {{"a", 30}}},
+        Seen{"clip_whose_paint_does_not_matter",
+             "<clipPath id='p'><rect width='5' height='100' fill='none' opacity='0'/></clipPath>"
+             "<rect id='a' width='50' height='10' clip-path='url(#p)'/>",
+             {{"a", 50}}},
+        Seen{"dots",
+             path("M10 10 H35",
+                  "stroke='black' stroke-width='6' stroke-linecap='round' stroke-dasharray='0 10'"),
+             {{"a 1", 9 * pi}, {"a 2", 9 * pi}, {"a 3", 9 * pi}}},
+        Seen{"dashes_in_ems",
+             path("M10 10 H60", "stroke='black' stroke-width='4' font-size='10' stroke-dasharray='1em,200%'"),
+             {{"a", 40}}},
+        Seen{"dashes_of_a_path_that_says_its_length",
+             path("M10 10 H60", "stroke='black' stroke-width='4' pathLength='5' stroke-dasharray='1 2'"),
+             {{"a 1", 40}, {"a 2", 40}}},
+        Seen{"a_move_alone_is_no_dot",
+             path("M10 10h10v10h-10z M50 50",
+                  "fill='none' stroke='black' stroke-width='4' stroke-linecap='round'"),
+             {{"a", 14 * 14 - 6 * 6}}},
+        Seen{"properties_in_any_case",
+             square +
+                 "<rect width='9' height='9' style='FILL: none'/><rect width='9' height='9' opacity='.00'/>",
+             {{"a", 100}}},
+        Seen{"by_a_part_of_an_attribute",
+             "<style>[id^=gui],[id$='ide2'],[class*=xy],[class~=c],[lang|=en]{display:none}</style>" +
+                 square +
+                 "<g id='guide'><rect width='9' height='9'/></g><rect id='hide2' width='9' height='9'/>"
+                 "<rect class='wxyz' width='9' height='9'/><rect class='b c' width='9' height='9'/>"
+                 "<rect lang='en-GB' width='9' height='9'/><rect id='b' class='cd' width='3' height='3'/>",
+             {{"a", 100}, {"b", 9}}},
+        Seen{"what_is_printed_is_not_shown",
+             "<style media='print'>rect{display:none}</style><style media='screen'>#b{fill:none}</style>" +
+                 square + "<rect id='b' width='3' height='3'/>",
+             {{"a", 100}}},
+        // 20 x 10 turned by a right angle, with its long side along the frame's left edge, 5 of 10 inside.
+        Seen{"units_of_transforms",
+             "<svg width='50' height='100'><rect id='a' width='20' height='10' "
+             "style='transform: translate(5px, .1in) rotate(.25turn)'/><rect id='b' width='20' height='10' "
+             "style='transform: translateX(5px) rotate(1.5707963267948966rad)'/></svg>",
+             {{"a", 100}, {"b", 100}}},
         // A square on its corner about the frame's edge: half of it is in.
         Seen{"turned_about_an_origin",
              "<svg width='50' height='100'><rect id='a' x='40' y='40' width='20' height='20' "
@@ -578,6 +658,24 @@ TEST(Svg, RulesThatAreNotFollowedAreSaid) {
                              "@media print{rect{fill:none}}", "@charset 'x';"}) {
     EXPECT_TRUE(left_out(silent).empty()) << silent;
   }
+}
+
+TEST(Svg, ClipsOfWhatIsNoShapeAreSaid) {
+  const auto places = [](const std::string& content) {
+    const auto drawn = Drawing(drawing(content), "t.svg").shapes({.metres_per_unit = 1});
+    EXPECT_TRUE(drawn.shapes.empty());
+    std::string all;
+    for (const Problem& problem : drawn.left_out) all += problem.place + " " + problem.what + "\n";
+    return all;
+  };
+  const std::string clipped = "<rect id='a' width='10' height='10' clip-path='url(#p)'/>";
+  EXPECT_EQ(places("<clipPath id='p'><text>x</text></clipPath>" + clipped),
+            "t.svg:#a, clip-path has a part that is text\n");
+  EXPECT_EQ(places("<mask id='p'/>" + clipped), "t.svg:a, clip-path is a <mask>\n");
+  EXPECT_EQ(places("<clipPath id='p' clip-path='url(#p)'/>" + clipped), "t.svg:a, clip-path clips itself\n");
+  EXPECT_EQ(places("<mask id='m'><rect width='9' height='9' fill='#777'/></mask>"
+                   "<rect id='a' width='10' height='10' mask='url(#m)'/>"),
+            "t.svg:#a, mask is half transparent: \"#777\"\n");
 }
 
 TEST(Svg, OneBadShapeIsLeftOutAndSaid) {
