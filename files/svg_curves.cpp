@@ -22,20 +22,55 @@ double half_diameter(const Point& u, const Point& v) {
 
 double stretch(const Affine& to) { return half_diameter({to.a, to.b}, {to.c, to.d}); }
 
+namespace {
+
+/// Calls visit(t) where a coordinate of the curve turns back within it.
+template <class Visit>
+void for_each_turn(const Line&, const Point&, double Point::*, const Visit&) {}
+template <class Visit>
+void for_each_turn(const Cubic& curve, const Point& start, double Point::*x, const Visit& visit) {
+  // P'(t)/3 = a t² + b t + c
+  const double p = start.*x, q = curve.control1.*x, r = curve.control2.*x;
+  const double a = curve.end.*x - 3 * r + 3 * q - p, b = 2 * (r - 2 * q + p), c = q - p;
+  const double s = -(b + std::copysign(std::sqrt(b * b - 4 * a * c), b)) / 2;
+  for (const double t : {s / a, c / s})
+    if (t > 0 && t < 1) visit(t);
+}
+template <class Visit>
+void for_each_turn(const Arc& arc, const Point&, double Point::*x, const Visit& visit) {
+  const double first = std::atan2(arc.v.*x, arc.u.*x);  // u cos t + v sin t is largest there, least π later
+  const auto [low, high] = std::minmax({arc.from, arc.from + arc.sweep});
+  for (double k = std::ceil((low - first) / pi); first + k * pi < high; ++k)
+    visit((first + k * pi - arc.from) / arc.sweep);
+}
+
+Point at(const Line& c, const Point&, double) { return c.end; }
+Point at(const Cubic& c, const Point& start, double t) {
+  const double s = 1 - t;
+  return s * s * s * start + 3 * s * s * t * c.control1 + 3 * s * t * t * c.control2 + t * t * t * c.end;
+}
+Point at(const Arc& a, const Point&, double t) {
+  const Turn turn = turn_of(a.from + t * a.sweep);
+  return a.center + turn.c * a.u + turn.s * a.v;
+}
+
+}  // namespace
+
 Bounds box_around(const std::vector<Subpath>& path) {
   Bounds box;
   for (const Subpath& subpath : path) {
-    box.add(subpath.start);
+    if (!subpath.drawn()) continue;
+    Point start = subpath.start;
+    box.add(start);
     for (const Curve& curve : subpath.curves) {
-      std::visit([&](const auto& c) { box.add(c.end); }, curve);
-      if (const auto* cubic = std::get_if<Cubic>(&curve)) {
-        box.add(cubic->control1);
-        box.add(cubic->control2);
-      } else if (const auto* arc = std::get_if<Arc>(&curve)) {
-        const double r = half_diameter(arc->u, arc->v);
-        box.add(arc->center + Point{r, r});
-        box.add(arc->center - Point{r, r});
-      }
+      std::visit(
+          [&](const auto& c) {
+            for (const auto x : {&Point::x, &Point::y})
+              for_each_turn(c, start, x, [&](double t) { box.add(at(c, start, t)); });
+            box.add(c.end);
+            start = c.end;
+          },
+          curve);
     }
   }
   return box;
@@ -61,16 +96,6 @@ double chords(const Arc& a, const Point&, double tolerance) {
   return std::ceil(std::abs(a.sweep) / std::min(step, pi / 2));
 }
 
-Point at(const Line& c, const Point&, double) { return c.end; }
-Point at(const Cubic& c, const Point& start, double t) {
-  const double s = 1 - t;
-  return s * s * s * start + 3 * s * s * t * c.control1 + 3 * s * t * t * c.control2 + t * t * t * c.end;
-}
-Point at(const Arc& a, const Point&, double t) {
-  const Turn turn = turn_of(a.from + t * a.sweep);
-  return a.center + turn.c * a.u + turn.s * a.v;
-}
-
 }  // namespace
 
 std::vector<Polyline> flatten(const std::vector<Subpath>& path, double tolerance) {
@@ -78,7 +103,7 @@ std::vector<Polyline> flatten(const std::vector<Subpath>& path, double tolerance
   std::size_t total = 0;
   std::vector<Polyline> lines;
   for (const Subpath& subpath : path) {
-    if (subpath.curves.empty() && !subpath.closed) continue;  // a move alone draws nothing
+    if (!subpath.drawn()) continue;
     Polyline line{{subpath.start}, subpath.closed};
     Point start = subpath.start;
     const auto add = [&](const Point& p) {

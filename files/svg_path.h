@@ -48,6 +48,8 @@ struct Subpath {
   Point start;
   std::vector<Curve> curves;
   bool closed = false;  ///< a stroke joins its ends; filling closes every subpath
+
+  bool drawn() const { return closed || !curves.empty(); }  ///< a move alone is not
 };
 
 /// What is wrong with a shape's data; `place` is within it ("command 3").
@@ -95,7 +97,7 @@ Affine parse_transform(std::string_view text);
 /// The largest length of a direction of length 1 after the map.
 double stretch(const Affine& to);
 
-/// A box around the curves: of their ends, control points and whole ellipses.
+/// The box around the curves; empty where there are none.
 Bounds box_around(const std::vector<Subpath>& path);
 
 struct Polyline {

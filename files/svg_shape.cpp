@@ -168,7 +168,7 @@ bool Document::paints(const Style& style, const char* property, std::string_view
 
 double Document::extent(const Painted& shape) const {
   const auto path = curves(shape, shape.to);
-  if (path.empty()) return 0;
+  if (std::none_of(path.begin(), path.end(), [](const Subpath& part) { return part.drawn(); })) return 0;
   Bounds box = box_around(path);
   if (paints(shape.style, "stroke", "none")) {
     const double half = stretch(shape.to) * pen_of(shape.style, shape.view).width / 2;
@@ -182,14 +182,8 @@ double Document::extent(const Painted& shape) const {
 }
 
 Bounds Document::box(const Painted& shape) const {
-  const auto path = curves(shape, shape.to);
-  const Bounds coarse = box_around(path);  // of control points, too
-  Bounds box;
-  if (path.empty() || !finite(coarse)) return box;
-  for (const Polyline& line : flatten(path, 1e-6 * length(coarse.high - coarse.low))) {
-    for (const Point& p : line.points) box.add(p);
-  }
-  return box;
+  const Bounds box = box_around(curves(shape, shape.to));
+  return finite(box) ? box : Bounds();
 }
 
 Layer Document::filled(const Painted& shape, double tolerance) const {

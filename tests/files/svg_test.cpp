@@ -660,6 +660,23 @@ TEST(Svg, RulesThatAreNotFollowedAreSaid) {
   }
 }
 
+// The corners of a square are quarters of circles; one of its sides is an arc of a circle of 30 km. Chords
+// are within a ten-thousandth of the shape's diagonal, so what they leave of the area is within that times
+// the perimeter.
+TEST(Svg, ChordsFollowTheShapeNotTheCirclesThatItsArcsArePartsOf) {
+  const std::string data =
+      "M10 0 H90 A10 10 0 0 1 100 10 V90 A10 10 0 0 1 90 100 H10 A10 10 0 0 1 0 90 "
+      "A30000000 30000000 0 0 1 0 10 A10 10 0 0 1 10 0 Z";
+  const auto drawn = Drawing(drawing(path(data)), "t.svg").shapes({.metres_per_unit = 1});
+  ASSERT_EQ(drawn.shapes.size(), 1u);
+  const Outline& outline = drawn.shapes[0].outline;
+  EXPECT_NEAR(area(outline), 100 * 100 - (4 - pi) * 10 * 10,
+              1e-4 * std::hypot(100, 100) * perimeter(outline));
+  // Of a quarter of a circle of 10, sagitta 0.0141: step 2 acos(1 - 0.00141) = 0.1064, 15 chords; of the
+  // others one each.
+  EXPECT_EQ(outline.outer.size(), 4 * 15 + 4u);
+}
+
 TEST(Svg, ClipsOfWhatIsNoShapeAreSaid) {
   const auto places = [](const std::string& content) {
     const auto drawn = Drawing(drawing(content), "t.svg").shapes({.metres_per_unit = 1});
