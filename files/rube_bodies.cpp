@@ -94,10 +94,20 @@ std::string Reader::unique(std::string name) {
 }
 
 std::optional<Material> Reader::material(const Item& item) {
-  if (const auto name = item.custom("ductile.material", {"string"})) return built_in_material(*name);
   Material m;
-  if (!item.custom(fields::strength, m).contains("fy")) return std::nullopt;
-  item.custom(fields::substance, m);
+  auto given = item.custom(fields::strength, m);
+  given.merge(item.custom(fields::substance, m));
+  const std::string first = given.empty() ? "" : "has \"ductile." + std::string(*given.begin());
+  if (const auto name = item.custom("ductile.material", {"string"})) {
+    if (!given.empty())
+      item.value().wrong(first + "\" beside \"ductile.material\"", "write one or the other");
+    return built_in_material(*name);
+  }
+  if (!given.contains("fy")) {
+    if (!given.empty())
+      item.value().wrong(first + "\" without \"ductile.fy\"", "give that, too, or a \"ductile.material\"");
+    return std::nullopt;
+  }
   if (const auto value = item.custom("ductile.criterion", {"string"})) {
     if (value->json() == "von_mises")
       m.criterion = Criterion::von_mises;

@@ -64,6 +64,9 @@ class Reader {
 
 bool names_material(const Item& body);
 
+/// Complains of each custom property "ductile.…" that is not known where it stands.
+void refuse_unknown_properties(const Item& scene);
+
 /// Metres from a point to a body or piece; 0 inside.
 double distance(Point p, const Outline& outline, double circle, Point centre);
 

@@ -175,6 +175,7 @@ void Reader::find_section(JointBetweenDef& joint, const Between& between) {
 void Reader::read() {
   const Item item(Value(original_, "top level", problems_));
   bodies_ = read_bodies(item);
+  refuse_unknown_properties(item);
   problems_.check();
   def_.gravity = item.vector("gravity");
   def_.gravity_ramp = item.custom_number("ductile.gravity_ramp", not_negative).value_or(0);

@@ -513,7 +513,44 @@ INSTANTIATE_TEST_SUITE_P(
                [](json& s) {
                  add(s["joint"][0], {{"name", "ductile.M"}, {"float", 5}});
                },
-               "ductile.axis"}),
+               "ductile.axis"},
+        Spoilt{
+            "body_property_with_a_slip",
+            [](json& s) {
+              add(s["body"][1], {{"name", "ductile.depht"}, {"float", 0.1}});
+            },
+            R"(customProperties[3]: is "ductile.depht", which no body has; write "ductile." and one of: E, )"},
+        Spoilt{"material_named_and_described",
+               [](json& s) {
+                 add(s["body"][1], {{"name", "ductile.fu"}, {"float", 5e8}});
+               },
+               R"(body[1]: has "ductile.fu" beside "ductile.material"; write one or the other)"},
+        Spoilt{"material_without_strength",
+               [](json& s) {
+                 add(s["body"][2], {{"name", "ductile.E"}, {"float", 2e11}});
+               },
+               R"(body[2]: has "ductile.E" without "ductile.fy"; give that, too, or a "ductile.material")"},
+        Spoilt{"joint_property_on_a_body",
+               [](json& s) {
+                 add(s["body"][0], {{"name", "ductile.moment"}, {"float", 5}});
+               },
+               R"(body[0].customProperties[0]: is "ductile.moment", which no body has)"},
+        Spoilt{"joint_property_with_a_slip",
+               [](json& s) {
+                 add(s["joint"][1], {{"name", "ductile.shear_spam"}, {"float", 5}});
+               },
+               R"(joint[1].customProperties[0]: is "ductile.shear_spam", which no joint has)"},
+        Spoilt{"world_property_with_a_slip",
+               [](json& s) {
+                 add(s, {{"name", "ductile.target"}, {"float", 5}});
+               },
+               R"(customProperties[0]: is "ductile.target", which no world has)"},
+        Spoilt{"body_property_on_a_fixture",
+               [](json& s) {
+                 add(s["body"][0]["fixture"][0], {{"name", "ductile.material"}, {"string", "oak"}});
+               },
+               "fixture[0].customProperties[0]: is \"ductile.material\", which no fixture has; give it to "
+               "the body"}),
     [](const auto& info) { return info.param.name; });
 
 /// What commands run of a level: a box of 0.6 m × 1 m that falls from its centre's height of 2 m.
