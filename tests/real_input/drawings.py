@@ -2,9 +2,10 @@
 
     drawings.py DUCTILE NODE_MODULES [--per-set N] [--json FILE]
 
-Two tables: of every set, how many drawings open and how far the area of all their shapes is from the rendered
-one; and how many single shapes run through calibrate, check, limit and simulate. Ends with 1 where a share is
-below what is asked for (the constants at the top), and with 77 where a tool or the sets are missing.
+A table: of every set, how many drawings open, how far the area of all their shapes together is from the rendered
+one, and in how many the area of one shape is that of the same shape rendered alone, close up. Then how many single
+shapes run through calibrate, check, limit and simulate. Ends with 1 where a share is below what is asked for (the
+constants at the top), and with 77 where a tool or the sets are missing.
 """
 import argparse
 import concurrent.futures
@@ -19,7 +20,7 @@ import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
 
-OPENED, WITHIN, RUN = 0.95, 0.95, 0.98  # of all drawings, of the opened ones, of single shapes
+OPENED, WITHIN, ALONE, RUN = 0.95, 0.95, 0.95, 0.98  # of all drawings, of the opened ones, of single shapes twice
 AREA_ERROR = 0.01
 PIXELS = 384
 SETS = {
@@ -160,6 +161,61 @@ def try_drawing(ductile, file):
         return left_out[0] if left_out else "", abs(area - expected) / max(expected, 1), scene
 
 
+def local_name(element):
+    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+
+
+def area_of(body):
+    def ring(points):
+        return abs(sum(points[i - 1][0] * points[i][1] - points[i][0] * points[i - 1][1] for i in range(len(points)))) / 2
+
+    return ring(body["outline"]) - sum(ring(hole) for hole in body.get("holes", []))
+
+
+def try_alone(file, scene):
+    """The name of one shape that is drawn where it stands, and the error of its area; none where all are copies."""
+    root = ElementTree.parse(file).getroot()
+    parents = {child: parent for parent in root.iter() for child in parent}
+
+    def within(element, kinds):
+        while element is not None and local_name(element) not in kinds:
+            element = parents.get(element)
+        return element is not None
+
+    counts, named = {}, {}
+    for element in root.iter():
+        kind = local_name(element)
+        if kind not in ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon"):
+            continue
+        counts[kind] = counts.get(kind, 0) + 1
+        if not within(element, ("defs", "symbol", "clipPath", "mask", "pattern", "marker")):
+            title = next((child.text for child in element if local_name(child) == "title"), None)
+            name = element.get("id") or element.get("aria-label") or title or f"{kind} {counts[kind]}"
+            named.setdefault(re.sub("[/#-]", "_", name.strip()), []).append(element)
+    for name, elements in sorted(named.items()):
+        bodies = [body for body in scene["bodies"] if re.fullmatch(re.escape(name) + r"( \d+)?", body["name"])]
+        if len(elements) > 1 or not bodies or name == "floor":
+            continue
+        for element in root.iter():
+            if element is not elements[0] and not list(element) and not within(element, ("clipPath", "mask", "style")):
+                element.set("data-other", "")
+        x, y = ([point[axis] for body in bodies for point in body["outline"]] for axis in (0, 1))
+        margin = 0.05 * max(max(x) - min(x), max(y) - min(y))
+        box = box_of(file)
+        close = [min(x) - margin, box[1] + box[3] - max(y) - margin, max(x) - min(x) + 2 * margin,
+                 max(y) - min(y) + 2 * margin]
+        for key, value in (("viewBox", " ".join(map(str, close))), ("width", str(close[2])), ("height", str(close[3])),
+                           ("preserveAspectRatio", "none")):
+            root.set(key, value)
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            (folder / "opaque.css").write_text(OPAQUE + "[data-other]{visibility:hidden!important}")
+            ElementTree.ElementTree(root).write(folder / "alone.svg")
+            expected = rendered(folder / "alone.svg", folder, "alone") / PIXELS**2 * close[2] * close[3]
+        return name, abs(sum(map(area_of, bodies)) - expected) / max(expected, 1e-6 * close[2] * close[3])
+    return None
+
+
 def try_shape(ductile, scene, name):
     """The one body of a scene through four commands; what went wrong in one line, or ""."""
     with tempfile.TemporaryDirectory() as folder:
@@ -188,7 +244,7 @@ def main():
         return 77
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
     failures, rows, shapes = [], [], []
-    print(f"{'set':<22}{'drawings':>9}{'opened':>8}{'within 1 %':>11}{'worst':>8}")
+    print(f"{'set':<22}{'drawings':>9}{'opened':>8}{'within 1 %':>11}{'worst':>8}{'alone':>7}{'within 1 %':>11}{'worst':>8}")
     for title, pattern in SETS.items():
         files = sorted(arguments.node_modules.glob(pattern))
         files = files[::max(1, len(files) // arguments.per_set)][:arguments.per_set]
@@ -209,10 +265,17 @@ def main():
                     failures.append(f"{title}/{file.name}: area is off by {100 * error:.1f} %")
             elif error:
                 failures.append(f"{title}/{file.name}: not compared: {error}")
-        rows.append((title, len(files), opened, within, worst))
-        print(f"{title:<22}{len(files):>9}{opened:>8}{within:>11}{100 * worst:>6.1f} %", flush=True)
-    drawings, opened, within = (sum(row[i] for row in rows) for i in (1, 2, 3))
-    print(f"{'all':<22}{drawings:>9}{opened:>8}{within:>11}")
+        drawn = [(file, scene) for file, (_, _, scene) in zip(files, results) if scene is not None]
+        tried = pool.map(lambda one: try_alone(*one), drawn)
+        errors = [(*one, file) for one, (file, _) in zip(tried, drawn) if one]
+        failures += [f"{title}/{file.name}, shape {name!r}: area is off by {100 * error:.1f} %"
+                     for name, error, file in errors if error > AREA_ERROR]
+        rows.append((title, len(files), opened, within, worst, len(errors), sum(e[1] <= AREA_ERROR for e in errors),
+                     max((e[1] for e in errors), default=0)))
+        print(f"{title:<22}{len(files):>9}{opened:>8}{within:>11}{100 * worst:>6.1f} %{len(errors):>7}"
+              f"{rows[-1][6]:>11}{100 * rows[-1][7]:>6.1f} %", flush=True)
+    drawings, opened, within, alone, alone_within = (sum(row[i] for row in rows) for i in (1, 2, 3, 5, 6))
+    print(f"{'all':<22}{drawings:>9}{opened:>8}{within:>11}{'':>8}{alone:>7}{alone_within:>11}")
     words = list(pool.map(lambda shape: try_shape(arguments.ductile, *shape[1:]), shapes))
     ran = sum(word == "" for word in words)
     failures += [f"{title}, shape {name!r}: {word}" for (title, _, name), word in zip(shapes, words) if word]
@@ -224,7 +287,11 @@ def main():
     if drawings < 10 * len(SETS):
         print("too few drawings: what is missing?")
         return 1
-    return 0 if opened >= OPENED * drawings and within >= WITHIN * opened and ran >= RUN * len(shapes) else 1
+    if 2 * alone < drawings:
+        print("too few shapes compared alone: how are they named?")
+        return 1
+    return 0 if (opened >= OPENED * drawings and within >= WITHIN * opened and alone_within >= ALONE * alone
+                 and ran >= RUN * len(shapes)) else 1
 
 
 if __name__ == "__main__":
