@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -28,17 +29,30 @@ struct Drawing::Data {
       refuse(error.place, error.what(), error.remedy);
     }
   }
-  std::vector<Outline> areas(const svg::Painted& shape, const DrawingScale& scale) const;
+  std::vector<Outline> areas(const svg::Painted& shape, const DrawingScale& scale,
+                             std::vector<Problem>* mended = nullptr) const;
   svg::Painted the_one(std::string_view id, const svg::Affine& page, std::size_t& part) const;
 };
 
-/// The connected areas of a shape, the largest first; none where nothing of it is seen.
-std::vector<Outline> Drawing::Data::areas(const svg::Painted& shape, const DrawingScale& scale) const {
+/// The connected areas of a shape, the largest first; none where nothing of it is seen. Tells what is mended.
+std::vector<Outline> Drawing::Data::areas(const svg::Painted& shape, const DrawingScale& scale,
+                                          std::vector<Problem>* mended) const {
   if (shape.problem) throw InvalidInput({*shape.problem});
   try {
     const double size = document.extent(shape);
     const double tolerance = scale.tolerance > 0 ? scale.tolerance : 1e-4 * size;
-    return size > 0 ? document.areas(shape, tolerance) : std::vector<Outline>();
+    if (!(size > 0)) return {};
+    svg::Areas areas = document.areas(shape, tolerance);
+    if (mended && areas.slivers > 0) {
+      char metres[32];
+      std::snprintf(metres, sizeof metres, "%.2g", tolerance);
+      mended->push_back({document.name + ":#" + shape.name,
+                         "has " + std::to_string(areas.slivers) +
+                             (areas.slivers == 1 ? " sliver, an area or a gap" : " slivers, areas or gaps") +
+                             " thinner than " + metres + " m",
+                         "draw wider what shall be there"});
+    }
+    return std::move(areas.outlines);
   } catch (const svg::ShapeError& error) {
     refuse("#" + shape.name + ", " + error.place, error.what(), error.remedy);
   }
@@ -72,7 +86,7 @@ DrawnShapes Drawing::shapes(const DrawingScale& scale) const {
   drawn.left_out = std::move(shown.not_taken);
   for (const svg::Painted& shape : shown.shapes) {
     try {
-      auto areas = data_->areas(shape, scale);
+      auto areas = data_->areas(shape, scale, &drawn.left_out);
       for (std::size_t i = 0; i < areas.size(); ++i) {
         drawn.shapes.push_back(
             {areas.size() == 1 ? shape.name : shape.name + " " + std::to_string(i + 1), std::move(areas[i])});

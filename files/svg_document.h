@@ -50,6 +50,11 @@ struct Shown {
   std::vector<Problem> not_taken;  ///< text, images, …
 };
 
+struct Areas {
+  std::vector<Outline> outlines;
+  std::size_t slivers = 0;  ///< areas and gaps that were thinner than the tolerance, and are mended
+};
+
 struct Document {
   std::string name;
   pugi::xml_document xml;
@@ -85,7 +90,7 @@ struct Document {
 
   /// The connected areas that a shape covers within what clips it, the largest first. A ring that is as it
   /// was drawn keeps its first point and its direction.
-  std::vector<Outline> areas(const Painted& shape, double tolerance) const;
+  Areas areas(const Painted& shape, double tolerance) const;
   /// The diagonal of a box around it, m. Throws ShapeError where its data is wrong.
   double extent(const Painted& shape) const;
   /// Around what it fills, or would fill, on the page. Throws ShapeError where its data is wrong.

@@ -122,15 +122,19 @@ std::vector<Ring> filled_rings(std::vector<Polyline> lines, double tolerance) {
   return rings;
 }
 
-/// Takes rings out that are thinner than the tolerance: nothing that one drew.
-std::vector<Ring> without_slivers(std::vector<Ring> rings, double tolerance) {
+/// Takes rings out that are thinner than the tolerance. Returns how many one could have seen: more than a
+/// hundred times as long, which no rounding leaves.
+std::size_t take_slivers_out(std::vector<Ring>& rings, double tolerance) {
+  std::size_t seen = 0;
   std::erase_if(rings, [&](const Ring& ring) {
     double perimeter = 0;
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
       perimeter += length(ring[i] - ring[j]);
-    return std::abs(doubled_area_of(ring)) < tolerance * perimeter;
+    const bool sliver = std::abs(doubled_area_of(ring)) < tolerance * perimeter;
+    seen += sliver && perimeter > 200 * tolerance;
+    return sliver;
   });
-  return rings;
+  return seen;
 }
 
 double length_of(const Polyline& line) {
@@ -275,11 +279,12 @@ std::vector<Ring> Document::within(std::vector<Ring> rings, const Painted& shape
   return rings;
 }
 
-std::vector<Outline> Document::areas(const Painted& shape, double tolerance) const {
-  auto areas = outlines(
-      without_slivers(within(overlay({filled(shape, tolerance), stroked(shape, tolerance)}, Overlay::unite),
-                             shape, tolerance, 0),
-                      tolerance));
+Areas Document::areas(const Painted& shape, double tolerance) const {
+  auto rings = overlay({filled(shape, tolerance), stroked(shape, tolerance)}, Overlay::unite);
+  rings = within(std::move(rings), shape, tolerance, 0);
+  Areas areas;
+  areas.slivers = take_slivers_out(rings, tolerance);
+  areas.outlines = outlines(std::move(rings));
   const auto drawn = filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance);
   constexpr std::size_t few = 1000;  // comparing takes quadratic time
   const auto as_drawn = [&](Ring& ring) {
@@ -289,7 +294,7 @@ std::vector<Outline> Document::areas(const Painted& shape, double tolerance) con
     });
     if (same != drawn.end()) ring = *same;
   };
-  for (Outline& area : areas) {
+  for (Outline& area : areas.outlines) {
     as_drawn(area.outer);
     for (Ring& hole : area.holes) as_drawn(hole);
   }

@@ -677,6 +677,28 @@ TEST(Svg, ChordsFollowTheShapeNotTheCirclesThatItsArcsArePartsOf) {
   EXPECT_EQ(outline.outer.size(), 4 * 15 + 4u);
 }
 
+// Within a ten-thousandth of its own diagonal: of the first, 150 x 100, 0.018 m.
+TEST(Svg, SliversAreMendedAndSaid) {
+  const auto drawn = [](const std::string& content) {
+    return Drawing(drawing(content), "t.svg").shapes({.metres_per_unit = 1});
+  };
+  const auto one = drawn(path("M0 0h100v100h-100z M150 0h0.001v100h-0.001z M10 10 v80 h.001 v-80z"));
+  ASSERT_EQ(one.shapes.size(), 1u);
+  EXPECT_DOUBLE_EQ(area(one.shapes[0].outline), 1e4);
+  EXPECT_TRUE(one.shapes[0].outline.holes.empty());
+  ASSERT_EQ(one.left_out.size(), 1u);
+  EXPECT_EQ(one.left_out[0].place, "t.svg:#a");
+  EXPECT_EQ(one.left_out[0].what, "has 2 slivers, areas or gaps thinner than 0.018 m");
+  const auto hair = drawn("<rect id='hair' width='100' height='0.001'/>");
+  EXPECT_TRUE(hair.shapes.empty());
+  ASSERT_EQ(hair.left_out.size(), 1u);
+  EXPECT_EQ(hair.left_out[0].what, "has 1 sliver, an area or a gap thinner than 0.01 m");
+  // What rounding leaves where a stroke's round joins meet its sides is not worth a word.
+  EXPECT_TRUE(drawn("<circle id='a' cx='50' cy='50' r='20' fill='none' stroke='black' stroke-width='9.3' "
+                    "stroke-dasharray='7 3' stroke-linecap='round' transform='rotate(7)'/>")
+                  .left_out.empty());
+}
+
 TEST(Svg, ClipsOfWhatIsNoShapeAreSaid) {
   const auto places = [](const std::string& content) {
     const auto drawn = Drawing(drawing(content), "t.svg").shapes({.metres_per_unit = 1});

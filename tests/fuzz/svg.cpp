@@ -21,6 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
       }
     }
+    const DrawnShapes drawn = drawing.shapes({.metres_per_unit = 1});
+    for (const auto& shape : drawn.shapes) require(!shape.name.empty(), "a shape has a name");
+    for (const Problem& problem : drawn.left_out)
+      require(!problem.place.empty() && !problem.what.empty(), "what is left out is said");
   } catch (const InvalidInput& error) {
     require(!error.problems().empty(), "an error says what is wrong");
   }
