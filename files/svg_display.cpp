@@ -394,7 +394,9 @@ Shown Document::shown_in(const Node& element, const Affine& to, const Point& vie
   for (const Node& node : ancestors(element)) around.style = sheet.style(node, around.style);
   // The clipPath's own transform comes on top of the coordinates of what it clips.
   around.to = around.to * transform_of(around.style, around.view);
-  return walk(*this, element, around, take);
+  Walk walk(*this, take);  // whose shapes need no names
+  walk.visit(element, around);
+  return std::move(walk.shown);
 }
 
 }  // namespace ductile::svg
