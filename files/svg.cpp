@@ -111,7 +111,16 @@ svg::Painted Drawing::Data::the_one(std::string_view id, const svg::Affine& page
   const auto shown = document.shown(page).shapes;
   auto found = named(shown, id);
   const pugi::xml_node element = document.find(id);
-  if (found.empty() && element) found = named(document.held(element, page).shapes, id);
+  if (found.empty() && element) {
+    try {
+      svg::Shown held = document.held(element, page);
+      found = named(std::move(held.shapes), id);
+      if (found.empty() && !held.not_taken.empty())
+        refuse(place, held.not_taken.front().what, held.not_taken.front().remedy);
+    } catch (const svg::ShapeError& error) {  // of what is around it
+      refuse(place + ", " + error.place, error.what(), error.remedy);
+    }
+  }
   const auto space = id.rfind(' ');
   if (found.empty() && !element && space != std::string_view::npos && id.size() - space < 8) {
     const std::string_view number = id.substr(space + 1);
@@ -123,14 +132,17 @@ svg::Painted Drawing::Data::the_one(std::string_view id, const svg::Affine& page
   for (const svg::Painted& shape : found) {
     if (found.size() == 1 || shape.problem) return shape;
   }
-  if (!found.empty() || element) {
-    refuse(place, "has " + std::to_string(found.size()) + " shapes", "name the shape itself");
+  const auto list = [](const std::vector<svg::Painted>& shapes) {
+    constexpr std::size_t most = 10;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(shapes.size(), most); ++i) names += (i ? ", " : "") + shapes[i].name;
+    return names + (shapes.size() > most ? "..." : "");
+  };
+  if (!found.empty()) {
+    refuse(place, "has " + std::to_string(found.size()) + " shapes", "name the shape itself: " + list(found));
   }
-  std::string known;
-  for (std::size_t i = 0; i < std::min<std::size_t>(shown.size(), 10); ++i)
-    known += (i ? ", " : "") + shown[i].name;
-  refuse(place, "is not in the drawing",
-         known.empty() ? "draw a shape" : "its shapes are " + known + (shown.size() > 10 ? "..." : ""));
+  if (element) refuse(place, "has no shapes", "draw one there, or name another");
+  refuse(place, "is not in the drawing", shown.empty() ? "draw a shape" : "its shapes are " + list(shown));
 }
 
 Outline Drawing::outline(std::string_view id, const DrawingScale& scale) const {

@@ -36,6 +36,7 @@ SETS = {
     "@carbon/icons": "@carbon/icons/svg/32/*.svg",
     "devicon": "devicon/icons/*/*.svg",
 }
+DEFINED = ("defs", "symbol", "clipPath", "mask", "pattern", "marker", "style")  # what stands in these is not shown itself
 # Paint is opaque steel here: what is half transparent counts whole.
 OPAQUE = ("*{opacity:1!important;fill-opacity:1!important;stroke-opacity:1!important;stop-opacity:1!important;"
           "stop-color:#000!important;shape-rendering:geometricPrecision}")
@@ -188,7 +189,7 @@ def try_alone(file, scene):
         if kind not in ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon"):
             continue
         counts[kind] = counts.get(kind, 0) + 1
-        if not within(element, ("defs", "symbol", "clipPath", "mask", "pattern", "marker")):
+        if not within(element, DEFINED):
             title = next((child.text for child in element if local_name(child) == "title"), None)
             name = element.get("id") or element.get("aria-label") or title or f"{kind} {counts[kind]}"
             named.setdefault(re.sub("[/#-]", "_", name.strip()), []).append(element)
@@ -197,7 +198,7 @@ def try_alone(file, scene):
         if len(elements) > 1 or not bodies or name == "floor":
             continue
         for element in root.iter():
-            if element is not elements[0] and not list(element) and not within(element, ("clipPath", "mask", "style")):
+            if element is not elements[0] and not list(element) and not within(element, DEFINED):
                 element.set("data-other", "")
         x, y = ([point[axis] for body in bodies for point in body["outline"]] for axis in (0, 1))
         margin = 0.05 * max(max(x) - min(x), max(y) - min(y))
