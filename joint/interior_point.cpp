@@ -343,12 +343,8 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
     for (TurnRow& r : turns_) r.s = std::isfinite(r.s) ? share * r.s : 0;
     at.flows = true;
     take();
-    for (std::size_t k = 0; k < turns_.size(); ++k) {
-      TurnInertia& t = system.turn_inertias[k];
-      // So that its moment is this one.
-      if (t.inertia > 0) t.rate = turn_rate(system, t) - turns_[k].s / t.inertia;
-    }
   }
+  for (std::size_t k = 0; k < turns_.size(); ++k) system.turn_inertias[k].impulse = turns_[k].s;
   for (std::size_t k = 0; k < system.joints.size(); ++k) system.records[k].x = x_of(system, system.joints[k]);
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];

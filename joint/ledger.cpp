@@ -4,7 +4,6 @@
 
 #include "drive.h"
 #include "objective.h"
-#include "turn_inertia.h"
 
 namespace ductile::dynamics {
 
@@ -24,10 +23,9 @@ void Ledger::form(const System& system) {
   moved_.assign(system.joints.size(), {});
   turns_.assign(system.bodies.size(), {});
   turn_inertias_.reserve(system.joints.size());
-  moments_.reserve(system.joints.size());
 }
 
-void Ledger::open(System& system, std::span<const Vec3> before, double h, double share) {
+void Ledger::open(System& system, std::span<const Vec3> before, double h) {
   joints_.assign(system.own_joints().begin(), system.own_joints().end());
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
   for (std::size_t k = 0; k < system.own(); ++k) {
@@ -43,11 +41,9 @@ void Ledger::open(System& system, std::span<const Vec3> before, double h, double
     }
   }
   turn_inertias_ = system.turn_inertias;
-  moments_.clear();
   for (const TurnInertia& t : turn_inertias_) {
-    const Vec3 &a = system.bodies[z(t.a)].v, &b = system.bodies[z(t.b)].v;
-    moments_.push_back(turn_impulse(t, 1 / share * a, 1 / share * b));  // of the solution, as the rows'
-    energies.numerical += moments_.back() * (b.w - a.w + before[z(t.b)].w - before[z(t.a)].w) / 2;
+    const double now = system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
+    energies.numerical += t.impulse * (now + before[z(t.b)].w - before[z(t.a)].w) / 2;
   }
 }
 
@@ -97,10 +93,8 @@ void Ledger::close(std::span<const Vec3> change) {
     const Rows v = relative_velocity(j, own(j.a), own(j.b));
     for (unsigned i = 0; i < 3; ++i) energies.numerical += j.impulse[i] * v[i] / 2;
   }
-  for (std::size_t k = 0; k < turn_inertias_.size(); ++k) {
-    const TurnInertia& t = turn_inertias_[k];
-    energies.numerical += moments_[k] * (change[z(t.b)].w - change[z(t.a)].w) / 2;
-  }
+  for (const TurnInertia& t : turn_inertias_)
+    energies.numerical += t.impulse * (change[z(t.b)].w - change[z(t.a)].w) / 2;
 }
 
 }  // namespace ductile::dynamics

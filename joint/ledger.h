@@ -30,9 +30,8 @@ class Ledger {
 
   void form(const System& system);
   /// Before poses move, while J is the step's own: the part of the rows' loss that needs it. `before` are the
-  /// velocities at the step's very start, in own frames; `share`, of the solution's velocities, the bodies
-  /// move with.
-  void open(System& system, std::span<const Vec3> before, double h, double share);
+  /// velocities at the step's very start, in own frames.
+  void open(System& system, std::span<const Vec3> before, double h);
   /// After a joint's flow was booked: by what its neutral position moved, and the plastic work of that, J.
   void account(const Joint& joint, std::size_t index, JointRecord& record, const Rows& slip,
                const Rows& work);
@@ -45,7 +44,6 @@ class Ledger {
   std::vector<Rows> taken_;    // s·J v̄, J
   std::vector<Rows> moved_;    // h J v, m or rad
   std::vector<TurnInertia> turn_inertias_;
-  std::vector<double> moments_;  // their impulses
 };
 
 }  // namespace ductile::dynamics

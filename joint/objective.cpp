@@ -58,14 +58,6 @@ void add_impulses(System& system, std::span<Vec3> g, Evaluation& at) {
   at.curved = (any & on_surface) != 0;
 }
 
-void inertial_gradient(const System& system, std::span<Vec3> g) {
-  for (std::size_t i = 0; i < system.free; ++i) {
-    const Body& b = system.bodies[i];
-    g[i] = momentum(b, b.v - b.v_free);
-  }
-  add_turn_impulses(system, g);
-}
-
 void find_x(System& system) {
   for (const Joint& j : system.joints) {
     if (j.regime != 0) continue;  // known
@@ -92,8 +84,7 @@ double objective(System& system, const Evaluation& at) {
     }
   }
   for (const TurnInertia& t : system.turn_inertias)
-    f += turn_impulse(t, system.bodies[z(t.a)].v, system.bodies[z(t.b)].v) *
-         (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate) / 2;
+    f += t.impulse * (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate) / 2;
   return f;
 }
 

@@ -72,9 +72,6 @@ inline Evaluation evaluate(System& system, std::span<Vec3> g) {
   return evaluate(system, g, [](std::size_t, Body&) {});
 }
 
-/// The gradient of f without its rows into g.
-void inertial_gradient(const System& system, std::span<Vec3> g);
-
 /// x of all rows, from an evaluation at these velocities.
 void find_x(System& system);
 

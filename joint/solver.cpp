@@ -141,7 +141,7 @@ void Solver::scale(double share) {
 
 void Solver::advance() {
   newton_.forget();
-  if (keeps_ledger) ledger_.open(*this, before, step(), motion_.share);
+  if (keeps_ledger) ledger_.open(*this, before, step());
   gaps_known = false;
   predicted_ = !motion_.swept;
   const double h = step();

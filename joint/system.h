@@ -88,6 +88,7 @@ struct TurnInertia {
   int block = -1;                    // of H
   double inertia = 0;                // C, kg m²
   double rate = 0;                   // w, rad/s
+  double impulse = 0;                // N m s: on B, against it on A, of the last solve
   double highest = 0, unneeded = 0;  // what was needed at most, in so many s
 
   void keep(Tape& tape) { tape(inertia, rate, highest, unneeded); }

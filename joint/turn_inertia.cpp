@@ -127,11 +127,11 @@ void remember_turn_rates(System& system, std::span<const Vec3> velocities) {
   for (TurnInertia& t : system.turn_inertias) t.rate = velocities[z(t.b)].w - velocities[z(t.a)].w;
 }
 
-void add_turn_impulses(const System& system, std::span<Vec3> g) {
-  for (const TurnInertia& t : system.turn_inertias) {
-    const double moment = turn_impulse(t, system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
-    g[z(t.a)].w -= moment;
-    g[z(t.b)].w += moment;
+void add_turn_impulses(System& system, std::span<Vec3> g) {
+  for (TurnInertia& t : system.turn_inertias) {
+    t.impulse = t.inertia * (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate);
+    g[z(t.a)].w -= t.impulse;
+    g[z(t.b)].w += t.impulse;
   }
 }
 

@@ -38,12 +38,7 @@ bool raise_to_tension(System& system, double h);
 /// Sets the rates after a step, with bodies' velocities in their new frames.
 void remember_turn_rates(System& system, std::span<const Vec3> velocities);
 
-/// The moment impulse of one of them, N m s; A gets its opposite.
-inline double turn_impulse(const TurnInertia& t, const Vec3& a, const Vec3& b) {
-  return t.inertia * (b.w - a.w - t.rate);
-}
-
-/// Adds the gradient at the bodies' v.
-void add_turn_impulses(const System& system, std::span<Vec3> g);
+/// Adds the gradient at the bodies' v, and writes each one's impulse.
+void add_turn_impulses(System& system, std::span<Vec3> g);
 
 }  // namespace ductile::dynamics

@@ -174,6 +174,39 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   }
 }
 
+// Turn inertia resists a change of the rate that the step before left (turn_inertia.h), as often as the step
+// is solved.
+TEST(Solver, TurnInertiaKeepsItsRateWhereASolveDidNotEnd) {
+  Line line(6), other(6);
+  for (Line* l : {&line, &other}) {
+    Solver& s = l->solver;
+    for (std::size_t k = 0; k < s.joints.size(); ++k) {
+      JointRecord& r = s.records[k];
+      r.material.stiffness[rotation] = 1e3;
+      r.turn_inertia = static_cast<int>(k);
+      const Joint& j = s.joints[k];
+      s.turn_inertias.push_back({.a = j.a, .b = j.b, .block = j.block, .inertia = 50, .rate = 0.2});
+    }
+    s.laws_changed();
+    for (std::size_t i = 0; i < 6; ++i)
+      s.bodies[i].v_free = {i % 2 == 0 ? 3.0 : -1.0, 0, i % 2 == 0 ? 1.0 : 0};
+    s.begin(1.0 / 240);
+    SolveReport report;
+    if (l == &line) {
+      l->cut_off(1);
+      s.solve(report);
+      EXPECT_TRUE(report.unsolved);
+      l->cut_off(100);
+    }
+    s.solve(report);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(line.solver.bodies[i].v.w, other.solver.bodies[i].v.w, 1e-8);
+    const double moving = other.solver.bodies[i].v.w - other.solver.bodies[i].v_free.w;
+    EXPECT_GT(std::abs(moving), 0.01);
+  }
+}
+
 // A solution that was not finite is forecast for as long as it is known; the solves end all the same.
 TEST(Solver, StartsAnewWhereTheForecastIsNotFinite) {
   Line line(3);
