@@ -78,6 +78,31 @@ double InteriorPoint::balance(System& system) {
   return scale;
 }
 
+// Of the impulses to start from, the share at which what is to be minimised is least, where that is far from
+// all of them: so they are of rows that were jammed until somebody moved them, or have flowed since. From so
+// far, rounds lose the last bits of what is left to the caps.
+void InteriorPoint::moderate_start(const System& system) {
+  std::fill(d_.begin(), d_.end(), Vec3{});
+  double asked = 0, taken = 0;  // s·(J v* + b) and |M⁻¹ Jᵀ s|²_M + sᵀ G⁻¹ s
+  const auto free_velocity = [&](int i) {
+    return system.is_free(i) ? system.bodies[z(i)].v_free : system.bodies[z(i)].v;
+  };
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const Rows x = biased_velocity(j, free_velocity(j.a), free_velocity(j.b));
+    for (unsigned i = 0; i < 3; ++i) {
+      asked += best_[k][i] * x[i];
+      if (j.G[i] > 0) taken += best_[k][i] * best_[k][i] / j.G[i];
+    }
+    add_transposed(j, best_[k], d_[z(j.a)], d_[z(j.b)]);
+  }
+  for (std::size_t i = 0; i < system.free; ++i) taken += square(system.bodies[i], d_[i]);
+  const double share = std::max(0.0, asked / taken);
+  if (!(share < 1e-3)) return;
+  for (Rows& s : best_)
+    for (double& each : s) each = share > 0 ? share * each : 0;
+}
+
 // Whether anything moves, or asks for an impulse: else there is none, and bodies rest.
 bool InteriorPoint::start(const System& system) {
   double energy = 0;  // what impulses may have to answer to
@@ -215,6 +240,7 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   Outcome outcome;
   if (!std::exchange(start_known_, false)) start_from(system);
   open_friction(system);
+  moderate_start(system);
   if (!start(system)) {
     outcome.reached = true;
     finish(system, outcome.reached, at);
@@ -237,6 +263,8 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   const double goal = alone ? tunables.goal : tunables.contact_goal;
   const double tolerance = alone ? tunables.tolerance : tunables.contact_tolerance;
   outcome.gap = infinity;
+  // Of the best iterate, as its gap is: |v|² of one that is astray would allow any gap that there ever was.
+  double goal_gap = 0;
   std::array<double, 2> earlier{infinity, infinity};  // Σ z p two rounds ago and in the last
   for (int round = 0, idle = 0, careful = 0;; ++round) {
     const Distance now = measure(system);
@@ -244,11 +272,12 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
     if (now.gap() < outcome.gap) {
       outcome.gap = now.gap();
+      goal_gap = goal * scale + now.rounding;
+      outcome.tolerance = tolerance * scale + now.rounding;
       best_ = impulses_;
       for (TurnRow& r : turns_) r.best = r.s;
     }
-    outcome.tolerance = tolerance * scale + now.rounding;
-    if (outcome.gap <= goal * scale + now.rounding || !std::isfinite(now.gap())) break;
+    if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
 
     factor(system, hessian);

@@ -70,6 +70,7 @@ class InteriorPoint {
   std::size_t bytes() const;
 
  private:
+  void moderate_start(const System& system);
   bool start(const System& system);
   void open_friction(System& system);
   bool follow_friction(System& system, double energy, double mu);

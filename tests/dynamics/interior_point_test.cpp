@@ -350,6 +350,28 @@ TEST(InteriorPoint, SolvesRandomStructures) {
               failed, worst, static_cast<double>(sum) / count, most);
 }
 
+// From impulses that are far from any solution: what it calls reached is.
+TEST(InteriorPoint, SolvesFromImpulsesThatAreFarFromAny) {
+  int reached = 0;
+  for (unsigned seed = 0; seed < 1500; ++seed) {
+    Problem problem = random_structure(seed, static_cast<Laws>(seed % 3));
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const double size = std::pow(10.0, random() % 13);
+    for (Joint& j : problem.system.joints)
+      for (double& s : j.impulse) s = size * normal(random);
+    problem.method.tunables.round_bound = static_cast<int>(random() % 60);
+    const InteriorPoint::Outcome outcome = problem.solve();
+    if (!outcome.reached) continue;
+    ++reached;
+    const Certificate c = certify(problem);
+    EXPECT_LE(c.gap, 1e-12 * c.scale + c.rounding)
+        << "seed " << seed << ", by its own account " << outcome.gap << ", " << outcome.factorisations
+        << " rounds";
+  }
+  EXPECT_GT(reached, 500);
+}
+
 // Gauss with pivots.
 std::vector<long double> solve_dense(std::vector<std::vector<long double>> A, std::vector<long double> b) {
   const std::size_t n = b.size();
