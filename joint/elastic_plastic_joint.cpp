@@ -166,6 +166,29 @@ double ElasticPlasticJoint::capacity_used() const {
   return member_->limits.used(record().plastic);
 }
 
+double ElasticPlasticJoint::ductility() const {
+  const JointRecord& r = record();
+  const auto reach = [&](Row row, bool reverse) {
+    if (r.material.surface == nullptr) return cap(row, reverse);
+    if (row == shear) return r.material.surface->shear();
+    double most = 0;  // the largest share of the surface that 1 N or 1 N m of the row alone uses
+    for (const YieldSurface::Facet& f : r.material.surface->facets())
+      most = std::max(most, (reverse ? -1 : 1) * (row == axial ? f.n : f.m));
+    return 1 / most;
+  };
+  double largest = 0;
+  for (const Row row : {axial, shear, rotation}) {
+    const double k = r.material.stiffness[row];
+    double sum = 0;
+    for (const bool reverse : {false, true}) {
+      const double flowed = (reverse ? r.plastic.back : r.plastic.forward)[row];
+      if (flowed > 0) sum += flowed / (std::isinf(k) ? 0 : reach(row, reverse) / k);
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 bool ElasticPlasticJoint::yielded() const { return member_ != nullptr && member_->said.yielded; }
 bool ElasticPlasticJoint::broken() const { return member_ != nullptr && member_->broken; }
 

@@ -326,6 +326,42 @@ TEST(Joint, ThatYieldedWithoutALimitSaysSo) {
   EXPECT_GE(h.structure.joints()[0]->stage(), 1);
 }
 
+// A bar turned by a drive to 0.3 rad and back to -0.1 about a hinge that yields at 0.05 rad: it flows by 0.25
+// rad, and by 0.4 rad less twice the 0.05 that it springs. Poses are floats: 1e-7 rad of 0.05 in each of
+// three turns.
+TEST(Ductility, IsTheSumOfPlasticTurnsInTurnsAtYield) {
+  constexpr double k = 1e5, turn = 0.05, cap = k * turn;
+  const std::vector<AxialMoment> hexagon{{2 * cap, 0},  {cap, cap},   {-cap, cap},
+                                         {-2 * cap, 0}, {-cap, -cap}, {cap, -cap}};
+  for (const auto& interaction : {std::vector<AxialMoment>{}, hexagon}) {
+    b2World world({0, 0});
+    Structure structure(world);
+    b2Body *wall = add_box(world, {.type = b2_staticBody}), *bar = add_box(world, {.mass = 10});
+    ElasticPlasticJointDef def;
+    def.Initialize(wall, bar, {0, 0}, {1, 0});
+    for (const Row row : {axial, shear}) def.rows[row] = RowDef::free();
+    def.rows[rotation] = {.drive = Drive{}};
+    ElasticPlasticJoint* motor = structure.create_joint(def);
+    def.rows[axial] = def.rows[shear] = {};
+    def.rows[rotation] = {.stiffness = k};
+    def.interaction = interaction;
+    if (interaction.empty()) def.rows[rotation].cap = def.rows[rotation].cap_reverse = cap;
+    const ElasticPlasticJoint* hinge = structure.create_joint(def);
+    const auto turn_to = [&](double angle) {
+      motor->drive(rotation, {.target = angle, .speed = 1});
+      run(world, structure, 1);
+      ASSERT_NEAR(bar->GetAngle(), angle, 1e-7);
+    };
+    turn_to(0.99 * turn);
+    EXPECT_EQ(hinge->ductility(), 0);
+    turn_to(0.3);
+    EXPECT_NEAR(hinge->ductility(), 0.25 / turn, 1e-5);
+    turn_to(-0.1);
+    EXPECT_NEAR(hinge->ductility(), (0.25 + 0.4 - 2 * turn) / turn, 1e-5);
+    EXPECT_EQ(hinge->capacity_used(), 0);
+  }
+}
+
 // ---- Nodes
 
 /// A weight on two bars of no weight to speak of, 3 m apart on the ceiling and 2 m above it; all pinned.

@@ -114,9 +114,13 @@ class ElasticPlasticJoint : public b2WeldJoint {
   double elongation() const;            ///< m: Σ plastic lengthening
   double compression() const;           ///< m: Σ plastic shortening
   double slip() const;                  ///< m: Σ|plastic shear|
-  /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break:
-  /// there dissipated() tells how much it went through.
+  /// The largest accumulated value over its maximum: the joint breaks at 1. 0 where nothing can break: there
+  /// ductility() tells how much it went through.
   double capacity_used() const;
+  /// The cumulative ductility: Σ|plastic| of a row in multiples of what it gives elastically before it
+  /// yields, cap/stiffness, the largest of the rows; with an interaction curve, the cap of the row alone. 0
+  /// before yield, infinite where a rigid row has flowed: there dissipated() tells.
+  double ductility() const;
   /// 0 unloaded … 1 yields … 2 broken: stage_of() in stage.h.
   double stage() const;
   bool yielded() const;  ///< whether it ever flowed, limit or none
