@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow.h"
+#include "kinematics.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -54,6 +57,61 @@ void close_blow(System& system) {
     r.held = 1;
     set_caps(j, r, times(r.law.h, r.material.cap), times(r.law.h, r.material.cap_reverse), 1);
   }
+}
+
+LeftOut left_out(const System& system, std::span<const Rows> before, double closing,
+                 std::span<Vec3> scratch) {
+  const std::span<const Joint> own = system.own_joints();
+  const auto more = [&](const Joint& j) {
+    Rows s = j.impulse;
+    for (unsigned i = 0; i < 3; ++i) s[i] -= before[system.index(j)][i];
+    return s;
+  };
+  // Σ Jᵀ Δs of the free bodies.
+  std::fill(scratch.begin(), scratch.end(), Vec3{});
+  Vec3 ground;
+  const auto of = [&](int body) -> Vec3& { return system.is_free(body) ? scratch[z(body)] : ground; };
+  for (const Joint& j : own) add_transposed(j, more(j), of(j.a), of(j.b));
+  const auto without = [&](int body) {
+    const Body& b = system.bodies[z(body)];
+    const Vec3 p = of(body);
+    return system.is_free(body)
+               ? b.v + Vec3{b.inverse_mass * p.x, b.inverse_mass * p.y, b.inverse_inertia * p.w}
+               : b.v;
+  };
+  const auto brought = [&](int body) {
+    const Body& b = system.bodies[z(body)];
+    return system.is_free(body) ? b.v_free : b.v;
+  };
+  LeftOut all;
+  for (const Joint& j : own) {
+    const JointRecord& r = system.record(j);
+    if (r.held < 1) continue;  // it breaks, which is work enough
+    const Rows s = more(j), v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v),
+               v2 = relative_velocity(j, without(j.a), without(j.b)),
+               v0 = relative_velocity(j, brought(j.a), brought(j.b));
+    double way = 0, gyration = unlimited;
+    const auto look_at = [&](int body, double across, double along) {
+      if (!system.is_free(body)) return;
+      way += std::hypot(across, along);
+      gyration = std::min(gyration, std::sqrt(system.bodies[z(body)].inertia / system.bodies[z(body)].mass));
+    };
+    look_at(j.a, j.J.au, j.J.av);
+    look_at(j.b, j.J.bu, j.J.bv);
+    for (unsigned i = 0; i < 3; ++i) {
+      const double cap = s[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i];
+      if (!(j.G[i] > 0) || !std::isfinite(cap) || r.material.may_slacken(i) || r.material.is_driven(i))
+        continue;
+      const double most = std::abs(v0[i]) + closing / (i == 2 ? 2 * gyration : 1);
+      const double booked = flows(j.regime, i) ? impulse_at_yield(j, r, i) / r.law.h * slip_of(j, r, i) : 0;
+      const double work = s[i] * (std::clamp(v2[i], -most, most) + v[i]) / 2 -
+                          cap * cap / (2 * r.material.stiffness[i]) - booked;
+      if (!(work > 0)) continue;
+      all.flow = std::max(all.flow, work / (cap * (i == 2 ? 1 : way)));
+      all.work += work;
+    }
+  }
+  return all;
 }
 
 double impulse_at_yield(const Joint& j, const JointRecord& r, unsigned i) {

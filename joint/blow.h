@@ -12,6 +12,8 @@
 // Elastic rows need no such thing, as R = k (e + (u − p)/4 + …) is the mean of both halves already.
 #pragma once
 
+#include <span>
+
 #include "system.h"
 
 namespace ductile::dynamics {
@@ -24,6 +26,22 @@ void weaken(Joint& joint, JointRecord& record, double share);
 
 /// After the step: its laws are again those of any step, and what flowed does so at its cap.
 void close_blow(System& system);
+
+/// Plastic flow that a blow should leave and that its step does not show.
+struct LeftOut {
+  double flow = 0;  // the most of a row, rad, or by the way between the two bodies
+  double work = 0;  // of all, J
+};
+
+/// After the solve of a step that is struck, before poses move. `before` are the joints' impulses before it,
+/// `closing` the speed of the fastest contact that closes, `scratch` is of the free bodies.
+///
+/// A row of cap F that takes Δs more than before brakes its bodies from J v₂ to J v, v₂ the velocities
+/// without all Δs; no faster than they were brought, or than what closes may throw them. Of that work, ½ Δs
+/// (J v₂ + J v), a spring takes F²/2k, and flow is booked; the rest over F is left out. That is nothing of
+/// blows which last Δs/F ≥ ¾ h, and all of the flow, up to v₂h/4, of those below ½ h, whose Δs is within what
+/// the row may take.
+LeftOut left_out(const System& system, std::span<const Rows> before, double closing, std::span<Vec3> scratch);
 
 /// What a row that flows would take in a step that no blow cut short, N s or N m s.
 double impulse_at_yield(const Joint& joint, const JointRecord& record, unsigned row);

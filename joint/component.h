@@ -150,6 +150,7 @@ struct Component {
   bool knows(int a, int b) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
+  double closing() const;
   static float closing_speed(const Touch& touch, const PointConstraint& at);
   bool parts(const Joint& joint) const;
   /// By what velocities must change at once for a blow, m/s.
@@ -165,6 +166,7 @@ struct Component {
   bool is_anchored() const;
   void solve(const b2SolverData& data);
   void solve_direct();
+  void move();
   // component_parts.cpp
   bool may_divide(const b2SolverData& data) const;
   bool goes_on_in_parts(const b2SolverData& data, bool moved) const;

@@ -179,13 +179,16 @@ float Component::closing_speed(const Touch& t, const PointConstraint& p) {
   return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
 }
 
-// Whether velocities jump at the start of this step: of pieces, or as something closes with them.
-bool Component::is_blow() const {
-  bool blow = struck_;
-  each_point([&blow](std::size_t, const Touch& t, const PointConstraint& p) {
-    blow |= closing_speed(t, p) < -blow_speed;
+// Of what closes fastest, m/s.
+double Component::closing() const {
+  float most = 0;
+  each_point([&most](std::size_t, const Touch& t, const PointConstraint& p) {
+    most = std::max(most, -closing_speed(t, p));
   });
-  return blow;
+  return most;
 }
+
+// Whether velocities jump at the start of this step: of pieces, or as something closes with them.
+bool Component::is_blow() const { return struck_ || closing() > double{blow_speed}; }
 
 }  // namespace ductile::dynamics

@@ -99,7 +99,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   begin_parts();
   for (int k = 0; k < count; ++k) {
     solve_part(h, k == 0, blow);
-    solver.advance();
+    move();
     look_for_breaks(*this);
   }
   end_parts(data);
@@ -157,7 +157,7 @@ void Component::solve_part(double h, bool first, bool blow) {
     }
   }
   solver.touch(outside_.links, outside_.contacts);
-  if (first && blow) solver.strike();
+  if (first && blow) solver.strike(closing());
   solve_direct();
 
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {

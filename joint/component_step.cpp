@@ -204,7 +204,7 @@ void Component::first_velocity(const b2SolverData& data) {
   struck_ = false;
   if (in_parts) return solve_in_parts(data, blow);
   if (!blow) return solve(data);
-  solver.strike();
+  solver.strike(closing());
   solve_direct();
   if (may_divide(data) && (is_strained() || strikes_hard())) return solve_in_parts(data, true);
   give(data);
@@ -287,6 +287,16 @@ void Component::solve_direct() {
   });
 }
 
+// Poses move, what flowed is booked, and what a blow left out of it is told.
+void Component::move() {
+  solver.advance();
+  if (const LeftOut& now = solver.left_out(); now.work > 0)
+    report([&now](Reports& r) {
+      r.left_out.flow = std::max(r.left_out.flow, now.flow);
+      r.left_out.work += now.work;
+    });
+}
+
 void Component::project(bool try_goal) {
   const bool kept = solver.project(goal_, try_goal);
   report([kept](Reports& r) {
@@ -367,7 +377,7 @@ void Component::advance(const b2SolverData& data) {
                            m.mass.gyration * std::abs(m.pushed.w)}) <= slack;
     }
   }
-  solver.advance();
+  move();
   bool kinematic = false;
   // Where nothing else moves them, position() writes their poses, if it is called at all.
   const bool later = alone() && data.step.positionIterations > 0;

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "blow.h"
 #include "rate.h"
 #include "turn_inertia.h"
 
@@ -62,10 +61,11 @@ void Solver::unite(double parts) {
   prediction_.forget();
 }
 
-void Solver::strike() {
+void Solver::strike(double closing) {
   for (std::size_t k = 0; k < own(); ++k) before_blow_[k] = joints[k].impulse;
   open_blow(*this);
   struck_ = true;
+  closing_ = closing;
 }
 
 void Solver::weaken(std::size_t joint, double share) {
@@ -141,6 +141,8 @@ void Solver::scale(double share) {
 
 void Solver::advance() {
   newton_.forget();
+  left_out_ =
+      struck_ ? dynamics::left_out(*this, before_blow_, closing_, newton_.scratch().first(free)) : LeftOut{};
   if (keeps_ledger) ledger_.open(*this, before, step());
   gaps_known = false;
   predicted_ = !motion_.swept;

@@ -26,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include "blow.h"
 #include "contact_rows.h"
 #include "drive.h"
 #include "ledger.h"
@@ -57,14 +58,17 @@ class Solver : public System {
   /// are undone.
   void divide(double parts);
   void unite(double parts);
-  /// The bodies' velocities jumped at the start of this step (blow.h): after begin(), before its first solve.
-  void strike();
+  /// The bodies' velocities jumped at the start of this step (blow.h), or contacts closed so fast: after
+  /// begin(), before its first solve.
+  void strike(double closing);
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
   void push(std::size_t body, const Vec3& change) {
     newton_.push(*this, body, change);
     pushed_ = true;
   }
   bool struck() const { return struck_; }
+  /// Of the step that advance() ended: see blow.h.
+  const LeftOut& left_out() const { return left_out_; }
   /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
   /// again.
   void weaken(std::size_t joint, double share);
@@ -142,6 +146,8 @@ class Solver : public System {
   Motion motion_;                  // of the present step
   bool predicted_ = false;         // the next solve starts where prediction_ says
   bool struck_ = false;            // the present step is that of a blow
+  double closing_ = 0;             // whose fastest contact closes so fast, m/s
+  LeftOut left_out_;               // of the last step
   bool pushed_ = false;            // velocities changed since its first solve
 };
 

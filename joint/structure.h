@@ -32,6 +32,7 @@ struct Reports {
   StepReport step;
   StepReport worst;      // since the start: bounds_hit and parted are sums, residual and slowed are maxima
   int stopped = 0;       // velocities since the start that were no finite numbers
+  LeftOut left_out;      // since the start, by blows: flow is a maximum, work a sum
   bool stepped = false;  // since the last update()
   std::size_t bodies_in_parts = 0;  // of the components that `step` counts as divided
 

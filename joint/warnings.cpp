@@ -15,6 +15,18 @@ using namespace dynamics;
 
 namespace {
 
+/// Of plastic flow, rad or by the way between two bodies, that matters: by so much of its length a rigid
+/// structure may drift that is said to stand (report/stability.cpp).
+constexpr double least_left_out = 1e-3;
+
+/// Of all plastic work: what a blow bends is promised within so much (docs/games/promises.md).
+constexpr double most_left_out = 0.15;
+
+/// By what a body may turn in a step, rad. It moves along a tangent and is brought back in the next, so that
+/// a spin of φ a step lies ½φ² of its radius r too far out, at both ends of a chord: m v r (1 + ½φ²) cos ½φ
+/// is kept, and ¾φ² of the energy is lost, 1 % at 0.115.
+constexpr double most_turn = 0.1;
+
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
   char line[300];
   std::va_list values;
@@ -30,6 +42,13 @@ double mass_ratio(const b2Body* a, const b2Body* b) {
   if (!is_free(a) || !is_free(b)) return 1;
   const double x = a->GetMass(), y = b->GetMass();
   return std::max(x, y) / std::min(x, y);
+}
+
+/// By what a body turns in a step about an anchor, rad; one that has it in its centre of mass stays where it
+/// is.
+double turn_about(const b2Body* body, const b2Vec2& local_anchor, double h) {
+  if (!is_free(body) || !((local_anchor - body->GetLocalCenter()).Length() > b2_linearSlop)) return 0;
+  return h * std::abs(double{body->GetAngularVelocity()});
 }
 
 /// The least width of a fixture without the skin that Box2D gives it, m.
@@ -86,15 +105,31 @@ std::vector<std::string> Structure::warnings() const {
              "masses that differ less",
              worst.residual));
   }
+  double dissipated = structure.gone.dissipated;
+  for (const ElasticPlasticJoint* joint : structure.joints) dissipated += joint->dissipated();
+  const LeftOut& left_out = structure.reports.left_out;
+  if (left_out.flow > least_left_out && left_out.work > most_left_out * (left_out.work + dissipated)) {
+    all.push_back(text(
+        "blows that were over within a step left out up to %.2g of plastic flow (rad, or of the way between "
+        "two bodies), %.0f %% of the plastic work: use a smaller step",
+        left_out.flow, 100 * left_out.work / (left_out.work + dissipated)));
+  }
   int lowered = 0;
   double ratio = 1, contact_ratio = 1, width = unlimited;
-  std::uint32_t first_lowered = 0, widest = 0;
+  double turn = 0;
+  std::uint32_t first_lowered = 0, widest = 0, turning = 0;
   for (const ElasticPlasticJoint* joint : structure.joints) {
     for (const Row row : {axial, shear, rotation}) {
       if (joint->stiffness_limited(row) && lowered++ == 0) first_lowered = joint->id();
     }
     auto* j = const_cast<ElasticPlasticJoint*>(joint);
     if (const double r = mass_ratio(j->GetBodyA(), j->GetBodyB()); r > ratio) ratio = r, widest = joint->id();
+    if (const Component* c = structure.find(joint->id())->component; c != nullptr) {
+      const double h = c->solver.step();
+      const double most = std::max(turn_about(j->GetBodyA(), j->GetLocalAnchorA(), h),
+                                   turn_about(j->GetBodyB(), j->GetLocalAnchorB(), h));
+      if (most > turn) turn = most, turning = joint->id();
+    }
     for (const b2Body* body : {j->GetBodyA(), j->GetBodyB()}) {
       for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
         if (is_free(body) && !f->IsSensor()) width = std::min(width, least_width(*f));
@@ -109,6 +144,12 @@ std::vector<std::string> Structure::warnings() const {
         text("%d rows (the first in joint %u) are stiffer than the step can integrate and are held less "
              "stiffly; use a smaller step where that shows",
              lowered, first_lowered));
+  }
+  if (turn > most_turn * 1.0001) {
+    all.push_back(text(
+        "joint %u turns by %.2f rad a step, where %.1g is promised: bodies are drawn apart as they turn, "
+        "and a spin loses up to three quarters of the square of it; use a smaller step",
+        turning, turn, most_turn));
   }
   if (ratio > 1.0001e6) {
     all.push_back(
