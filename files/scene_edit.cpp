@@ -30,15 +30,30 @@ class SceneEdit {
       scene->erase("materials");
       for (Json& body : (*scene)["bodies"]) body.erase("material");
     }
+    for (std::size_t i = 0; i < after_.bodies.size(); ++i) {
+      const BodyDef& body = after_.bodies[i];
+      if (body.material && !named(before_, body.name)) is["bodies"][i]["material"] = name_of(*body.material);
+    }
     edit(was, is, Path());
     return text_.text();
   }
 
  private:
-  const BodyDef* now(const BodyDef& body) const {
-    const auto found = std::find_if(after_.bodies.begin(), after_.bodies.end(),
-                                    [&](const BodyDef& other) { return other.name == body.name; });
-    return found == after_.bodies.end() ? nullptr : &*found;
+  static const BodyDef* named(const SceneDef& scene, const std::string& name) {
+    const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [&](const BodyDef& body) { return body.name == name; });
+    return found == scene.bodies.end() ? nullptr : &*found;
+  }
+
+  /// What the file calls a material of a body that comes.
+  std::string name_of(const Material& material) {
+    if (const auto known = built_in_name(material)) return *known;
+    for (std::size_t i = 0; i < before_.bodies.size(); ++i) {
+      const BodyDef* other = named(after_, before_.bodies[i].name);
+      if (other && other->material == material && before_.bodies[i].material == material)
+        return file_["bodies"][i].value("material", "");
+    }
+    return new_material("material", material);
   }
 
   /// A material that all its bodies have changed alike changes in the list; a body that goes its own way gets
@@ -47,7 +62,7 @@ class SceneEdit {
     std::vector<std::string> done;
     for (std::size_t i = 0; i < before_.bodies.size(); ++i) {
       const BodyDef& body = before_.bodies[i];
-      const BodyDef* other = now(body);
+      const BodyDef* other = named(after_, body.name);
       if (!other || !other->material || !body.material || *other->material == *body.material) continue;
       const std::string name = file_["bodies"][i].value("material", "");
       if (std::find(done.begin(), done.end(), name) != done.end()) continue;
@@ -60,7 +75,7 @@ class SceneEdit {
       bool alike = true;
       for (std::size_t k = 0; k < before_.bodies.size(); ++k) {
         if (file_["bodies"][k].value("material", "") != name) continue;
-        const BodyDef* with = now(before_.bodies[k]);
+        const BodyDef* with = named(after_, before_.bodies[k].name);
         alike &= with && with->material == other->material;
       }
       if (own && alike) {
@@ -114,7 +129,8 @@ class SceneEdit {
     text_.set(at, is);
   }
 
-  /// Elements are the same where they have the same name, or stand at the same place without one.
+  /// Elements are the same where they have the same name; without one, where they stand at the same place of
+  /// the list, or, where it has become longer or shorter, are at the same point of the scene.
   void edit_list(const Json& was, const Json& is, const Path& at) {
     std::vector<std::size_t> partner(was.size(), is.size());
     std::size_t j = 0;
@@ -122,6 +138,7 @@ class SceneEdit {
       for (std::size_t k = j; k < is.size(); ++k) {
         const bool same = was[i].contains("name")   ? is[k].value("name", "") == was[i]["name"]
                           : was.size() == is.size() ? k == i
+                          : was[i].contains("at")   ? is[k].value("at", Json()) == was[i]["at"]
                                                     : is[k] == was[i];
         if (!same) continue;
         partner[i] = k;

@@ -47,7 +47,8 @@ BeamStyle style_of(const BodyDef& beam) {
           .depth = beam.depth,
           .profile = beam.profile_name,
           .pieces = beam.pieces,
-          .solid = beam.collides};
+          .solid = beam.collides,
+          .price = beam.price};
 }
 
 void lay(BodyDef& beam, const Axis& axis, const BeamStyle& style) {
@@ -64,6 +65,7 @@ void lay(BodyDef& beam, const Axis& axis, const BeamStyle& style) {
   beam.depth = style.depth;
   beam.pieces = style.pieces;
   beam.collides = style.solid;
+  beam.price = style.price;
   lay(beam, axis, height);
 }
 

@@ -30,6 +30,7 @@ struct BeamStyle {
   std::string profile;               ///< the name of a profile instead; empty: a rectangle
   int pieces = 6;
   bool solid = true;  ///< false: everything passes it, as what runs on a bridge passes its truss
+  double price = 0;   ///< of a kg; 0: not known
 };
 
 /// The axis of a body that is a beam, a rectangle that begins at its own origin; nothing of another.

@@ -12,6 +12,7 @@
 
 #include "crossing.h"
 #include "pick.h"
+#include "prices.h"
 #include "quantity.h"
 
 #include <imgui_stdlib.h>  // after imgui.h
@@ -60,6 +61,7 @@ void Desk::draw(Point size, double ui) {
   if (!bench_.message.empty()) message();
   if (helping_) help();
   open_list();
+  take_brought();
   if (panel_ == Panel::view) return;
   const Bounds& box = panel_ == Panel::details ? at_right : panel_ == Panel::time ? bar : at_left;
   ImGui::GetForegroundDrawList()->AddRect(px(box.low), px(box.high), ink::accent, 0, 0, f(2 * ui_));
@@ -74,6 +76,8 @@ void Desk::adopt() {
   scene_ = save_as_ = bench_.file().string();
   recent_.add(bench_.file());
   maker_.forget();
+  maker_.style.price = price_of(bench_.scene(), maker_.style.material);
+  maker_.block.price = price_of(bench_.scene(), maker_.block.material);
   camera_.show(extent(bench_.plan()));
   if (maker_.tool() != Maker::Tool::none) take(maker_.tool());
 }

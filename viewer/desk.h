@@ -14,7 +14,6 @@
 #include "canvas.h"
 #include "diagram.h"
 #include "maker.h"
-#include "prices.h"
 #include "recent.h"
 #include "workbench.h"
 
@@ -43,9 +42,11 @@ class Desk {
     when_linking_ = std::move(what);
   }
 
+  /// How far the grip that turns is above what is chosen, px at scale 1.
+  static constexpr double grip_arm = 28;
+
   const Camera& camera() const { return camera_; }
   const Maker& maker() const { return maker_; }
-  const Prices& prices() const { return prices_; }
   /// The box of every control of the last frame, px, by name.
   const std::map<std::string, Bounds>& controls() const { return controls_; }
   /// The control that has the keys; empty: the scene has them.
@@ -81,7 +82,9 @@ class Desk {
   void copy();
   void cut();
   void group();
-  void price(const Material& material);
+  /// `price`: of a kg of that material, in what is made next.
+  void price(const Material& material, double& price);
+  void load_style();
   void line_style();
   void block_style();
   void size_for_reserve(const BodyDef& body);
@@ -98,7 +101,9 @@ class Desk {
   void draw_making(ImDrawList& to) const;
   void take(Maker::Tool tool);
   void start_new();
-  void ask_for_file();
+  /// `beside`: for what is put beside what is there.
+  void ask_for_file(bool beside = false);
+  void take_brought();
   void open_list();
 
   void save();
@@ -147,7 +152,6 @@ class Desk {
   double rests_ = 0;         // s since the pointer moved
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
-  Prices prices_;
   double reserve_ = 1.5;  // that a body is sized for
   bool placing_ = false, helping_ = false, exporting_ = false, opening_ = false;
   enum class Panel { view, details, time, scene } panel_ = Panel::view;  // that has the keys

@@ -58,6 +58,16 @@ void Desk::draw_chosen(ImDrawList& to) const {
       to.PathLineTo(px(camera_.to_screen(body.at + Rotation(body.angle) * p)));
     to.PathStroke(ink::accent, ImDrawFlags_Closed, width);
   }
+  if (const auto grip = maker_.turn_grip(bench_, grip_arm * ui_ / camera_.scale)) {
+    const Point at = camera_.to_screen(grip->at);
+    to.AddLine(px(camera_.to_screen(grip->about)), px(at), ink::accent, static_cast<float>(ui_));
+    to.AddCircleFilled(px(at), static_cast<float>(6 * ui_), ink::ground);
+    to.AddCircle(px(at), static_cast<float>(6 * ui_), ink::accent, 0, width);
+    if (const auto turning = maker_.turning()) {
+      to.AddText(px(at + ui_ * Point{12, -8}), ink::accent, fmt::format("{:.4g}°", *turning).c_str());
+      return;
+    }
+  }
   const Point cursor = camera_.to_screen(maker_.cursor());
   if (maker_.tool() == Maker::Tool::choose && maker_.start()) {
     to.AddRect(px(camera_.to_screen(*maker_.start())), px(cursor), ink::accent, 0, 0,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "desk.h"
+#include "prices.h"
 #include "quantity.h"
 #include "rows.h"
 #include "sizing.h"
@@ -103,6 +104,7 @@ void Desk::material(SceneDef& scene, BodyDef& body) {
   };
   Material& material = *body.material;
   const bool other = choose_material(material);
+  if (other) body.price = price_of(bench_.scene(), material);
   tip("material", "A built-in material, or its own by the values below.");
   is_now(other);
   struct Value {

@@ -49,9 +49,10 @@ void Desk::keys() {
       if (key(GLFW_KEY_V)) take(Maker::Tool::paste);
       if (key(GLFW_KEY_M)) take(Maker::Tool::mirror);
       if (key(GLFW_KEY_T)) take(Maker::Tool::turn);
-      if (key(GLFW_KEY_G)) io.KeyShift ? maker_.ungroup() : group();
+      if (key(GLFW_KEY_G)) io.KeyShift ? maker_.ungroup(bench_) : group();
     }
     if (key(GLFW_KEY_O)) ask_for_file();
+    if (key(GLFW_KEY_I) && bench_.editable()) ask_for_file(true);
     if (key(GLFW_KEY_E)) {
       exporting_ = true;
       details_ = false;
@@ -158,6 +159,7 @@ void Desk::help() {
       Row{"Tab", "the next panel: arrows, Enter; Escape: back to the scene"},
       Row{"ctrl+Z  Y", "undo, redo"},
       Row{"ctrl+N  O  S  E", "new scene (alt+N too), open, save, export"},
+      Row{"ctrl+I", "import a file beside what is there"},
       Row{"Escape", "give up what is drawn, lay the tool down, select nothing"},
       Row{"H", "this list"},
   };

@@ -9,6 +9,7 @@
 
 #include "controls.h"
 #include "desk.h"
+#include "prices.h"
 
 namespace ductile::viewer {
 namespace {
@@ -46,6 +47,13 @@ void Desk::make() {
   ImGui::SameLine();
   if (button("Open", "open", "A file: of those that were opened last, or of a folder (ctrl+O)."))
     ask_for_file();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!bench_.editable());
+  if (button(
+          "Import", "import",
+          "What a scene, a drawing or a level has, beside what is there: then click where it goes (ctrl+I)."))
+    ask_for_file(true);
+  ImGui::EndDisabled();
   if (!bench_.editable()) return ImGui::TextWrapped("A level is made in the editor that it comes from.");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(105 * ui_ * static_cast<double>(i % 3)));
@@ -66,9 +74,7 @@ void Desk::make() {
     if (slide("springs", stiffness, 1e-3, 1e9, "%.4g kN/m")) maker_.stiffness = 1e3 * stiffness;
     tip("spring stiffness", "Of the next springs, across and upright.");
   } else if (maker_.tool() == Tool::load) {
-    double force = maker_.force / 1e3;
-    if (slide("load", force, 1e-3, 1e6, "%.4g kN")) maker_.force = 1e3 * force;
-    tip("load force", "Of the next load, downwards.");
+    load_style();
   } else if (maker_.tool() == Tool::line) {
     line_style();
   } else if (maker_.tool() == Tool::block) {
@@ -79,19 +85,39 @@ void Desk::make() {
   } else {
     beam_style(maker_.style);
   }
-  price(maker_.tool() == Tool::block ? maker_.block.material : maker_.style.material);
+  if (maker_.tool() == Tool::block) {
+    if (!maker_.block.fixed) price(maker_.block.material, maker_.block.price);
+  } else {
+    price(maker_.style.material, maker_.style.price);
+  }
   slide("grid", maker_.grid, 0.01, 10, "%.3g m");
   tip("grid", "What the cursor snaps to where no node is near.");
   ImGui::PopItemWidth();
   ImGui::Separator();
   ImGui::TextWrapped("%s", bench_.verdict().c_str());
-  if (const double cost = prices_.cost(bench_.plan()); cost > 0) ImGui::Text("It costs %.4g.", cost);
+  if (const double all = cost(bench_.plan()); all > 0) ImGui::Text("It costs %.4g.", all);
 }
 
-void Desk::price(const Material& material) {
-  double price = prices_.of(material);
-  if (slide("price", price, 0, 1000, "%.4g /kg")) prices_.set(material, price);
-  tip("price", "Of a kg of this material, in whatever currency: the cost of all that moves is told below.");
+void Desk::price(const Material& material, double& price) {
+  const bool changed = slide("price", price, 0, 1000, "%.4g /kg");
+  tip("price",
+      "Of a kg of all that moves and is made of this material, in whatever currency: the cost is told "
+      "below.");
+  const auto& bodies = bench_.scene().bodies;
+  const bool is_used = std::any_of(bodies.begin(), bodies.end(),
+                                   [&](const BodyDef& body) { return body.material == material; });
+  commit(changed && is_used, with_price(bench_.scene(), material, price));
+}
+
+void Desk::load_style() {
+  LoadStyle& load = maker_.load;
+  double force = load.force / 1e3;
+  if (slide("load", force, 1e-3, 1e6, "%.4g kN")) load.force = 1e3 * force;
+  tip("load force", "Of the next load.");
+  slide("direction", load.direction, -180, 180, "%.4g °");
+  tip("load direction", "Of the next load, counter-clockwise from the right: -90 is down.");
+  slide("ramp", load.ramp, 0, 60, "%.3g s");
+  tip("load ramp", "Over which the next load grows, evenly; 0: it is there at once.");
 }
 
 // What can be done with the bodies that are chosen.
@@ -119,7 +145,7 @@ void Desk::with_chosen() {
   ImGui::BeginDisabled(chosen == 0);
   if (button("Group", "group", "What is chosen is chosen and moved as one from now on (ctrl+G).")) group();
   ImGui::SameLine();
-  if (button("Ungroup", "ungroup", "Each by itself again (ctrl+shift+G).")) maker_.ungroup();
+  if (button("Ungroup", "ungroup", "Each by itself again (ctrl+shift+G).")) maker_.ungroup(bench_);
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::TextDisabled("%zu chosen", chosen);
@@ -142,14 +168,22 @@ void Desk::cut() {
 void Desk::line_style() {
   LineStyle& line = maker_.line;
   int kind = static_cast<int>(line.kind);
-  if (choose("line", "What the next line is: a rope pulls, a strut pushes, a jack grows or shortens.", kind,
-             {"rope", "strut", "jack"})) {
+  if (choose(
+          "line",
+          "What the next line is: a rope pulls, a strut pushes, a spring does both, a winch is a rope that "
+          "is wound in, a jack grows or shortens.",
+          kind, {"rope", "strut", "spring", "winch", "jack"})) {
     line.kind = static_cast<LineStyle::Kind>(kind);
   }
-  if (line.kind != LineStyle::Kind::jack) return;
+  if (line.kind == LineStyle::Kind::spring) {
+    double stiffness = line.stiffness / 1e3;
+    if (slide("stiffness", stiffness, 1e-3, 1e9, "%.4g kN/m")) line.stiffness = 1e3 * stiffness;
+    tip("line stiffness", "Of the next spring.");
+  }
+  if (line.kind != LineStyle::Kind::winch && line.kind != LineStyle::Kind::jack) return;
   double force = line.force / 1e3;
   if (slide("force", force, 1e-3, 1e6, "%.4g kN")) line.force = 1e3 * force;
-  tip("jack force", "With which the next jack pushes or pulls at most.");
+  tip("jack force", "With which the next jack or winch pushes or pulls at most.");
   slide("stroke", line.stroke, -5, 5, "%.3g m");
   tip("jack stroke", "By how much it grows; shortens, to the left.");
   slide("speed", line.speed, 1e-3, 10, "%.3g m/s");
@@ -163,7 +197,7 @@ void Desk::block_style() {
              {"stands", "moves"}))
     block.fixed = moves == 0;
   if (block.fixed) return;
-  choose_material(block.material);
+  if (choose_material(block.material)) block.price = price_of(bench_.scene(), block.material);
   tip("block material", "Of the next polygon.");
   slide("depth", block.depth, 0.001, 10, "%.3g m");
   tip("block depth", "Of the next polygon, out of the plane.");
@@ -218,7 +252,13 @@ void Desk::make_with(Point mouse, bool over) {
     const double reach = std::min(Hand::reach * ui_ / camera_.scale, 0.6 * maker_.grid);
     maker_.point(bench_, camera_.to_world(mouse), reach);
   }
-  if (clicked) maker_.press(bench_);
+  if (clicked) {
+    const auto grip = maker_.turn_grip(bench_, grip_arm * ui_ / camera_.scale);
+    if (grip && length(camera_.to_screen(grip->at) - mouse) < Hand::reach * ui_)
+      maker_.take_grip(bench_, *grip);
+    else
+      maker_.press(bench_);
+  }
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) maker_.release(bench_, io.KeyShift);
 }
 

@@ -43,11 +43,18 @@ std::vector<fs::path> offered(const fs::path& folder) {
 
 }  // namespace
 
-void Desk::ask_for_file() {
+void Desk::ask_for_file(bool beside) {
+  bench_.bringing = beside;
   if (when_opening_) return when_opening_();
   std::error_code none;
   folder_ = fs::absolute(bench_.file(), none).parent_path();
   opening_ = true;
+}
+
+void Desk::take_brought() {
+  if (!bench_.brought) return;
+  maker_.carry(*std::exchange(bench_.brought, std::nullopt));
+  take(Maker::Tool::paste);
 }
 
 // Typing shortens the list, and Enter takes its first.
@@ -95,7 +102,8 @@ void Desk::open_list() {
     folder_ = fs::weakly_canonical(chosen, none);
   } else if (!chosen.empty()) {
     ImGui::CloseCurrentPopup();
-    if (bench_.try_open(chosen)) take(Maker::Tool::none);
+    if (bench_.receive(chosen) && !bench_.bringing) take(Maker::Tool::none);
+    bench_.bringing = false;
   }
   ImGui::EndPopup();
 }

@@ -7,6 +7,7 @@
 #include "controls.h"
 #include "desk.h"
 #include "ductile/rolled.h"
+#include "prices.h"
 
 #include <imgui_stdlib.h>  // after imgui.h
 
@@ -90,7 +91,7 @@ bool Desk::section_style(BeamStyle& style) {
 }
 
 void Desk::beam_style(BeamStyle& style) {
-  choose_material(style.material);
+  if (choose_material(style.material)) style.price = price_of(bench_.scene(), style.material);
   tip("beam material", "Of the next beam.");
   section_style(style);
   ImGui::SliderInt("pieces", &style.pieces, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);

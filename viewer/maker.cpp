@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -51,6 +53,7 @@ Point Maker::snapped(const Workbench& bench, Point at, double reach) const {
 
 void Maker::point(Workbench& bench, Point at, double reach) {
   aim_ = at;
+  if (grip_) return turn(bench);
   put(bench, snapped(bench, at, reach));
 }
 
@@ -117,12 +120,7 @@ void Maker::begin(Workbench& bench) {
 void Maker::click(Workbench& bench) const {
   const SceneDef& scene = bench.scene();
   if (tool_ == Tool::support) bench.edit(with_next_support(scene, cursor_, stiffness));
-  if (tool_ == Tool::load) {
-    const bool same = std::any_of(scene.loads.begin(), scene.loads.end(), [this](const LoadDef& l) {
-      return is_same(l.at, cursor_) && l.force.x == 0 && l.force.y == -force;
-    });
-    bench.edit(with_load(scene, cursor_, {0, same ? 0 : -force}));
-  }
+  if (tool_ == Tool::load) bench.edit(with_load(scene, cursor_, load.vector(), load.ramp));
   if (tool_ == Tool::node) bench.edit(with_weld_or_pin(scene, cursor_));
   if (tool_ == Tool::remove) bench.edit(without(scene, cursor_));
 }
@@ -142,9 +140,14 @@ void Maker::add_corner(Workbench& bench) {
 
 bool Maker::interrupted(const Workbench& bench) {
   if (bench.edition() == edition_) return false;
-  start_.reset();
-  drawn_ = false;
+  let_go();
   return true;
+}
+
+void Maker::let_go() {
+  start_.reset();
+  grip_.reset();
+  drawn_ = false;
 }
 
 SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
@@ -153,6 +156,11 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
     chosen = std::move(result.added);
     return std::move(result.scene);
   };
+  const auto turned_about = [&](Point about, double degrees) {
+    return joined(without_chosen(before_),
+                  turned(part_of(before_, chosen_), about, degrees * std::numbers::pi / 180));
+  };
+  if (grip_) return turned_about(grip_->about, turned_by_);
   switch (tool_) {
     case Tool::beam:
       return with_beam(before_, {*start_, cursor_}, style);
@@ -163,8 +171,7 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
     case Tool::mirror:
       return joined(before_, mirrored(part_of(before_, chosen_), cursor_.x));
     case Tool::turn:
-      return joined(without_chosen(before_),
-                    turned(part_of(before_, chosen_), cursor_, turn_by * std::numbers::pi / 180));
+      return turned_about(cursor_, turn_by);
     default:
       break;
   }
@@ -174,15 +181,16 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
   if (!body) body = body_at(before_, *start_);
   if (!body) throw InvalidInput({{"move", "there is nothing here", "drag a node or a body"}});
   const bool with_chosen = std::find(chosen_.begin(), chosen_.end(), body->name) != chosen_.end();
-  return with_bodies_moved(before_, with_chosen ? chosen_ : with_groups({body->name}), cursor_ - *start_);
+  return with_bodies_moved(before_, with_chosen ? chosen_ : with_assemblies(before_, {body->name}),
+                           cursor_ - *start_);
 }
 
 void Maker::draw(Workbench& bench) {
-  if (interrupted(bench) || tool_ == Tool::choose) return;
+  if (interrupted(bench) || (tool_ == Tool::choose && !grip_)) return;
   try {
     std::vector<std::string> added;
     bench.draw(drawn(added), drawn_);
-    if (tool_ == Tool::paste || tool_ == Tool::turn) chosen_ = std::move(added);
+    if (tool_ == Tool::paste || tool_ == Tool::turn || grip_) chosen_ = std::move(added);
     drawn_ = true;
     edition_ = bench.edition();
     problem_.clear();
@@ -193,14 +201,13 @@ void Maker::draw(Workbench& bench) {
 
 void Maker::release(Workbench& bench, bool add) {
   if (!start_ || interrupted(bench)) return;
-  if (tool_ == Tool::choose) return choose_between(bench, add);
+  if (tool_ == Tool::choose && !grip_) return choose_between(bench, add);
   const bool at_once = tool_ == Tool::paste || tool_ == Tool::mirror || tool_ == Tool::turn;
-  const bool moved = at_once || !is_same(cursor_, *start_);
+  const bool moved = at_once || (grip_ ? turned_by_ != 0 : !is_same(cursor_, *start_));
   if (moved && !problem_.empty()) bench.message = "This cannot be.\n" + problem_;
   if (!moved || !problem_.empty()) return cancel(bench);
   bench.settle();
-  start_.reset();
-  drawn_ = false;
+  let_go();
 }
 
 void Maker::choose_between(const Workbench& bench, bool add) {
@@ -216,7 +223,7 @@ void Maker::choose_between(const Workbench& bench, bool add) {
       for (const double margin : {-node_size, node_size}) box.add(p + Point{margin, margin});
     found = bodies_in(bench.scene(), box);
   }
-  found = with_groups(std::move(found));
+  found = with_assemblies(bench.scene(), std::move(found));
   chosen_.insert(chosen_.end(), found.begin(), found.end());
   start_.reset();
 }
@@ -225,8 +232,7 @@ void Maker::cancel(Workbench& bench) {
   corners_.clear();
   if (!start_ || interrupted(bench)) return;
   if (drawn_) bench.undo();
-  start_.reset();
-  drawn_ = false;
+  let_go();
 }
 
 std::vector<std::string> Maker::chosen(const Workbench& bench) const {
@@ -257,35 +263,42 @@ bool Maker::remove_chosen(Workbench& bench) {
   return true;
 }
 
-std::vector<std::string> Maker::with_groups(std::vector<std::string> names) const {
-  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
-  for (const auto& group : groups_) {
-    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return in(group, name); }))
-      continue;
-    for (const std::string& name : group)
-      if (!in(names, name)) names.push_back(name);
-  }
-  return names;
-}
-
-bool Maker::group(const Workbench& bench) {
-  std::vector<std::string> names = chosen(bench);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  if (names.size() < 2) return false;
-  ungroup();
-  groups_.push_back(std::move(names));
+bool Maker::group(Workbench& bench) {
+  const std::vector<std::string> names = chosen(bench);
+  if (std::set<std::string>(names.begin(), names.end()).size() < 2) return false;
+  attempt(bench, [&] { bench.edit(with_assembly(bench.scene(), names)); });
   return true;
 }
 
-void Maker::ungroup() {
-  std::erase_if(groups_, [this](const std::vector<std::string>& group) {
-    return std::any_of(chosen_.begin(), chosen_.end(), [&](const std::string& name) {
-      return std::find(group.begin(), group.end(), name) != group.end();
-    });
-  });
+void Maker::ungroup(Workbench& bench) {
+  attempt(bench, [&] { bench.edit(without_assemblies(bench.scene(), chosen(bench))); });
+}
+
+std::optional<Maker::TurnGrip> Maker::turn_grip(const Workbench& bench, double arm) const {
+  if (grip_)
+    return TurnGrip{grip_->about, grip_->about + Rotation(turned_by_ * std::numbers::pi / 180) *
+                                                     (grip_->at - grip_->about)};
+  if (tool_ != Tool::choose || start_) return std::nullopt;
+  const Bounds box = box_of(part_of(bench.scene(), chosen_).bodies);
+  if (box.empty()) return std::nullopt;
+  return TurnGrip{box.middle(), {box.middle().x, box.high.y + arm}};
+}
+
+void Maker::take_grip(Workbench& bench, const TurnGrip& grip) {
+  cursor_ = aim_ = grip.at;
+  turned_by_ = 0;
+  begin(bench);
+  grip_ = grip;
+}
+
+void Maker::turn(Workbench& bench) {
+  constexpr double step = 5;  // degrees
+  const Point from = grip_->at - grip_->about, to = aim_ - grip_->about;
+  const double angle = std::atan2(cross(from, to), dot(from, to)) * 180 / std::numbers::pi;
+  if (const double by = step * std::round(angle / step); by != turned_by_) {
+    turned_by_ = by;
+    draw(bench);
+  }
 }
 
 }  // namespace ductile::viewer

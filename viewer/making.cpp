@@ -1,6 +1,8 @@
 #include "making.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "pins.h"
@@ -87,6 +89,7 @@ SceneDef with_block(SceneDef scene, const Ring& corners, const BlockStyle& style
     area += cross(corners[i], corners[(i + 1) % corners.size()]);
   if (area < 0) std::reverse(block.outline.outer.begin(), block.outline.outer.end());
   block.depth = style.depth;
+  block.price = style.fixed ? 0 : style.price;
   block.material = style.material;
   if (style.fixed) block.type = BodyType::static_body;
   scene.bodies.push_back(block);
@@ -105,13 +108,16 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
   if (joint.a == joint.b) throw InvalidInput({{"line", "begins and ends on one body", remedy}});
   joint.line = {axis.from, axis.to};
   using Kind = LineStyle::Kind;
-  joint.carries = style.kind == Kind::rope    ? Carries::tension
-                  : style.kind == Kind::strut ? Carries::compression
-                                              : Carries::both;
-  if (style.kind == Kind::jack) {
+  const bool winch = style.kind == Kind::winch;
+  joint.carries = style.kind == Kind::rope || winch ? Carries::tension
+                  : style.kind == Kind::strut       ? Carries::compression
+                                                    : Carries::both;
+  if (style.kind == Kind::spring) joint.overrides.stiffness_axial = style.stiffness;
+  if (style.kind == Kind::jack || winch) {
     const double length = axis.length() + style.stroke;
     if (!(length > 0))
-      throw InvalidInput({{"jack", "shortens to nothing", "draw it longer than its stroke"}});
+      throw InvalidInput(
+          {{winch ? "winch" : "jack", "shortens to nothing", "draw it longer than its stroke"}});
     joint.drive = DriveDef{.row = axial, .position = length, .speed = style.speed, .cap = style.force};
   }
   scene.joints.push_back(std::move(joint));
@@ -140,13 +146,26 @@ SceneDef with_next_support(SceneDef scene, Point at, double stiffness) {
   return scene;
 }
 
-SceneDef with_load(SceneDef scene, Point at, Point force) {
-  std::erase_if(scene.loads, [&](const LoadDef& l) { return is_same(l.at, at); });
-  if (force.x == 0 && force.y == 0) return scene;
+Point LoadStyle::vector() const {
+  Point along = Rotation(direction * std::numbers::pi / 180) * Point{1, 0};
+  for (double* component : {&along.x, &along.y})
+    if (std::abs(*component) < 1e-12) *component = 0;  // straight down is that
+  return force * along;
+}
+
+SceneDef with_load(SceneDef scene, Point at, Point force, double ramp) {
+  bool same = force.x == 0 && force.y == 0;
+  std::erase_if(scene.loads, [&](const LoadDef& l) {
+    if (!is_same(l.at, at)) return false;
+    same |= l.force == force && l.ramp == ramp;
+    return true;
+  });
+  if (same) return scene;
   LoadDef load;
   load.body = need_moving(scene, at, "load");
   load.at = at;
   load.force = force;
+  load.ramp = ramp;
   scene.loads.push_back(std::move(load));
   return scene;
 }

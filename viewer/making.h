@@ -13,10 +13,19 @@ namespace ductile::viewer {
 
 /// What pulls or pushes along a line between two bodies.
 struct LineStyle {
-  enum class Kind { rope, strut, jack } kind = Kind::rope;
-  double force = 100e3;  ///< N: of a jack, at most
-  double stroke = 0.5;   ///< m: by which a jack grows, or shortens where it is negative
-  double speed = 0.1;    ///< m/s, of a jack
+  enum class Kind { rope, strut, spring, winch, jack } kind = Kind::rope;
+  double stiffness = 1e6;  ///< N/m, of a spring
+  double force = 100e3;    ///< N: of a winch or a jack, at most
+  double stroke = 0.5;     ///< m: by which a jack grows, or shortens where it is negative; a winch, too
+  double speed = 0.1;      ///< m/s, of both
+};
+
+/// What pulls at a body.
+struct LoadStyle {
+  double force = 100e3;    ///< N
+  double direction = -90;  ///< degrees from x, counter-clockwise
+  double ramp = 0;         ///< s over which it grows
+  Point vector() const;    ///< N
 };
 
 /// What a polygon is made of.
@@ -24,6 +33,7 @@ struct BlockStyle {
   bool fixed = true;  ///< it stands still: a bank, a pier, a wall
   Material material = materials::S355;
   double depth = 1;  ///< m, out of the plane
+  double price = 0;  ///< of a kg; 0: not known
 };
 
 /// A floor, and nothing else.
@@ -46,8 +56,8 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style);
 /// The body at a point is held there: first by a hinge, then by a roller that lets it slide along, then
 /// clamped, then by springs of that stiffness, N/m, in x and y, then no more.
 SceneDef with_next_support(SceneDef scene, Point at, double stiffness);
-/// A force on the body at a point instead of the one that is there; none: no more.
-SceneDef with_load(SceneDef scene, Point at, Point force);
+/// A force on the body at a point instead of the one that is there; none, or the same once more: no more.
+SceneDef with_load(SceneDef scene, Point at, Point force, double ramp = 0);
 /// The bodies of a node are welded, where they were pinned, or pinned again. Elsewhere two bodies that touch
 /// at a point, at least one of which moves, are joined along their edges, or no more.
 SceneDef with_weld_or_pin(SceneDef scene, Point at);

@@ -1,6 +1,7 @@
 #include "open.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,6 +45,56 @@ Opened level_of(std::string_view text, const std::filesystem::path& file) {
           {}};
 }
 
+JointBetweenDef joint_of(const PlannedJoint& planned, const std::string& a, const std::string& b) {
+  JointBetweenDef joint;
+  joint.a = a;
+  joint.b = b;
+  if (planned.end)
+    joint.line = {planned.anchor, *planned.end};
+  else
+    joint.at = planned.anchor;
+  if (planned.end) joint.length = planned.length;
+  joint.carries = planned.carries;
+  joint.drive = planned.drive;
+  joint.overrides = {.axial = planned.N,
+                     .axial_compression = planned.Nc,
+                     .stiffness_axial = planned.stiffness.N,
+                     .max_elongation = planned.max_elongation,
+                     .max_compression = planned.max_compression};
+  if (planned.end) return joint;
+  joint.overrides.moment = planned.M;
+  joint.overrides.moment_reverse = planned.M_reverse;
+  joint.overrides.shear = planned.Q;
+  joint.overrides.stiffness_shear = planned.stiffness.Q;
+  joint.overrides.stiffness_moment = planned.stiffness.M;
+  joint.overrides.max_rotation = planned.max_rotation;
+  joint.overrides.max_slip = planned.max_slip;
+  return joint;
+}
+
+SceneDef scene_of(const Plan& level) {
+  SceneDef scene;
+  const auto body_of = [&](int piece) -> const BodyDef& {
+    return level.bodies[static_cast<std::size_t>(level.pieces[static_cast<std::size_t>(piece)].body)];
+  };
+  const auto is_taken = [](const BodyDef& body) {
+    return body.type != BodyType::dynamic_body || body.material;
+  };
+  std::copy_if(level.bodies.begin(), level.bodies.end(), std::back_inserter(scene.bodies), is_taken);
+  for (const PlannedJoint& joint : level.joints) {
+    if (joint.a < 0 || !is_taken(body_of(joint.a)) || !is_taken(body_of(joint.b))) continue;
+    const std::string &a = body_of(joint.a).name, &b = body_of(joint.b).name;
+    if (a != b) scene.joints.push_back(joint_of(joint, a, b));
+  }
+  for (const Plan::Load& load : level.loads) {
+    if (!is_taken(body_of(load.piece))) continue;
+    scene.loads.push_back(load.def);
+    scene.loads.back().body = body_of(load.piece).name;
+    scene.loads.back().at = load.at;
+  }
+  return scene;
+}
+
 /// Files that a scene's strings name, with or without a shape of them: "crane.svg#jib".
 std::vector<std::filesystem::path> named_in(std::string_view text, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -78,6 +129,16 @@ Opened open_file(const std::filesystem::path& file, double metres_per_unit) {
   }
   opened.sources.push_back(file);
   return opened;
+}
+
+SceneDef part_of_file(const std::filesystem::path& file) {
+  Opened opened = open_file(file);
+  if (opened.level) return scene_of(*opened.level);
+  if (opened.text.empty()) {  // a drawing: its first body is the floor, on which it is held
+    opened.scene.bodies.erase(opened.scene.bodies.begin());
+    opened.scene.supports.clear();
+  }
+  return std::move(opened.scene);
 }
 
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder) {

@@ -24,6 +24,11 @@ struct Opened {
 /// InvalidInput and std::system_error. `metres_per_unit` of a drawing; 0: as it says itself, else 10 m large.
 Opened open_file(const std::filesystem::path& file, double metres_per_unit = 0);
 
+/// What a file has, as a part to be put beside what is there (part.h): of a drawing its shapes without a
+/// floor and what holds them there; of a level its bodies of known material, whose joints are pins with the
+/// limits that they have in it. Throws as open_file() does.
+SceneDef part_of_file(const std::filesystem::path& file);
+
 /// Files of scenes in a folder, by name. None where there is no such folder.
 std::vector<std::filesystem::path> scenes_in(const std::filesystem::path& folder);
 

@@ -48,8 +48,11 @@ class Page {
  public:
   explicit Page(const std::filesystem::path& scene)
       : bench_(scenes_in("/scenes")), window_(bench_, 0, true), desk_(bench_) {
-    bench_.open("/scenes/harbour_crane.scene.json");
-    if (!scene.empty()) bench_.try_open(scene);
+    if (scene.empty() || !bench_.try_open(scene)) {
+      const std::string why = bench_.message;
+      bench_.open("/scenes/harbour_crane.scene.json");
+      if (!why.empty()) bench_.message = why;
+    }
     desk_.when_opening([] { ask_for_files(); });
     desk_.when_saved([](const std::filesystem::path& file) {
       const std::string text = read_text(file);

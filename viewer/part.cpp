@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "making.h"
@@ -23,6 +24,19 @@ Bounds box_of(const BodyDef& body) {
     for (const Point p : body.outline.outer) box.add(body.at + Rotation(body.angle) * p);
   }
   return box;
+}
+
+/// A name that no assembly has: that one, or its stem with the next number.
+std::string unused_assembly(const SceneDef& scene, std::string name) {
+  const auto is_used = [&](const std::string& one) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [&](const BodyDef& body) { return body.assembly == one; });
+  };
+  if (!is_used(name)) return name;
+  while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.pop_back();
+  int number = 1;
+  while (is_used(name + std::to_string(number))) ++number;
+  return name + std::to_string(number);
 }
 
 /// Every point of a part that is not of a body's own outline, in world axes.
@@ -85,6 +99,45 @@ void mirror(JointBetweenDef& joint) {
 
 }  // namespace
 
+Bounds box_of(const std::vector<BodyDef>& bodies) {
+  Bounds box;
+  for (const BodyDef& body : bodies) {
+    const Bounds own = box_of(body);
+    box.add(own.low);
+    box.add(own.high);
+  }
+  return box;
+}
+
+std::vector<std::string> with_assemblies(const SceneDef& scene, std::vector<std::string> names) {
+  std::set<std::string> assemblies;
+  for (const std::string& name : names) {
+    if (const BodyDef* body = body_named(scene, name)) assemblies.insert(body->assembly);
+  }
+  assemblies.erase("");
+  for (const BodyDef& body : scene.bodies) {
+    if (assemblies.contains(body.assembly) && std::find(names.begin(), names.end(), body.name) == names.end())
+      names.push_back(body.name);
+  }
+  return names;
+}
+
+SceneDef with_assembly(SceneDef scene, const std::vector<std::string>& names) {
+  const std::string assembly = unused_assembly(scene, "group1");
+  for (BodyDef& body : scene.bodies) {
+    if (std::find(names.begin(), names.end(), body.name) != names.end()) body.assembly = assembly;
+  }
+  return scene;
+}
+
+SceneDef without_assemblies(SceneDef scene, const std::vector<std::string>& names) {
+  const std::vector<std::string> all = with_assemblies(scene, names);
+  for (BodyDef& body : scene.bodies) {
+    if (std::find(all.begin(), all.end(), body.name) != all.end()) body.assembly.clear();
+  }
+  return scene;
+}
+
 std::vector<std::string> bodies_in(const SceneDef& scene, const Bounds& box) {
   std::vector<std::string> names;
   for (const BodyDef& body : scene.bodies) {
@@ -116,12 +169,7 @@ SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names) {
 Point grip_of(const SceneDef& part) {
   std::vector<Point> all = nodes(part);
   if (all.empty()) {
-    Bounds box;
-    for (const BodyDef& body : part.bodies) {
-      const Bounds own = box_of(body);
-      box.add(own.low);
-      box.add(own.high);
-    }
+    const Bounds box = box_of(part.bodies);
     return box.empty() ? Point{} : box.low;
   }
   return *std::min_element(all.begin(), all.end(), [](Point a, Point b) {
@@ -202,6 +250,9 @@ Joined with_part(SceneDef scene, SceneDef part) {
       return axis && its && its->ends_at(axis->from) && its->ends_at(axis->to);
     };
   };
+  std::map<std::string, std::string> assemblies{{"", ""}};  // a copy's are its own
+  for (const BodyDef& body : part.bodies)
+    assemblies.emplace(body.assembly, unused_assembly(scene, body.assembly));
   for (BodyDef& body : part.bodies) {
     const auto there = std::find_if(scene.bodies.begin(), scene.bodies.end(), same_beam(body));
     if (there != scene.bodies.end()) {
@@ -211,6 +262,7 @@ Joined with_part(SceneDef scene, SceneDef part) {
     const std::string name = names[body.name] =
         body_named(scene, body.name) ? unused_name(scene, body.name) : body.name;
     body.name = name;
+    body.assembly = assemblies.at(body.assembly);
     result.added.push_back(name);
     scene.bodies.push_back(body);
   }

@@ -11,8 +11,17 @@
 
 namespace ductile::viewer {
 
+/// Around bodies as placed: of beams, around their axes.
+Bounds box_of(const std::vector<BodyDef>& bodies);
 /// The bodies, beams and others, that lie in a box wholly.
 std::vector<std::string> bodies_in(const SceneDef& scene, const Bounds& box);
+
+/// Those bodies, and all that are of an assembly with one of them.
+std::vector<std::string> with_assemblies(const SceneDef& scene, std::vector<std::string> names);
+/// Those bodies are an assembly, and of no other any more.
+SceneDef with_assembly(SceneDef scene, const std::vector<std::string>& names);
+/// Assemblies of which one of those bodies is a part are none any more.
+SceneDef without_assemblies(SceneDef scene, const std::vector<std::string>& names);
 
 /// Bodies of those names, with what holds and loads them and what joins them to each other.
 SceneDef part_of(const SceneDef& scene, const std::vector<std::string>& names);

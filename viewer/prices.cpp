@@ -1,26 +1,25 @@
 #include "prices.h"
 
-#include <algorithm>
-
 namespace ductile::viewer {
 
-double Prices::of(const Material& material) const {
-  const auto found =
-      std::find_if(known_.begin(), known_.end(), [&](const auto& known) { return known.first == material; });
-  return found == known_.end() ? 0 : found->second;
-}
-
-void Prices::set(const Material& material, double price) {
-  std::erase_if(known_, [&](const auto& known) { return known.first == material; });
-  if (price > 0) known_.emplace_back(material, price);
-}
-
-double Prices::cost(const Plan& plan) const {
-  double cost = 0;
-  for (const Piece& piece : plan.pieces) {
-    const auto& material = plan.bodies[static_cast<std::size_t>(piece.body)].material;
-    if (material) cost += piece.mass * of(*material);
+double price_of(const SceneDef& scene, const Material& material) {
+  for (const BodyDef& body : scene.bodies) {
+    if (body.material == material && body.price > 0) return body.price;
   }
+  return 0;
+}
+
+SceneDef with_price(SceneDef scene, const Material& material, double price) {
+  for (BodyDef& body : scene.bodies) {
+    if (body.type == BodyType::dynamic_body && body.material == material) body.price = price;
+  }
+  return scene;
+}
+
+double cost(const Plan& plan) {
+  double cost = 0;
+  for (const Piece& piece : plan.pieces)
+    cost += piece.mass * plan.bodies[static_cast<std::size_t>(piece.body)].price;
   return cost;
 }
 

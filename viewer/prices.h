@@ -1,23 +1,15 @@
-// What materials cost, and what a scene costs by that.
+// What bodies cost by the price of a kg of their material.
 #pragma once
-
-#include <utility>
-#include <vector>
 
 #include "ductile/calibrate.h"
 
 namespace ductile::viewer {
 
-class Prices {
- public:
-  /// Of a kg, in whatever currency; 0: not known.
-  double of(const Material& material) const;
-  void set(const Material& material, double price);
-  /// Of all that moves and whose price is known.
-  double cost(const Plan& plan) const;
-
- private:
-  std::vector<std::pair<Material, double>> known_;
-};
+/// Of a kg of a material, as a body that is made of it has it; 0: not known.
+double price_of(const SceneDef& scene, const Material& material);
+/// What moves and is made of a material has that price.
+SceneDef with_price(SceneDef scene, const Material& material, double price);
+/// Of all that moves and whose price is known.
+double cost(const Plan& plan);
 
 }  // namespace ductile::viewer

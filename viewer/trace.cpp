@@ -5,6 +5,7 @@
 
 #include "crossing.h"
 #include "ductile/colours.h"
+#include "prices.h"
 
 namespace ductile::viewer {
 
@@ -49,7 +50,7 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
                    {"tool", static_cast<int>(desk.maker().tool())},
                    {"cursor", {desk.maker().cursor().x, desk.maker().cursor().y}},
                    {"verdict", bench.verdict()},
-                   {"cost", desk.prices().cost(bench.plan())},
+                   {"cost", cost(bench.plan())},
                    {"chosen", desk.maker().chosen(bench)},
                    {"usage", usage},
                    {"broken", broken},

@@ -45,9 +45,9 @@ Window::Window(Workbench& bench, double scale, bool visible) {
     // A scene after the drawings that were dropped with it.
     std::stable_partition(dropped.begin(), dropped.end(),
                           [](const std::string& file) { return !file.ends_with(".scene.json"); });
-    for (const std::string& file : dropped) {
-      static_cast<Workbench*>(glfwGetWindowUserPointer(window))->try_open(file);
-    }
+    auto& to = *static_cast<Workbench*>(glfwGetWindowUserPointer(window));
+    for (const std::string& file : dropped) to.receive(file);
+    to.bringing = false;
   });
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;

@@ -126,6 +126,17 @@ bool Workbench::try_open(const std::filesystem::path& file) {
   }
 }
 
+bool Workbench::receive(const std::filesystem::path& file) {
+  if (!bringing) return try_open(file);
+  try {
+    brought = part_of_file(file);
+    return true;
+  } catch (const std::exception& error) {
+    message = file.filename().string() + " cannot be brought.\n" + error.what();
+    return false;
+  }
+}
+
 bool Workbench::try_new() {
   if (!may_discard("start a new scene")) return false;
   const std::filesystem::path folder = file_.parent_path();

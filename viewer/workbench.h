@@ -26,6 +26,12 @@ class Workbench {
   /// The same as a user asks for it: what is wrong becomes the message, and so does what would be lost; false
   /// then. Asked again, edits that are not saved are lost.
   bool try_open(const std::filesystem::path& file);
+  /// What comes next is to be put beside what is there: receive() keeps it as `brought`.
+  bool bringing = false;
+  std::optional<SceneDef> brought;
+  /// A file that a user chooses or drops: opened as by try_open(), or brought. False: the message says why
+  /// not.
+  bool receive(const std::filesystem::path& file);
   /// Whether edits that are not saved may go: the first time that something asks for it, a message says that
   /// doing `what` again discards them.
   bool may_discard(const std::string& what);

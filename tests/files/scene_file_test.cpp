@@ -79,6 +79,8 @@ void expect_everything(const SceneDef& scene) {
   EXPECT_EQ(wheel.material, materials::S355);
   EXPECT_EQ(wheel.group, -2);
   EXPECT_FALSE(wheel.collides);
+  EXPECT_EQ(wheel.price, 1.5);
+  EXPECT_EQ(wheel.assembly, "cart");
   EXPECT_TRUE(beam.collides);
 
   ASSERT_EQ(girder.profile.size(), 1u);
@@ -249,6 +251,31 @@ INSTANTIATE_TEST_SUITE_P(
                  s.loads.push_back({.body = "box", .at = {0.5, 0}, .moment = 2});
                },
                {{"-1e3] } ]", R"(-1e3] }, {"body":"box","at":[0.5,0.0],"moment":2.0} ])"}}},
+        Edited{"a_load_more_and_another_force",
+               [](SceneDef& s) {
+                 s.loads.push_back({.body = "box", .at = {0.5, 0}, .moment = 2});
+                 s.loads[0].force.y = -2;
+               },
+               {{"-1e3] } ]", R"(-2.0] }, {"body":"box","at":[0.5,0.0],"moment":2.0} ])"},
+                {"[0, -2.0]", "[0.0,-2.0]"}}},
+        Edited{"a_body_more",  // of a material that others have, and of one that none has
+               [](SceneDef& s) {
+                 for (const char* name : {"box 2", "box 3"}) {
+                   s.bodies.push_back(s.bodies[2]);
+                   s.bodies.back().name = name;
+                 }
+                 s.bodies[3].material = s.bodies[0].material;
+                 s.bodies[4].material = Material{.yield_stress = 1, .youngs_modulus = 2, .density = 3};
+               },
+               {{R"("plain" }
+)",
+                 R"("plain" },
+    {"name":"box 2","outline":[[0.0,0.0],[1.0,0.0],[1.0,1.0]],"material":"steel"},
+    {"name":"box 3","outline":[[0.0,0.0],[1.0,0.0],[1.0,1.0]],"material":"material 2"}
+)"},
+                {R"("plain": "S235")",
+                 R"("plain": "S235",
+    "material 2": {"fy":1.0,"E":2.0,"density":3.0})"}}},
         Edited{"a_body_less",
                [](SceneDef& s) { s.bodies.erase(s.bodies.begin() + 1); },
                {{R"(,

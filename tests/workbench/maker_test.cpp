@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 #include "ductile/design.h"
@@ -192,6 +193,42 @@ TEST(Maker, CopiesMirrorsTurnsAndMovesWhatIsChosen) {
   EXPECT_TRUE(maker.remove_chosen(bench));
   EXPECT_EQ(bench.scene().bodies.size(), 4u);
   EXPECT_FALSE(maker.remove_chosen(bench));
+}
+
+// A gate of 4 by 3 m turns about the middle of its box, (0, 1.5), by multiples of 5°, in one edit.
+TEST(Maker, TurnsWhatIsChosenByAGrip) {
+  Workbench bench;
+  Maker maker;
+  bench.edit(gate());
+  EXPECT_FALSE(maker.turn_grip(bench, 1));
+  drag(maker, bench, Tool::choose, {-2.5, -0.5}, {2.5, 3.5});
+  const auto grip = maker.turn_grip(bench, 1);
+  ASSERT_TRUE(grip);
+  EXPECT_NEAR(length(grip->about - Point{0, 1.5}), 0, 1e-12);
+  EXPECT_NEAR(length(grip->at - Point{0, 4}), 0, 1e-12);
+  maker.take_grip(bench, *grip);
+  const auto aim = [&](double degrees) {
+    maker.point(bench, grip->about + Rotation(degrees * std::numbers::pi / 180) * Point{0, 9}, 0.1);
+  };
+  for (const double degrees : {10., 20., 31.}) aim(degrees);
+  EXPECT_EQ(maker.turning(), 30);
+  maker.release(bench);
+  EXPECT_FALSE(maker.turning());
+  const Point foot = grip->about + Rotation(std::numbers::pi / 6) * Point{-2, -1.5};
+  EXPECT_NEAR(length(axis_of(*body_named(bench.scene(), "beam1"))->from - foot), 0, 1e-12);
+  EXPECT_EQ(maker.chosen(bench).size(), 3u);
+  bench.undo();
+  EXPECT_EQ(axis_of(*body_named(bench.scene(), "beam1"))->from, (Point{-2, 0}));
+  maker.take_grip(bench, *grip);  // there and back: nothing
+  aim(50);
+  aim(1);
+  maker.release(bench);
+  EXPECT_EQ(axis_of(*body_named(bench.scene(), "beam1"))->from, (Point{-2, 0}));
+  maker.take_grip(bench, *grip);
+  aim(50);
+  maker.cancel(bench);
+  EXPECT_EQ(axis_of(*body_named(bench.scene(), "beam1"))->from, (Point{-2, 0}));
+  EXPECT_EQ(bench.scene().bodies.size(), 4u);
 }
 
 TEST(Maker, MovesABodyByThePointWhereItIsHeld) {

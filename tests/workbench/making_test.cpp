@@ -209,6 +209,43 @@ TEST(Making, ASpringYieldsAsItsStiffnessSays) {
   EXPECT_NEAR(check.displacement[1].y, -0.1, 2e-3);  // beside what the beam bends
 }
 
+// A stiff bar turns about a hinge by θ against springs at its middle and its end: they carry k₁ θL/2 and k₂
+// θL, of which the load at the end is F = k₁ θL/4 + k₂ θL. The bar bends by k₁ L³/3EI = 2e-4 of that at most.
+TEST(Making, SpringsBetweenBodiesShareALoadByTheirStiffness) {
+  const double F = 1e3, middle = 3e3, end = 1e3;
+  BeamStyle style{.height = 1, .depth = 1};
+  style.material.density = 1e-6;
+  SceneDef scene = with_beam(empty_scene(), {{-2, 3}, {2, 3}}, style);
+  scene = with_next_support(scene, {-2, 3}, 0);
+  using Kind = LineStyle::Kind;
+  scene = with_line(scene, {{0, 3}, {0, 0}}, {.kind = Kind::spring, .stiffness = middle});
+  scene = with_line(scene, {{2, 3}, {2, 0}}, {.kind = Kind::spring, .stiffness = end});
+  const LoadStyle up{.force = F, .direction = 90};
+  const Plan plan = calibrate(with_load(scene, {2, 3}, up.vector()));
+  const StaticCheck check = static_check(plan);
+  const double end_lifts = F / (middle / 4 + end);
+  int springs = 0;
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    if (!plan.joints[i].end) continue;
+    const double stretches = plan.joints[i].anchor.x < 1 ? middle * end_lifts / 2 : end * end_lifts;
+    EXPECT_NEAR(check.joints[i].N / stretches, 1, 1e-3) << plan.joints[i].name;
+    ++springs;
+  }
+  EXPECT_EQ(springs, 2);
+}
+
+TEST(Making, LoadsPullWhereTheyAreToldAndGrow) {
+  const LoadStyle style{.force = 2e3, .direction = -60, .ramp = 3};
+  EXPECT_NEAR(style.vector().x, 1e3, 1e-9);
+  EXPECT_NEAR(style.vector().y, -1e3 * std::sqrt(3), 1e-9);
+  EXPECT_EQ(LoadStyle{}.vector().x, 0);
+  SceneDef scene = with_load(gate(), {0, 3}, style.vector(), style.ramp);
+  EXPECT_EQ(scene.loads.at(0).ramp, 3);
+  scene = with_load(scene, {0, 3}, style.vector(), 4);  // another one
+  EXPECT_EQ(scene.loads.at(0).ramp, 4);
+  EXPECT_TRUE(with_load(scene, {0, 3}, style.vector(), 4).loads.empty());  // once more
+}
+
 TEST(Making, LinesJoinTwoBodies) {
   SceneDef scene = with_line(gate(), {{0, 3}, {-2, 1}}, {.kind = LineStyle::Kind::strut});
   EXPECT_EQ(scene.joints.back().a, "beam3");
@@ -221,6 +258,10 @@ TEST(Making, LinesJoinTwoBodies) {
   EXPECT_EQ(*scene.joints.back().drive->position, 2);
   EXPECT_EQ(scene.joints.back().drive->cap, 2e3);
   EXPECT_NO_THROW(calibrate(scene));
+  const SceneDef winch = with_line(scene, {{1, 3}, {1, 0}}, {.kind = LineStyle::Kind::winch, .stroke = -1});
+  EXPECT_EQ(winch.joints.back().carries, Carries::tension);
+  EXPECT_EQ(*winch.joints.back().drive->position, 2);
+  EXPECT_NO_THROW(calibrate(winch));
   EXPECT_THROW(with_line(scene, {{0, 3}, {1, 3}}, {}), InvalidInput);          // one body
   EXPECT_THROW(with_line(scene, {{0, 3}, {9, 9}}, {}), InvalidInput);          // nothing there
   EXPECT_EQ(without(scene, {0, 1.5}).joints.size(), scene.joints.size() - 1);  // in its midst

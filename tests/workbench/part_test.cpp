@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ductile/design.h"
+#include "ductile/files.h"
 #include "gate.h"
 #include "workbench.h"
 
@@ -38,6 +39,22 @@ TEST(Part, IsPastedWithWhatHoldsLoadsAndJoinsIt) {
   EXPECT_NO_THROW(calibrate(joined.scene));
   EXPECT_EQ(with_part(scene, part).added.size(), 0u);  // where it is already
   EXPECT_EQ(with_part(scene, part).scene.loads.size(), 1u);
+}
+
+// What is pasted is an assembly of its own; what is turned stays the one that it was.
+TEST(Part, AnAssemblyIsTakenAsOneAndACopyOfItIsAnother) {
+  const SceneDef scene = with_assembly(gate(), {"beam1", "beam3"});
+  EXPECT_EQ(with_assemblies(scene, {"beam3"}), (std::vector<std::string>{"beam3", "beam1"}));
+  EXPECT_EQ(with_assemblies(scene, {"beam2"}), (std::vector<std::string>{"beam2"}));
+  const SceneDef read = parse_scene(scene_text(scene));
+  EXPECT_EQ(with_assemblies(read, {"beam3"}).size(), 2u);
+  const SceneDef part = part_of(scene, {"beam1", "beam3"});
+  const SceneDef twice = with_part(scene, shifted(part, {6, 0})).scene;
+  EXPECT_EQ(with_assemblies(twice, {"beam4"}), (std::vector<std::string>{"beam4", "beam5"}));
+  EXPECT_EQ(with_assemblies(twice, {"beam1"}), (std::vector<std::string>{"beam1", "beam3"}));
+  const SceneDef rest = without_body(without_body(scene, "beam1"), "beam3");
+  EXPECT_EQ(with_part(rest, part).scene.bodies.back().assembly, scene.bodies[1].assembly);
+  EXPECT_EQ(with_assemblies(without_assemblies(twice, {"beam5"}), {"beam4"}).size(), 1u);
 }
 
 // A mirror changes no force: both halves of a bridge made of one carry the same, and what is mirrored twice

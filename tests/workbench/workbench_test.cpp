@@ -9,7 +9,9 @@
 #include <fstream>
 
 #include "ductile/definitions.h"
+#include "ductile/design.h"
 #include "ductile/files.h"
+#include "gate.h"
 #include "making.h"
 #include "open.h"
 #include "pick.h"
@@ -177,6 +179,42 @@ TEST(Workbench, ALevelRunsAsTheSceneThatItWasMadeOf) {
   level.open(folder / "a.scene.json");
   EXPECT_TRUE(level.editable());
 }
+// A part is of a scene, of a drawing without its floor, or of a level, whose beams carry by statics what they
+// carried where it was made.
+TEST(Workbench, WhatAFileHasIsAPart) {
+  const Folder folder;
+  SceneDef scene = with_next_support(with_load(gate(), {0, 3}, {0, -1e3}), {-2, 3}, 0);
+  const SceneDef part = part_of_file(write_scene(folder, scene));
+  EXPECT_EQ(part.bodies.size(), 4u);
+  EXPECT_EQ(part.supports.size(), 1u);
+  const SceneDef drawing = part_of_file(
+      folder.write("d.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="2000mm" viewBox="0 0 2 1">
+                                              <rect id="bar" width="2" height="0.1"/></svg>)"));
+  ASSERT_EQ(drawing.bodies.size(), 1u);
+  EXPECT_EQ(drawing.bodies[0].name, "bar");
+  EXPECT_TRUE(drawing.supports.empty());
+
+  const SceneDef beam = cantilever(4, 3e6);
+  const Plan plan = calibrate(beam);
+  SceneDef level = part_of_file(folder.write("level.json", rube_text(plan)));
+  ASSERT_EQ(level.bodies.size(), plan.pieces.size());
+  level.gravity = beam.gravity;  // is not a part's
+  const StaticCheck was = static_check(plan), is = static_check(calibrate(level));
+  EXPECT_NEAR(is.reserve / was.reserve, 1, 1e-5);  // coordinates went through a file of floats
+
+  Workbench bench;
+  bench.open(folder / "a.scene.json");
+  bench.bringing = true;
+  EXPECT_TRUE(bench.receive(folder / "d.svg"));
+  EXPECT_EQ(bench.brought->bodies.size(), 1u);
+  EXPECT_EQ(bench.file(), folder / "a.scene.json");
+  EXPECT_FALSE(bench.receive(folder.write("bad.svg", "<svg")));
+  EXPECT_NE(bench.message.find("bad.svg cannot be brought"), std::string::npos);
+  bench.bringing = false;
+  EXPECT_TRUE(bench.receive(folder / "d.svg"));
+  EXPECT_EQ(bench.file(), folder / "d.scene.json");
+}
+
 TEST(Workbench, EditsAreUndoneAndRedone) {
   const Folder folder;
   Workbench bench;
@@ -272,6 +310,28 @@ TEST(Workbench, WhatIsSavedReadsBack) {
   EXPECT_EQ(other.plan().pieces.size(), 7u);
   EXPECT_EQ(other.plan().joints[0].max_rotation, 0.1);
   EXPECT_THROW(bench.save(folder / "no" / "such" / "folder.json"), std::exception);
+}
+
+// Bodies and joints that are added go to the end of their lists, where two beams more are pinned to a node of
+// the drawn one.
+TEST(Workbench, WhatIsMadeBesideADrawingKeepsItsLink) {
+  const Folder folder;
+  folder.write("d.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="2000mm" viewBox="0 0 2 1">
+                             <rect id="bar" y="0.9" width="2" height="0.1"/></svg>)");
+  const fs::path file = folder.write("a.scene.json", R"({ "bodies": [ // what stands
+    { "name": "bar", "type": "static", "outline": "d.svg#bar" } ] })");
+  Workbench bench;
+  bench.open(file);
+  SceneDef scene = with_beam(bench.scene(), {{1, 0.1}, {1, 3}}, {});
+  bench.edit(with_load(scene, {1, 3}, {0, -1e3}));
+  bench.save(file);
+  EXPECT_NE(read_text(file).find("d.svg#bar"), std::string::npos) << read_text(file);
+  EXPECT_NE(read_text(file).find("// what stands"), std::string::npos);
+  scene = with_beam(bench.scene(), {{1, 0.1}, {2, 3}}, {});
+  bench.edit(with_beam(scene, {{1, 0.1}, {0, 3}}, {}));
+  bench.save(file);
+  EXPECT_NE(read_text(file).find("d.svg#bar"), std::string::npos) << read_text(file);
+  EXPECT_EQ(scene_text(parse_scene(read_text(file), "a", file.parent_path())), scene_text(bench.scene()));
 }
 
 TEST(Workbench, AnotherSolverRunsToTheSameStep) {

@@ -94,6 +94,8 @@ struct BodyDef {
   std::vector<Point> velocities;  ///< m/s: of each piece, instead of velocity and angular_velocity
   std::int16_t group = 0;         ///< collision filter group, as Box2D
   bool collides = true;           ///< false: nothing touches it, and it may be thinner than Box2D collides
+  double price = 0;               ///< of a kg of it as built in, in whatever currency; 0: not known
+  std::string assembly;  ///< bodies of the same one are chosen and moved together in the window; empty: alone
 };
 
 /// A motor, winch or hydraulic jack: moves a row of a joint, with at most its cap. Beyond that it slips,

@@ -99,7 +99,9 @@ inline constexpr std::tuple body{Field{"name", &BodyDef::name, any_number, "", t
                                  Field{"angular_velocity", &BodyDef::angular_velocity, any_number, "rad/s"},
                                  Field{"depth", &BodyDef::depth, positive, "m"},
                                  Field{"group", &BodyDef::group},
-                                 Field{"collides", &BodyDef::collides}};
+                                 Field{"collides", &BodyDef::collides},
+                                 Field{"price", &BodyDef::price, not_negative, "1/kg"},
+                                 Field{"assembly", &BodyDef::assembly}};
 
 /// A joint between bodies; `between`, its place, `kind`, `drive` and overrides besides.
 inline constexpr std::tuple joint{Field{"gap", &JointBetweenDef::gap, positive, "m"},
