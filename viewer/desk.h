@@ -153,6 +153,7 @@ class Desk {
   float from_share_ = 0.9f;  // of "select from"
   int quantity_ = 0;
   double reserve_ = 1.5;  // that a body is sized for
+  bool adds_ = false;     // to what is chosen, what the pointer is choosing
   bool placing_ = false, helping_ = false, exporting_ = false, opening_ = false;
   enum class Panel { view, details, time, scene } panel_ = Panel::view;  // that has the keys
   bool popup_ = false;                                                   // a list or menu has them

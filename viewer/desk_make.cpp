@@ -253,13 +253,14 @@ void Desk::make_with(Point mouse, bool over) {
     maker_.point(bench_, camera_.to_world(mouse), reach);
   }
   if (clicked) {
+    adds_ = io.KeyShift;
     const auto grip = maker_.turn_grip(bench_, grip_arm * ui_ / camera_.scale);
     if (grip && length(camera_.to_screen(grip->at) - mouse) < Hand::reach * ui_)
       maker_.take_grip(bench_, *grip);
     else
       maker_.press(bench_);
   }
-  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) maker_.release(bench_, io.KeyShift);
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) maker_.release(bench_, adds_);
 }
 
 }  // namespace ductile::viewer

@@ -78,8 +78,9 @@ void Desk::open_list() {
   tip("open filter", "Part of a file's name: Enter takes the first of the list; or a whole path.");
   std::error_code none;
   fs::path chosen;
-  if (first && fs::is_regular_file(open_filter_, none)) {
-    chosen = open_filter_;
+  if (const fs::path typed = open_filter_;
+      first && typed.has_parent_path() && fs::is_regular_file(typed, none)) {
+    chosen = typed;
     first = false;
   }
   const auto offer = [&](const fs::path& file, const std::string& label) {
