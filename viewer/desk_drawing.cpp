@@ -104,6 +104,8 @@ void Desk::draw_making(ImDrawList& to) const {
     to.PathLineTo(px(at));
     to.PathStroke(ink::accent, 0, f(2));
   }
+  to.AddText(px(camera_.screen.low + ui_ * Point{12, 28}), ink::edge, bench_.verdict().c_str());
+  if (maker_.turning()) return;  // the grip tells where the pointer is
   const Point across{7 * ui_, 0}, up{0, 7 * ui_};
   to.AddLine(px(at - across), px(at + across), ink::accent, f(2));
   to.AddLine(px(at - up), px(at + up), ink::accent, f(2));
@@ -115,7 +117,6 @@ void Desk::draw_making(ImDrawList& to) const {
     }
   }
   to.AddText(px(at + ui_ * Point{10, -20}), ink::accent, text.c_str());
-  to.AddText(px(camera_.screen.low + ui_ * Point{12, 28}), ink::edge, bench_.verdict().c_str());
 }
 
 }  // namespace ductile::viewer

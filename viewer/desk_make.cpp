@@ -27,7 +27,7 @@ constexpr std::array tools{
                "Drag from one end to the other: it is pinned to what is there (2)."},
     ToolButton{Tool::support, "3 support", "tool support",
                "On a beam: a hinge; once more a roller, clamped, springs, nothing (3)."},
-    ToolButton{Tool::load, "4 load", "tool load", "On a beam: a force downwards; once more: none (4)."},
+    ToolButton{Tool::load, "4 load", "tool load", "On a beam: a force; once more: none (4)."},
     ToolButton{Tool::move, "5 move", "tool move", "Drag a node, or a body, with all that hangs on it (5)."},
     ToolButton{Tool::remove, "6 delete", "tool delete",
                "On a load, a support, a line, or else a body: it goes (6, or Delete)."},
@@ -36,7 +36,7 @@ constexpr std::array tools{
     ToolButton{Tool::node, "8 weld", "tool node", "On a node: its beams are welded; once more: pinned (8)."},
     ToolButton{Tool::choose, "9 choose", "tool choose",
                "Drag a box around bodies, or click on one, to copy, mirror, turn, move or delete them; "
-               "shift: more (9)."},
+               "shift: more (9). The grip above turns them."},
     ToolButton{Tool::block, "0 block", "tool block",
                "Click corner after corner of a polygon, and its first or last one once more (0)."}};
 
