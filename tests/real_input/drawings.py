@@ -36,7 +36,7 @@ SETS = {
     "@carbon/icons": "@carbon/icons/svg/32/*.svg",
     "devicon": "devicon/icons/*/*.svg",
 }
-DEFINED = ("defs", "symbol", "clipPath", "mask", "pattern", "marker", "style")  # what stands in these is not shown itself
+DEFINED = ("defs", "symbol", "clipPath", "mask", "pattern", "marker", "style")  # what is in these is shown elsewhere
 # Paint is opaque steel here: what is half transparent counts whole.
 OPAQUE = ("*{opacity:1!important;fill-opacity:1!important;stroke-opacity:1!important;stop-opacity:1!important;"
           "stop-color:#000!important;shape-rendering:geometricPrecision}")
@@ -168,7 +168,7 @@ def local_name(element):
 
 def area_of(body):
     def ring(points):
-        return abs(sum(points[i - 1][0] * points[i][1] - points[i][0] * points[i - 1][1] for i in range(len(points)))) / 2
+        return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:] + points[:1]))) / 2
 
     return ring(body["outline"]) - sum(ring(hole) for hole in body.get("holes", []))
 
@@ -245,7 +245,8 @@ def main():
         return 77
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
     failures, rows, shapes = [], [], []
-    print(f"{'set':<22}{'drawings':>9}{'opened':>8}{'within 1 %':>11}{'worst':>8}{'alone':>7}{'within 1 %':>11}{'worst':>8}")
+    print(f"{'set':<22}{'drawings':>9}{'opened':>8}{'within 1 %':>11}{'worst':>8}"
+          f"{'alone':>7}{'within 1 %':>11}{'worst':>8}")
     for title, pattern in SETS.items():
         files = sorted(arguments.node_modules.glob(pattern))
         files = files[::max(1, len(files) // arguments.per_set)][:arguments.per_set]
