@@ -279,8 +279,8 @@ Affine Walk::box_of(const Node& node, Around here) {
   return {box.size().x, 0, 0, box.size().y, box.low.x, box.low.y};
 }
 
-/// The clipPath or mask that a style names; `of` is the node's own, or that of a clip of it, which is cut,
-/// too.
+/// The clipPath or mask that a style names; `of` is the node's own style, or that of a clipPath of it, which
+/// may be cut itself. (A mask may not.)
 void Walk::clip(const Node& node, Around& here, const Style& of, std::string_view property, int depth) {
   const std::string_view value = get(of, property);
   if (value.empty() || value == "none" || here.whole) return;
@@ -325,7 +325,7 @@ void Walk::clip(const Node& node, Around& here, const Style& of, std::string_vie
       cut.frame.push_back(to(corner + p));
   }
   here.clips.push_back(std::move(cut));
-  for (const char* own : {"clip-path", "mask"}) clip(node, here, style, own, depth + 1);
+  if (!mask) clip(node, here, style, property, depth + 1);
 }
 
 /// Numbers the shapes, and visits `from` with what is around it.
