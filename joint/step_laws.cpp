@@ -17,9 +17,11 @@ constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
 constexpr double delta_time = 0.5;  // s that δ is kept beyond its need
 
-// The strain of a row beyond that of its force, m or rad.
+// The strain of a row beyond that of its force, m or rad; beside a heavy damper, whose force is no strain,
+// beyond its elastic strain.
 double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
-  return r.gap[i] - j.neutral[i] - j.impulse[i] / (r.law.h * r.law.spring[i]);
+  const double e = r.law.delta[i] > 1 ? elastic_strain(j, r, i) : j.impulse[i] / (r.law.h * r.law.spring[i]);
+  return r.gap[i] - j.neutral[i] - e;
 }
 
 // The past may have known what is not finite; this step need not.
