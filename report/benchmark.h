@@ -25,6 +25,12 @@ std::vector<Benchmark> static_benchmarks(const Context& context);
 std::vector<Benchmark> frame_benchmarks();
 /// Frames that programs are calibrated with: by plastic zones, which hinges at points stand for.
 std::vector<Benchmark> calibration_benchmarks();
+/// Vogel's portal, model by model: the factor on all loads at collapse.
+struct VogelsPortal {
+  std::string model;
+  double factor;
+};
+std::vector<VogelsPortal> vogels_portal_by_model();
 /// The factor on all loads at which his frame collapses, each bar in so many parts.
 double vogels_six_storeys(int parts);
 /// Hinges in their order, and loads that come and go.

@@ -57,19 +57,19 @@ class Report(unittest.TestCase):
         out = Path(self.folder.name) / "benchmarks"
         self.assertEqual(report(out, only="benchmarks").returncode, 0)
         data = json.loads((out / "data" / "benchmarks.json").read_text())
-        self.assertEqual([c["holds"] for c in data["claims"]], [True, False, True, True])
+        self.assertEqual([c["holds"] for c in data["claims"]], [True, True, True, True])
         for table in data["tables"]:
             columns = [c["name"] for c in table["columns"]]
             for row in table["rows"] if "reference" in columns else []:
                 row = dict(zip(columns, row))
                 allowed = row["allowed [%]"] / 100
-                # Of hinges at points: they overrate columns near their yield force, and the report says so.
-                if row["problem"] == "Vogel's portal":
-                    self.assertGreater(row["ductile"] / row["reference"] - 1, allowed, "it is met: say so")
-                    allowed = 0.03
                 self.assertLessEqual(abs(row["ductile"] / row["reference"] - 1), allowed, row)
                 for words in ("source", "read", "input"):
                     self.assertTrue(row[words], row)
+
+        # The plastic zones that the portal is held against give Vogel's value where they have his residual stresses.
+        quoted, here = (row[1] for row in next(t["rows"] for t in data["tables"] if t["name"] == "portal")[:2])
+        self.assertAlmostEqual(here, quoted, delta=0.001)
 
     def test_peers_stand_beside_on_the_same_scene(self):
         out = Path(self.folder.name) / "peers"

@@ -316,9 +316,8 @@ class Structure {
 
   const StepReport& report() const;  ///< of the steps since the last update()
   /// What is not as it should be, in plain words and with what to do about it: what went wrong in any step
-  /// since the start (the speed limit, bounds, residuals, blows shorter than a step), and what is now beyond
-  /// what is promised (stiffness, mass ratios, turns in a step, fixtures too small for Box2D). Empty when all
-  /// is well.
+  /// since the start (speed limit, bounds, residuals, short blows), and what is now beyond what is promised
+  /// (stiffness, mass ratios, turns, fixtures too small for Box2D). Empty when all is well.
   std::vector<std::string> warnings() const;
   /// As of the last update(), which is to follow every step. Needs StructureDef::keep_ledger.
   JointEnergy energy() const;
