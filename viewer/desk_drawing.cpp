@@ -112,7 +112,7 @@ void Desk::draw_making(ImDrawList& to) const {
   std::string text = fmt::format("{:.4g}, {:.4g} m", cursor.x, cursor.y);
   if (const auto start = maker_.start()) {
     text += fmt::format("   {} long", si(length(cursor - *start), "m"));
-    if (maker_.tool() == Maker::Tool::line) {
+    if (maker_.tool() == Maker::Tool::line || maker_.tool() == Maker::Tool::cut) {
       to.AddLine(px(camera_.to_screen(*start)), px(at), ink::accent, f(1.5));
     }
   }

@@ -56,6 +56,12 @@ void Desk::edit() {
     const bool changed = ImGui::SliderInt("pieces", &body.pieces, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
     tip("pieces", "Into how many equal pieces the body is split.");
     commit(changed, scene);
+  } else if (!body.cuts.empty()) {
+    const bool whole = button("No cuts", "no cuts", "Takes its cuts away.");
+    ImGui::SameLine();
+    ImGui::Text("%zu cuts", body.cuts.size());
+    if (whole) body.cuts.clear();
+    commit(whole, scene);
   }
   size_for_reserve(scene.bodies[at]);
   ImGui::Separator();

@@ -144,7 +144,7 @@ void Desk::help() {
       Row{"F  T  N", "forces, moments, numbers"},
       Row{"U  K  I", "peaks of the run; how it collapses; N, Q, M diagrams"},
       Row{"C", "high contrast"},
-      Row{"1 … 9  0", "look; beam, support, load; move; delete; line, weld; choose; block"},
+      Row{"1 … 9  0  -", "look; beam, support, load; move; delete; line, weld; choose; block; cut"},
       Row{"arrows  E  Q", "with a tool: the cursor, to the next node, the previous"},
       Row{"Enter", "with a tool: what a press and a release do"},
       Row{"Delete", "delete what is chosen or at the cursor, or the body"},

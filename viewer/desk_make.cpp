@@ -38,7 +38,9 @@ constexpr std::array tools{
                "Drag a box around bodies, or click on one, to copy, mirror, turn, move or delete them; "
                "shift: more (9). The grip above turns them."},
     ToolButton{Tool::block, "0 block", "tool block",
-               "Click corner after corner of a polygon, and its first or last one once more (0)."}};
+               "Click corner after corner of a polygon, and its first or last one once more (0)."},
+    ToolButton{Tool::cut, "- cut", "tool cut",
+               "Drag across a body: it is cut there, instead of into equal pieces (-)."}};
 
 }  // namespace
 
@@ -216,7 +218,8 @@ void Desk::take(Tool tool) {
 // True where a key was the tool's in the hand and nobody else's.
 bool Desk::make_keys() {
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (key(i < 9 ? GLFW_KEY_1 + static_cast<int>(i) : GLFW_KEY_0)) take(tools[i].tool);
+    const int digit = static_cast<int>(i);
+    if (key(i < 9 ? GLFW_KEY_1 + digit : i == 9 ? GLFW_KEY_0 : GLFW_KEY_MINUS)) take(tools[i].tool);
   }
   if (maker_.tool() == Tool::none) {
     if (!key(GLFW_KEY_DELETE) || !bench_.body || !bench_.editable()) return false;

@@ -90,6 +90,7 @@ void Maker::press(Workbench& bench) {
   switch (tool_) {
     case Tool::beam:
     case Tool::line:
+    case Tool::cut:
     case Tool::move:
     case Tool::choose:
       return begin(bench);
@@ -166,6 +167,8 @@ SceneDef Maker::drawn(std::vector<std::string>& chosen) const {
       return with_beam(before_, {*start_, cursor_}, style);
     case Tool::line:
       return with_line(before_, {*start_, cursor_}, line);
+    case Tool::cut:
+      return with_cut(before_, {*start_, cursor_});
     case Tool::paste:
       return joined(before_, shifted(copied_, cursor_ - grip_of(copied_)));
     case Tool::mirror:

@@ -15,7 +15,22 @@ namespace ductile::viewer {
 
 class Maker {
  public:
-  enum class Tool { none, beam, support, load, move, remove, line, node, choose, block, paste, mirror, turn };
+  enum class Tool {
+    none,
+    beam,
+    support,
+    load,
+    move,
+    remove,
+    line,
+    node,
+    choose,
+    block,
+    cut,
+    paste,
+    mirror,
+    turn
+  };
 
   BeamStyle style;
   LineStyle line;

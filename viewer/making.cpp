@@ -124,6 +124,25 @@ SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style) {
   return scene;
 }
 
+SceneDef with_cut(SceneDef scene, const Axis& across) {
+  const std::string name = need_moving(scene, 0.5 * (across.from + across.to), "cut");
+  BodyDef& body = *std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                [&](const BodyDef& other) { return other.name == name; });
+  const auto local = [&](Point p) { return Rotation(body.angle).inverse(p - body.at); };
+  body.pieces = 1;
+  body.automatic = false;
+  body.cuts.push_back({local(across.from), local(across.to)});
+  // In the order of the pieces that they leave.
+  const Point size = bounds_of(body.outline.outer).size();
+  const auto along = [&](const std::array<Point, 2>& cut) {
+    const Point middle = 0.5 * (cut[0] + cut[1]);
+    return size.x < size.y ? middle.y : middle.x;
+  };
+  std::sort(body.cuts.begin(), body.cuts.end(),
+            [&](const auto& a, const auto& b) { return along(a) < along(b); });
+  return scene;
+}
+
 SceneDef with_next_support(SceneDef scene, Point at, double stiffness) {
   const auto old = std::find_if(scene.supports.begin(), scene.supports.end(),
                                 [&](const SupportDef& s) { return is_same(s.at, at); });

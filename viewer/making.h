@@ -53,6 +53,8 @@ SceneDef with_beam(SceneDef scene, const Axis& axis, const BeamStyle& style);
 SceneDef with_block(SceneDef scene, const Ring& corners, const BlockStyle& style);
 /// A line from the body at one point to that at another, free to turn at both.
 SceneDef with_line(SceneDef scene, const Axis& axis, const LineStyle& style);
+/// The moving body in the midst of a line is cut across it, instead of into equal pieces.
+SceneDef with_cut(SceneDef scene, const Axis& across);
 /// The body at a point is held there: first by a hinge, then by a roller that lets it slide along, then
 /// clamped, then by springs of that stiffness, N/m, in x and y, then no more.
 SceneDef with_next_support(SceneDef scene, Point at, double stiffness);

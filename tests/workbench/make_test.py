@@ -400,7 +400,7 @@ class Bridge(driven.Window):
         self.wait(lambda: "open plate.svg" in self.state["controls"])
         self.type("plate")
         self.key("Return")
-        self.assertEqual((self.state["message"], self.state["tool"], self.bodies()), ("", 10, {"beam1"}))
+        self.assertEqual((self.state["message"], self.state["tool"], self.bodies()), ("", 11, {"beam1"}))
         self.click(self.at(3, 1))
         self.assertEqual(self.bodies(), {"beam1", "plate"})
         self.key("s", "Control_L")
@@ -427,6 +427,10 @@ class Bridge(driven.Window):
         self.key("s", "Control_L")
         scene = json.loads((self.path / "new.scene.json").read_text())
         self.assertEqual(scene["loads"], [{"body": "beam1", "at": [0, 2], "force": [20e3, 0], "ramp": 3}])
+        self.assertEqual(len([name for name in self.state["pieces"] if name.startswith("beam1")]), 6)
+        self.key("minus")
+        self.drag(self.at(-1, 1), self.at(1, 1))
+        self.assertEqual([name for name in self.state["pieces"] if name.startswith("beam1")], ["beam1/0", "beam1/1"])
         line = scene["joints"][-1]
         self.assertEqual((line["between"], line["stiffness_axial"]), (["beam1", "floor"], 1e6))
 

@@ -234,6 +234,21 @@ TEST(Making, SpringsBetweenBodiesShareALoadByTheirStiffness) {
   EXPECT_EQ(springs, 2);
 }
 
+// A bar of 4 m that is cut at 3 m and then at 1 m has pieces of 1, 2 and 1 m, named from its beginning.
+TEST(Making, ABodyIsCutWhereALineCrossesIt) {
+  SceneDef scene = with_beam(empty_scene(), {{-2, 3}, {2, 3}}, {});
+  scene = with_cut(scene, {{1, 2}, {1, 4}});
+  scene = with_cut(scene, {{-1, 4}, {-1, 2}});
+  const Plan plan = calibrate(scene);
+  ASSERT_EQ(plan.pieces.size(), 4u);  // with the floor
+  for (const auto& [piece, middle] : {std::pair{1u, -1.5}, std::pair{2u, 0.}, std::pair{3u, 1.5}}) {
+    EXPECT_NEAR(plan.pieces[piece].center.x, middle, 1e-9);
+    EXPECT_NEAR(plan.pieces[piece].mass / (7850 * 0.2 * 0.1 * (piece == 2 ? 2 : 1)), 1, 1e-9);
+  }
+  EXPECT_THROW(with_cut(scene, {{0, 5}, {0, 4}}), InvalidInput);                  // nothing there
+  EXPECT_THROW(calibrate(with_cut(scene, {{0, 3.05}, {0, 2.8}})), InvalidInput);  // begins in it
+}
+
 TEST(Making, LoadsPullWhereTheyAreToldAndGrow) {
   const LoadStyle style{.force = 2e3, .direction = -60, .ramp = 3};
   EXPECT_NEAR(style.vector().x, 1e3, 1e-9);
