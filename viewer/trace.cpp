@@ -34,6 +34,7 @@ std::string trace_of(Workbench& bench, const Desk& desk) {
   for (const std::size_t i : bench.selected) selected.push_back(bench.plan().joints[i].name);
   const Bounds& view = desk.camera().screen;
   const Json state{{"file", bench.file().string()},
+                   {"edition", bench.edition()},
                    {"step", bench.run().cursor()},
                    {"last", bench.run().last()},
                    {"time", bench.frame().time},

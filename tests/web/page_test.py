@@ -144,7 +144,8 @@ def fits_what_it_may(address):
 def opens_what_the_address_names(address):
     with chromium.Page(f"{address}/index.html?scene=car", gl=True) as tab:
         tab.wait_for("window.firstFrame")
-        assert state(tab)["file"].endswith("/car.scene.json")
+        now = state(tab)
+        assert now["file"].endswith("/car.scene.json") and now["edition"] == 1, now  # no other was there before
     with chromium.Page(f"{address}/index.html?scene=scenes/CS1.scene.json", gl=True) as tab:
         tab.wait_for("window.firstFrame")
         assert state(tab)["file"] == "/CS1.scene.json", state(tab)["file"]

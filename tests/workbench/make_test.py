@@ -48,6 +48,12 @@ class Bridge(driven.Window):
         return ((x0 + x1) / 2 + (x - state["centre"][0]) * state["scale"],
                 (y0 + y1) / 2 - (y - state["centre"][1]) * state["scale"])
 
+    def go(self, *to):
+        """The cursor, by arrows, which repeat where frames take long."""
+        for axis, back, on in ((0, "Left", "Right"), (1, "Down", "Up")):
+            while abs(off := to[axis] - self.state["cursor"][axis]) > 1e-9:
+                self.key(on if off > 0 else back)
+
     def is_the_bridge(self, load, **section):
         self.assertFalse(self.state["changed"])
         self.assertIn("Saved", self.state["message"])
@@ -117,10 +123,7 @@ class Bridge(driven.Window):
 
     def test_by_keys_alone(self):
         def go(node):
-            for axis, back, on in ((0, "Left", "Right"), (1, "Down", "Up")):
-                steps = round((NODES[node][axis] - self.state["cursor"][axis]) / 0.5)
-                for _ in range(abs(steps)):
-                    self.key(on if steps > 0 else back)
+            self.go(*NODES[node])
 
         self.key("n", "Control_L")
         self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
@@ -297,9 +300,8 @@ class Bridge(driven.Window):
         self.key("n", "Control_L")
         self.wait(lambda: self.state["file"] == str(self.path / "new.scene.json"))
         self.key("Return")
-        for _ in range(4):
-            self.key("Up")
-        self.key("Return")  # from (0, 0) to (0, 2)
+        self.go(0, 2)
+        self.key("Return")
         self.key("9")
         self.key("Return")
         self.key("Return")
@@ -419,8 +421,7 @@ class Bridge(driven.Window):
             self.key("Escape")
         self.key("Return")  # at (0, 2)
         self.key("7")
-        self.reach("line")
-        self.key("Return")
+        self.control("line", 0.2)
         self.wait(lambda: "line: spring" in self.state["controls"])
         self.control("line: spring")
         self.drag(self.at(0, 2), self.at(-2, 0))
@@ -439,10 +440,10 @@ class Bridge(driven.Window):
         self.assertEqual(self.state["chosen"], ["beam1"])
         self.key("c", "Control_L")
         self.key("v", "Control_L")
-        self.key("Right")
+        self.go(0.5, 2)
         self.key("Return")
         self.assertEqual(self.bodies(), {"beam1", "beam2"})  # before it is let go
-        self.key("Right")
+        self.go(1, 2)
         self.key("Return")
         self.assertEqual(self.state["chosen"], ["beam2"])
         self.key("x", "Control_L")
