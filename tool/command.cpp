@@ -236,7 +236,8 @@ std::vector<std::string> remarks(const Plan& plan) {
   }
   if (const std::vector<std::string> rigid = rigid_bars(plan); !rigid.empty())
     result.push_back(list_of(rigid) +
-                     ": one piece is rigid, it neither bends nor yields nor buckles; split it into several");
+                     ": one piece is rigid: between its joints it neither bends nor yields nor buckles; "
+                     "split it into several");
   for (const auto& [strain, names] : breaking)
     result.push_back(fmt::format(
         "{}: breaks at {} times the yield strain, before a plastic hinge turns; design with the first fibre",
