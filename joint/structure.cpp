@@ -219,7 +219,8 @@ auto Structure::Impl::state() const -> State {
           .reports = reports,
           .nodes = nodes,
           .gone = gone};
-  s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.delivered), events.pending.end());
+  s.pending.assign(events.pending.begin() + static_cast<std::ptrdiff_t>(events.delivered),
+                   events.pending.end());
   for (const auto& m : members) s.members.push_back(*m);
   return s;
 }
