@@ -19,8 +19,6 @@
 
 namespace ductile::dynamics {
 
-DUCTILE_REVEAL(b2Contact, m_toiCount, int32);
-
 namespace {
 
 b2Position pose_of(b2Body& body) {
