@@ -36,6 +36,7 @@ class Reader {
 
   // joints: rube_scene.cpp
   void joint(int index, const Value& value);
+  std::optional<RateLaw> rate(const Item& item) const;
   void values(int index, const Item& item, int a, int b);
   void find_section(JointBetweenDef& joint, const Between& between);
   const BodyDef& part_at(int body, Point at) const;

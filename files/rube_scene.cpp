@@ -59,6 +59,20 @@ const BodyDef& Reader::part_at(int body, Point at) const {
   return *nearest;
 }
 
+/// Of a joint that has one.
+std::optional<RateLaw> Reader::rate(const Item& item) const {
+  RateLaw law;
+  bool given = false;
+  for (const Row row : {axial, shear, rotation})
+    if (const auto D = item.custom_number(doubling_rates[row], {0, true, unlimited, "a number > 0"}))
+      law.doubling[row] = *D, given = true;
+  if (const auto q = item.custom_number(rate_exponent, {1, false, {}, "a number >= 1"})) law.exponent = *q;
+  if (given && def_.interaction)
+    item.value().wrong("depends on the rate of strain, and the scene has \"ductile.interaction\"",
+                       "leave one of both out");
+  return given ? std::optional(law) : std::nullopt;
+}
+
 /// A joint that has its values is taken with them.
 void Reader::values(int index, const Item& item, int a, int b) {
   PlannedJoint j;
@@ -70,6 +84,7 @@ void Reader::values(int index, const Item& item, int a, int b) {
   if (!given.contains("Nc")) j.Nc = j.N;
   if (!given.contains("M_reverse")) j.M_reverse = j.M;
   item.custom(fields::stiffness, j.stiffness, "ductile.stiffness_");
+  j.rate = rate(item);
   const Body& first = bodies_[static_cast<std::size_t>(a)];
   j.anchor = first.frame.world(item.vector("anchorA"));
   if (const auto axis = item.custom("ductile.axis", {"vec2"})) {

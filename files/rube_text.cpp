@@ -219,6 +219,11 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
   fields::for_each(fields::stiffness, [&](const auto& field) {
     set_custom(item, std::string("ductile.stiffness_") + field.key, j.stiffness.*field.member);
   });
+  if (j.rate) {
+    for (const Row row : {axial, shear, rotation})
+      set_custom(item, doubling_rates[row], j.rate->doubling[row]);
+    set_custom(item, rate_exponent, j.rate->exponent);
+  }
   set_custom(item, "ductile.axis", "vec2", {{"x", j.axis.x}, {"y", j.axis.y}});
   if (j.governed_by >= 0)
     set_custom(item, "ductile.governed_by", "string", plan.reasons[static_cast<std::size_t>(j.governed_by)]);

@@ -297,7 +297,8 @@ namespace {
 
 Structure::Impl& impl_of(const Structure& structure) {
   b2World* world = structure.world();
-  if (world == nullptr) throw std::logic_error("save: the structure's world is gone, or all its bodies");
+  if (world == nullptr)
+    throw std::logic_error("save: the structure's world is gone, or all its bodies; make a new structure");
   if (world->IsLocked()) throw std::logic_error("save: the world is stepping; save and load between steps");
   const auto all = structures_in(*world);
   if (all.size() != 1) throw std::logic_error("save: the world has several structures; make one per world");

@@ -159,5 +159,17 @@ TEST_F(Box2dText, SaysWhatIsLost) {
   EXPECT_EQ(lost("support/0", "holds"), "[]");
   EXPECT_EQ(lost("support/1", "holds"), "[]");
   EXPECT_EQ(doc["lost"].size(), 2u);  // the ramp and the load
+  for (const char* role : {"holds", "yields"})
+    EXPECT_EQ(lost("beam/0-beam/1", role).find("where it yields fast"), std::string::npos);
+}
+
+TEST(Box2dTextOfARate, SaysThatItIsLost) {
+  SceneDef scene;
+  scene.bodies = {{.name = "bar", .outline = {{{0, 0}, {4, 0}, {4, 1}, {0, 1}}, {}}, .pieces = 2}};
+  scene.bodies[0].material = materials::S355;
+  scene.bodies[0].material->rate_D = 40;
+  const json doc = json::parse(box2d_text(calibrate(scene)));
+  for (const char* role : {"holds", "yields"})
+    EXPECT_NE(doc["joints"][0][role]["lost"].dump().find("where it yields fast"), std::string::npos);
 }
 }  // namespace

@@ -354,6 +354,51 @@ TEST_P(WhatWeWrite, LoadsAsTheSameWorld) {
 INSTANTIATE_TEST_SUITE_P(Scenes, WhatWeWrite, testing::Values("car", "frame", "cantilever", "harbour_crane"),
                          [](const auto& info) { return std::string(info.param); });
 
+// A beam that yields under its own weight, of a steel whose caps grow with the rate.
+TEST(Rube, TheRateLawSurvives) {
+  SceneDef scene = beam_on_wall();
+  Material& steel = scene.bodies[1].material.emplace(materials::S355);
+  steel.yield_stress = 8e6;  // of the 9.9 MPa at which b h² f_y/4 = 7850 kg/m³ g b h L²/2
+  steel.rate_D = 40;
+  steel.rate_q = 4;
+  const Plan plan = calibrate(scene);
+  const std::string text = rube_text(plan);
+  EXPECT_EQ(json::parse(calibrated_rube(text)), json::parse(text));
+  const b2Vec2 gravity{static_cast<float>(plan.gravity.x), static_cast<float>(plan.gravity.y)};
+  b2World world(gravity), copy({0, 0});
+  Structure structure = build(world, plan);
+  Level level = load_text(copy, text);
+  ASSERT_EQ(level.structure.joints().size(), structure.joints().size());
+  for (std::size_t i = 0; i < structure.joints().size(); ++i) {
+    const auto def = structure.joints()[i]->def(), read = level.structure.joints()[i]->def();
+    ASSERT_TRUE(def.rate && read.rate);
+    for (const Row row : {axial, shear, rotation})
+      EXPECT_EQ(read.rate->doubling[row], def.rate->doubling[row]);
+    EXPECT_EQ(read.rate->exponent, 4);
+  }
+  for (int i = 0; i < 60; ++i) {
+    for (b2World* w : {&world, &copy}) w->Step(1 / 60.0f, 8, 3);
+    structure.update();
+    level.structure.update();
+  }
+  EXPECT_GT(structure.joints().back()->dissipated(), 0);  // at the wall
+  EXPECT_EQ(world_state(copy), world_state(world));
+
+  json both = json::parse(text);
+  add(both, {{"name", "ductile.interaction"}, {"bool", true}});
+  EXPECT_NE(error_of(both.dump()).find("joint[0]: depends on the rate of strain"), std::string::npos);
+  json negative = json::parse(text);
+  std::string place;
+  json& properties = negative["joint"][0]["customProperties"];
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    if (properties[i]["name"] != "ductile.rate_D_M") continue;
+    properties[i]["float"] = -1;
+    place = "joint[0].customProperties[" + std::to_string(i) + "].float: is -1";
+  }
+  ASSERT_FALSE(place.empty());
+  EXPECT_NE(error_of(negative.dump()).find(place), std::string::npos);
+}
+
 // The two last of four pieces of a beam, as one rigid body.
 TEST(Rube, PiecesThatShareABodyAreOne) {
   Plan plan = calibrate(beam_on_wall());
