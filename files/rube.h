@@ -96,8 +96,8 @@ std::optional<double> read_float(const Value& value);
 std::vector<Body> read_bodies(const Item& scene);
 
 /// Properties of a joint whose caps grow with the rate of flow: RateLaw's, by row.
-inline constexpr const char* doubling_rates[] = {"ductile.rate_D_N", "ductile.rate_D_Q", "ductile.rate_D_M"};
-inline constexpr const char* rate_exponent = "ductile.rate_q";
+inline constexpr const char* doubling_rates[] = {"rate_D_N", "rate_D_Q", "rate_D_M"};
+inline constexpr const char* rate_exponent = "rate_q";
 
 /// Replaces the custom property of that name, or adds it.
 void set_custom(Json& item, const std::string& name, const char* type, Json value);

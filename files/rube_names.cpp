@@ -1,6 +1,7 @@
 // The names of custom properties. What begins with "ductile." and is none of them is a slip of the pen: to
 // leave it alone, as all that is not understood, would leave the designer with a joint that has other values.
 #include <initializer_list>
+#include <iterator>
 #include <set>
 #include <string>
 #include <tuple>
@@ -27,7 +28,8 @@ Names of_bodies() {
 }
 
 Names of_joints() {
-  Names names{"calibrate", "axis", "governed_by", "shear_span"};
+  Names names{"calibrate", "axis", "governed_by", "shear_span", rate_exponent};
+  names.insert(std::begin(doubling_rates), std::end(doubling_rates));
   add(names, fields::joint);
   add(names, fields::overrides);
   add(names, fields::calibrated);

@@ -64,9 +64,12 @@ std::optional<RateLaw> Reader::rate(const Item& item) const {
   RateLaw law;
   bool given = false;
   for (const Row row : {axial, shear, rotation})
-    if (const auto D = item.custom_number(doubling_rates[row], {0, true, unlimited, "a number > 0"}))
+    if (const auto D = item.custom_number(std::string("ductile.") + doubling_rates[row],
+                                          {0, true, unlimited, "a number > 0"}))
       law.doubling[row] = *D, given = true;
-  if (const auto q = item.custom_number(rate_exponent, {1, false, {}, "a number >= 1"})) law.exponent = *q;
+  if (const auto q =
+          item.custom_number(std::string("ductile.") + rate_exponent, {1, false, {}, "a number >= 1"}))
+    law.exponent = *q;
   if (given && def_.interaction)
     item.value().wrong("depends on the rate of strain, and the scene has \"ductile.interaction\"",
                        "leave one of both out");

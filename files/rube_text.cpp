@@ -221,8 +221,8 @@ void write_joint(Json& item, const Plan& plan, const PlannedJoint& j, StockJoint
   });
   if (j.rate) {
     for (const Row row : {axial, shear, rotation})
-      set_custom(item, doubling_rates[row], j.rate->doubling[row]);
-    set_custom(item, rate_exponent, j.rate->exponent);
+      set_custom(item, std::string("ductile.") + doubling_rates[row], j.rate->doubling[row]);
+    set_custom(item, std::string("ductile.") + rate_exponent, j.rate->exponent);
   }
   set_custom(item, "ductile.axis", "vec2", {{"x", j.axis.x}, {"y", j.axis.y}});
   if (j.governed_by >= 0)
