@@ -11,19 +11,6 @@
 
 namespace ductile::dynamics {
 
-namespace {
-
-// Two entries of a product: columns `from` and the next of `right`, with each column's entries on the left.
-inline Pair product(const Pair (&left)[3], const double (&right)[3][4], int from) {
-  return left[0] * load(right[0] + from) + left[1] * load(right[1] + from) + left[2] * load(right[2] + from);
-}
-
-inline double last_product(const double (&left)[3], const double (&right)[3][4]) {
-  return left[0] * right[0][2] + left[1] * right[1][2] + left[2] * right[2][2];
-}
-
-}  // namespace
-
 std::vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>> edges) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(z(n) + 2 * edges.size());
@@ -99,45 +86,9 @@ void BlockLdlt::clear() {
 void BlockLdlt::factor() {
   const int* target = targets_.data();
   for (std::size_t j = 0; j < diagonal_.size(); ++j) {
-    factor_block(diagonal_[j]);
-    const Block d = diagonal_[j];
-    for (int k = column_[j], p = 0; k < column_[j + 1]; ++k, ++p) {
-      double* l = lower_[z(k)].a;
-      auto& own = unscaled_[z(p)].row;
-      Pair upper[3];     // rows 0 and 1 of L_p, column by column
-      double bottom[3];  // row 2
-      for (int i = 0; i < 3; ++i) {
-        upper[i] = Pair{l[i], l[3 + i]};
-        bottom[i] = l[6 + i];
-        const Pair rest{l[6 + i], l[i]};
-        std::memcpy(own[i], &upper[i], sizeof(Pair));
-        std::memcpy(own[i] + 2, &rest, sizeof(Pair));
-      }
-      solve_block(d, upper[0], upper[1], upper[2]);
-      solve_block(d, bottom[0], bottom[1], bottom[2]);
-      Pair row_0[3], row_1[3], row_2[3];
-      for (int i = 0; i < 3; ++i) {
-        l[i] = upper[i][0], l[3 + i] = upper[i][1], l[6 + i] = bottom[i];
-        row_0[i] = Pair{l[i], l[i]};
-        row_1[i] = Pair{l[3 + i], l[3 + i]};
-        row_2[i] = Pair{l[6 + i], l[6 + i]};
-      }
-      for (int q = 0; q < p; ++q) {
-        double* to = lower_[z(*target++)].a;
-        const auto& other = unscaled_[z(q)].row;
-        subtract(to, product(row_0, other, 0));
-        subtract(to + 2, product(upper, other, 2));
-        subtract(to + 4, product(row_1, other, 1));
-        subtract(to + 6, product(row_2, other, 0));
-        to[8] -= last_product(bottom, other);
-      }
-      // The lower triangle.
-      double* to = diagonal_[z(row_[z(k)])].a;
-      to[0] -= upper[0][0] * own[0][0] + upper[1][0] * own[1][0] + upper[2][0] * own[2][0];
-      subtract(to + 3, product(row_1, own, 0));
-      subtract(to + 6, product(row_2, own, 0));
-      to[8] -= last_product(bottom, own);
-    }
+    const int first = column_[j], last = column_[j + 1];
+    target = eliminate(diagonal_[j], {lower_.data() + first, lower_.data() + last}, unscaled_, target, lower_,
+                       diagonal_, row_.data() + first);
   }
 }
 

@@ -6,18 +6,15 @@
 // degree: a chain or a tree eliminates without fill).
 #pragma once
 
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "block_product.h"
 #include "vec3.h"
 
 namespace ductile::dynamics {
-
-/// A 3×3 block, row by row.
-struct Block {
-  double a[9];
-};
 
 template <>
 inline constexpr bool all_doubles<Block> = true;
@@ -43,6 +40,40 @@ void solve_block(const Block& block, Number& x0, Number& x1, Number& x2) {
   x2 *= a[8];
   x1 = a[4] * x1 - a[7] * x2;
   x0 = a[0] * x0 - a[3] * x1 - a[6] * x2;
+}
+
+/// Factors a diagonal block, divides the column below it by that, and subtracts what it is eliminated into: L
+/// D Lᵀ of any two of its blocks, in `lower` at the next targets, and of each with itself on the diagonal of
+/// its row. Returns the target after the last one.
+inline const int* eliminate(Block& diagonal, std::span<Block> column, std::span<Right> unscaled,
+                            const int* target, std::span<Block> lower, std::span<Block> diagonals,
+                            const int* rows) {
+  factor_block(diagonal);
+  const Block d = diagonal;
+  for (std::size_t p = 0; p < column.size(); ++p) {
+    double* l = column[p].a;
+    Right& own = unscaled[p];
+    Left left;
+    for (int i = 0; i < 3; ++i) {
+      left.upper[i] = Pair{l[i], l[3 + i]};
+      left.bottom[i] = l[6 + i];
+      const Pair rest{l[6 + i], l[i]};
+      std::memcpy(own.row[i], &left.upper[i], sizeof(Pair));
+      std::memcpy(own.row[i] + 2, &rest, sizeof(Pair));
+    }
+    solve_block(d, left.upper[0], left.upper[1], left.upper[2]);
+    solve_block(d, left.bottom[0], left.bottom[1], left.bottom[2]);
+    for (int i = 0; i < 3; ++i) {
+      l[i] = left.upper[i][0], l[3 + i] = left.upper[i][1], l[6 + i] = left.bottom[i];
+      left.row_0[i] = Pair{l[i], l[i]};
+      left.row_1[i] = Pair{l[3 + i], l[3 + i]};
+      left.row_2[i] = Pair{l[6 + i], l[6 + i]};
+    }
+    for (std::size_t q = 0; q < p; ++q)
+      subtract_product(lower[static_cast<std::size_t>(*target++)], left, unscaled[q]);
+    subtract_product(diagonals[static_cast<std::size_t>(rows[p])], left, own);
+  }
+  return target;
 }
 
 class BlockLdlt {
@@ -82,18 +113,15 @@ class BlockLdlt {
   void keep(Tape& tape) { tape(lower_, diagonal_); }
 
  private:
+  friend class BlockLu;  // of the same pattern
+
   // Column j holds the blocks lower_[column_[j]] … lower_[column_[j + 1]) in rows row_[…], ascending.
   std::vector<int> column_, row_;
   std::vector<Block> lower_;
   std::vector<Block> diagonal_;  // after factor(): L₃ and 1/D₃ of the block's own scalar L D Lᵀ
   // For each column and each pair p > q of its blocks, where in lower_ L_p D L_qᵀ is subtracted.
   std::vector<int> targets_;
-  // A block transposed, the first entry of each row once more at its end: any two entries that follow each
-  // other in a product are made of two that follow each other here.
-  struct RightFactor {
-    double row[3][4];
-  };
-  std::vector<RightFactor> unscaled_;  // the current column before its division by D
+  std::vector<Right> unscaled_;  // the current column before its division by D, transposed
 };
 
 }  // namespace ductile::dynamics

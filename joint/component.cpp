@@ -103,8 +103,9 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     if (!same(left, mirrors[i].left)) return;
     put(solver.places[i], {at.x - origin.x, at.y - origin.y, at.angle});
   };
-  solver.joints.reserve(members.size());
-  solver.records.reserve(members.size());
+  const std::size_t rows = members.size() + 2 * met.size();  // a contact has two points at most
+  solver.joints.reserve(rows);
+  solver.records.reserve(rows);
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
     Joint& j = solver.joints.emplace_back(m.own.joint);

@@ -90,6 +90,42 @@ void Hessian::factor_holding(System& system, int changed) {
 }
 
 void Hessian::refactor(const System& system, bool turn_inertias) {
+  assemble(system, turn_inertias);
+  ldlt_.factor();
+}
+
+void Hessian::factor_following(const System& system, std::span<const double> follows) {
+  assemble(system, true);
+  lu_.take(ldlt_);
+  const std::size_t first = system.first_contact();
+  for (std::size_t k = first; k < system.joints.size(); ++k) {
+    const double by = follows[k - first];
+    if (by == 0) continue;
+    const Joint& j = system.joints[k];
+    const JacobianRows a = of_body(rows_of_a(j.J), system.bodies[z(j.a)]);
+    const JacobianRows b = of_body(rows_of_b(j.J), system.bodies[z(j.b)]);
+    const auto add = [](Block& block, double by, const Vec3& left, const Vec3& right) {
+      const double rows[3] = {by * left.x, by * left.y, by * left.w};
+      for (int r = 0; r < 3; ++r) {
+        block.a[3 * r] += rows[r] * right.x;
+        block.a[3 * r + 1] += rows[r] * right.y;
+        block.a[3 * r + 2] += rows[r] * right.w;
+      }
+    };
+    if (system.is_free(j.a)) add(lu_.diagonal(j.a), by, a.v, a.u);
+    if (system.is_free(j.b)) add(lu_.diagonal(j.b), by, b.v, b.u);
+    if (j.block < 0) continue;
+    const JacobianRows &later = j.a > j.b ? a : b, &earlier = j.a > j.b ? b : a;
+    add(lu_.lower(j.block), by, later.v, earlier.u);
+    add(lu_.excess(j.block), by, later.u, earlier.v);
+    add(lu_.excess(j.block), -by, later.v, earlier.u);
+  }
+  lu_.factor(ldlt_);
+  factored_ = Factored::nothing;
+}
+
+// H without its factorisation.
+void Hessian::assemble(const System& system, bool turn_inertias) {
   ldlt_.clear();
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
@@ -124,7 +160,6 @@ void Hessian::refactor(const System& system, bool turn_inertias) {
     if (b_turns) ldlt_.diagonal(t.b).a[8] += t.inertia;
     if (a_turns && b_turns) ldlt_.block(t.block).a[8] -= t.inertia;
   }
-  ldlt_.factor();
 }
 
 }  // namespace ductile::dynamics

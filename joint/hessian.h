@@ -6,6 +6,7 @@
 #include <span>
 
 #include "block_ldlt.h"
+#include "block_lu.h"
 #include "system.h"
 
 namespace ductile::dynamics {
@@ -45,6 +46,10 @@ class Hessian {
     factored_ = Factored::earlier;
   }
 
+  /// Likewise, where row 1 of contact k follows its row 0 by ds₁/dx₀ = follows[k], which is not symmetric.
+  void factor_following(const System& system, std::span<const double> follows);
+  void solve_following(std::span<Vec3> x) const { lu_.solve(ldlt_, x); }
+
   /// x ← H⁻¹ x; or its halves: see BlockLdlt.
   void solve(std::span<Vec3> x) const { ldlt_.solve(x); }
   double forward(std::span<Vec3> x) const { return ldlt_.forward(x); }
@@ -57,7 +62,7 @@ class Hessian {
   double factor_work(std::size_t joints) const {
     return static_cast<double>(ldlt_.factor_work() + 3 * joints);
   }
-  std::size_t bytes() const { return ldlt_.bytes(); }
+  std::size_t bytes() const { return ldlt_.bytes() + lu_.bytes(); }
   void keep(Tape& tape) {
     auto made_of = static_cast<std::uint8_t>(factored_);
     tape(made_of, ldlt_);
@@ -66,7 +71,10 @@ class Hessian {
   }
 
  private:
+  void assemble(const System& system, bool turn_inertias);
+
   BlockLdlt ldlt_;
+  BlockLu lu_;
   Factored factored_ = Factored::nothing;
 };
 

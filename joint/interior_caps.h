@@ -3,6 +3,10 @@
 // Caps couple no rows: what the two of a row make of a change of its impulse is one number,
 //   Δs = D (lack + J Δv + τ⁺ − τ⁻)      1/D = 1/G + z⁺/(p⁺ + ηz⁺) + z⁻/(p⁻ + ηz⁻)      τ = (z p − μ)/(p + ηz)
 //   Δz = ± z/(p + ηz) Δs − τ            Δp = ∓ Δs + η Δz
+// Friction's caps c = μλ are of the same round's normal impulse, λ = −s of row 0: both change by Δc = −μ Δs₀,
+// so
+//   Δs₁ = D (lack + J Δv + τ⁺ − τ⁻ + (z⁺/p⁺ − z⁻/p⁻) Δc)
+// Row 1 follows row 0 and is not followed by it: ds/dx of the two is not symmetric.
 // Both caps of a row are one Pair. A cap that is infinite has z = 0, p = `far` and no μ: it takes part in
 // nothing, without being asked for. In D, 1/G is at least least_compliance().
 #pragma once
@@ -22,6 +26,7 @@ class CappedRows {
   /// InteriorPoint.
   void enter(const Joint& joint, const JointRecord& record, const Rows& s, const Rows& m_eff, double inside,
              double energy) {
+    friction_ = 0;
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r = {};
@@ -69,15 +74,23 @@ class CappedRows {
   /// What is left to the first cap of the axial row: of a contact, its normal impulse.
   double left() const { return rows_[0].p[0]; }
 
-  /// The caps of row 1 times `share`, and what it carries. z p does not fall below μ by it.
-  void scale_friction(double share, double mu) {
+  /// Both caps of row 1, of friction.
+  double friction() const { return (rows_[1].p[0] + rows_[1].p[1]) / 2; }
+  /// Before centre(): from here on these are μ times what is left to the first cap of row 0. What the row
+  /// carries stays the same share of them.
+  void follow(double mu) {
     Row& r = rows_[1];
+    const double share = mu * left() / friction();
     r.s *= share;
     r.p = share * r.p;
-    for (int side : {0, 1}) {
-      const double p = r.p[side], z = r.z[side];
-      if (z * p < mu) r.z[side] = std::max(z, std::min(z / share, mu / p));
-    }
+    friction_ = mu;
+  }
+  /// They stay what they are.
+  void stop_following() { friction_ = 0; }
+  /// After eliminate(): ds₁/dx₀.
+  double follows() const {
+    const Row& r = rows_[1];
+    return -friction_ * r.D * (r.weight[0] - r.weight[1]) * rows_[0].D;
   }
 
   /// At x = J v + b.
@@ -110,7 +123,8 @@ class CappedRows {
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r.aim = (r.z * r.p + second_order * (r.dz * r.dp) - mu * r.counts) / (r.p + r.hardening * r.z);
-      ds[i] = r.D * (r.lack + (r.aim[0] - r.aim[1]));
+      const double leads = i == 1 ? -friction_ * ds[0] : 0;
+      ds[i] = r.D * (r.lack + (r.aim[0] - r.aim[1]) + leads * (r.weight[0] - r.weight[1]));
     }
     return ds;
   }
@@ -119,8 +133,12 @@ class CappedRows {
   void direct(const Rows& change, Direction& direction) {
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
-      r.ds = r.D * (r.lack + change[i] + (r.aim[0] - r.aim[1]));
-      const Pair along{r.ds, -r.ds};
+      const double leads = i == 1 ? -friction_ * rows_[0].ds : 0;
+      // Δs less what its cap changes by, solved for: as a difference its last bits, times z/p, would be slip.
+      const double push = r.lack + change[i] + (r.aim[0] - r.aim[1]);
+      const Pair along{r.D * (push - leads * (r.give + 2 * r.weight[1])),
+                       -r.D * (push + leads * (r.give + 2 * r.weight[0]))};
+      r.ds = r.weight[0] > r.weight[1] ? along[0] + leads : -along[1] - leads;
       r.dz = r.weight * along - r.aim;
       r.dp = r.hardening * r.dz - along;
       for (int side : {0, 1}) direction.see(r.p[side], r.z[side], r.dp[side], r.dz[side]);
@@ -159,6 +177,7 @@ class CappedRows {
     double last_bits = 0;  // times s²: what rounding of s makes of the gap
   };
   std::array<Row, 3> rows_;
+  double friction_ = 0;  // μ, where row 1 follows row 0
 };
 
 }  // namespace ductile::dynamics

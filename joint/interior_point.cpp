@@ -38,13 +38,14 @@ void InteriorPoint::form(const System& system) {
     most = std::max(most, own);
     ++surfaces;
   }
-  caps_.assign(system.joints.size(), {});
-  surface_of_.assign(system.joints.size(), -1);
+  const std::size_t room = system.joints.capacity();  // contacts will come
+  caps_.reserve(room);
+  surface_of_.reserve(room);
   surfaces_.reserve(surfaces);
   bounds_.assign(bounds, {});
   turns_.reserve(system.joints.size());
-  impulses_.assign(system.joints.size(), {});
-  best_.assign(system.joints.size(), {});
+  impulses_.reserve(room);
+  best_.reserve(room);
   d_.assign(system.bodies.size(), {});
   rows_.assign(most + 4, {});
   order_.assign(most + 4, 0);
@@ -150,24 +151,11 @@ void InteriorPoint::open_friction(System& system) {
   }
 }
 
-// Caps of friction from the normal impulses of this round, where it matters among velocities of so much
-// energy. What friction carries stays the same share of its cap; and beside what opens z p does not fall
-// below the mean μ, or the next step would be as short as p has become. Whether any cap moved.
-bool InteriorPoint::follow_friction(System& system, double energy, double mu) {
-  bool moved = false;
-  for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k) {
-    Joint& j = system.joints[k];
-    if (!(j.G[1] > 0)) continue;
-    JointRecord& r = system.record(j);
-    const double cap = system.contacts[k - system.first_contact()].friction * caps_[k].left(),
-                 share = cap / r.law.cap[1];
-    if (std::abs(cap - r.law.cap[1]) <= 1e-4 * cap + 1e-7 * std::sqrt(r.m_eff[1] * energy)) continue;
-    moved = true;
-    set_friction(j, r, cap);
-    caps_[k].scale_friction(share, mu);
-    impulses_[k] = caps_[k].impulse();
-  }
-  return moved;
+// Calls act(k, μ) for each contact's row k that has friction.
+template <class Act>
+void InteriorPoint::each_friction(const System& system, const Act& act) {
+  for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k)
+    if (system.joints[k].G[1] > 0) act(k, system.contacts[k - system.first_contact()].friction);
 }
 
 // f − min f is at most Σ z p + ½ Σ G lack² (Fenchel's inequality, joint by joint).
@@ -187,19 +175,23 @@ Distance InteriorPoint::measure(const System& system) {
 }
 
 // H = M + Jᵀ D J
-void InteriorPoint::factor(System& system, Hessian& hessian) {
+void InteriorPoint::factor(System& system, Hessian& hessian, bool follows) {
   for (std::size_t k = 0; k < caps_.size(); ++k) {
     system.records[k].tangent =
         surface_of_[k] < 0 ? caps_[k].eliminate() : surfaces_[z(surface_of_[k])].eliminate({rows_, order_});
   }
-  hessian.factor_given(system);
+  if (!follows) return hessian.factor_given(system);
+  follows_.assign(system.contacts.size(), 0);
+  each_friction(system,
+                [&](std::size_t k, double) { follows_[k - system.first_contact()] = caps_[k].follows(); });
+  hessian.factor_following(system, follows_);
 }
 
 // Newton's step for z p = μ, with so much of the second-order term Δz Δp of the last direction. Unknowns are
 // written as what they change by, never as what they become: a rigid row multiplies by κ what rounding
 // leaves.
 Direction InteriorPoint::find_direction(const System& system, const Hessian& hessian, double mu,
-                                        double second_order) {
+                                        double second_order, bool follows) {
   std::fill(d_.begin(), d_.end(), Vec3{});
   each([&](std::size_t k, auto& rows) {
     const Joint& j = system.joints[k];
@@ -215,7 +207,7 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
     if (i >= system.free) d_[i] = {};
     if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
   }
-  hessian.solve({d_.data(), system.free});
+  follows ? hessian.solve_following({d_.data(), system.free}) : hessian.solve({d_.data(), system.free});
   Direction direction;
   each([&](std::size_t k, auto& rows) {
     const Joint& j = system.joints[k];
@@ -241,12 +233,31 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   if (!std::exchange(start_known_, false)) start_from(system);
   open_friction(system);
   moderate_start(system);
-  if (!start(system)) {
-    outcome.reached = true;
-    finish(system, outcome.reached, at);
-    return outcome;
+  const bool found = follows_friction_ && !system.contacts.empty() && go(system, hessian, true, outcome);
+  if (!found) {
+    // Coulomb's law is no potential's derivative, and there may be no way to where it holds. Caps that stay
+    // leave a convex problem; the solve after this one has other caps.
+    follows_friction_ = system.contacts.empty();
+    go(system, hessian, false, outcome);
   }
-  follow_friction(system, 0, 0);
+  outcome.reached = outcome.gap <= outcome.tolerance;
+  finish(system, outcome.reached, at);
+  return outcome;
+}
+
+// The rounds, from the best impulses so far, with friction that follows normal impulses or caps as they are.
+// False where friction's following leads nowhere.
+bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& outcome) {
+  if (!start(system)) {
+    outcome.gap = 0;
+    return true;
+  }
+  if (follows) {
+    each_friction(system, [this](std::size_t k, double mu) {
+      caps_[k].follow(mu);
+      impulses_[k] = caps_[k].impulse();
+    });
+  }
   double scale = balance(system), work = 0, moving = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Rows x = x_of(system, system.joints[k]);
@@ -260,27 +271,42 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   const double mu = (alone ? tunables.start : tunables.contact_start) * std::max(work, moving) / count;
   each([&](std::size_t, auto& rows) { rows.centre(mu); });
 
-  const double goal = alone ? tunables.goal : tunables.contact_goal;
-  const double tolerance = alone ? tunables.tolerance : tunables.contact_tolerance;
   outcome.gap = infinity;
   // Of the best iterate, as its gap is: |v|² of one that is astray would allow any gap that there ever was.
   double goal_gap = 0;
   std::array<double, 2> earlier{infinity, infinity};  // Σ z p two rounds ago and in the last
+  int short_steps = 0;                                // one after the other
+  double last_lack = infinity;
+  const double first_scale = scale;
   for (int round = 0, idle = 0, careful = 0;; ++round) {
     const Distance now = measure(system);
     // Rounding is what gains nothing any more where lack is all that there is left.
     idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
     if (now.gap() < outcome.gap) {
       outcome.gap = now.gap();
-      goal_gap = goal * scale + now.rounding;
-      outcome.tolerance = tolerance * scale + now.rounding;
+      goal_gap = tunables.goal * scale + now.rounding;
+      outcome.tolerance = tunables.tolerance * scale + now.rounding;
       best_ = impulses_;
       for (TurnRow& r : turns_) r.best = r.s;
+      each_friction(system, [&](std::size_t k, double) {
+        set_friction(system.joints[k], system.records[k], caps_[k].friction());
+      });
     }
     if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
+    // Friction that follows is factored without pivoting between bodies. A step along a good direction
+    // shortens what is lacking; where it does not, or is short, caps stay, if they are of any use.
+    if (follows && (now.gap() <= tunables.friction_goal * scale || short_steps == 2 ||
+                    now.lack > 4 * last_lack + tunables.tolerance * scale)) {
+      if (scale > 10 * first_scale) return false;
+      follows = false;
+      each_friction(system, [this](std::size_t k, double) { caps_[k].stop_following(); });
+      outcome.gap = infinity;
+      idle = 0;
+    }
+    last_lack = now.lack;
 
-    factor(system, hessian);
+    factor(system, hessian, follows);
     ++outcome.factorisations;
     // Predictor (μ = 0), then a corrector with the centring that its success calls for and with its
     // second-order terms (Mehrotra 1992), by the square of the step that it could go. Where two rounds have
@@ -292,25 +318,22 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
     earlier = {earlier[1], now.products};
     const double reach =
         stalls && !alone ? 0.8 : 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
-    const Direction predictor = find_direction(system, hessian, 0, 0);
+    const Direction predictor = find_direction(system, hessian, 0, 0, follows);
     const double affine = predictor.step_within(reach);
     const double left = now.products > 0 ? predictor.products(now.products, affine) / now.products : 0;
     const double remains = std::max(std::min(left, 1.0), 1 - affine);
     const double centring = std::max(remains * remains * remains, stalls ? 0.5 : 0);
-    // Not below what the goal allows: Σ z p may vanish before the rest settles, the more so with contacts
-    // that open, and no step is possible then.
-    const double least = (alone ? 1e-3 : 0.1) * goal * scale;
-    const Direction corrector = find_direction(
-        system, hessian, std::max(centring * now.products, least) / count, stalls ? 0 : affine * affine);
-    move(corrector.step_within(reach));
-    // A gap is of the caps that it was measured with.
-    if (round < tunables.friction_rounds && follow_friction(system, scale, now.products / count))
-      outcome.gap = infinity;
+    // Not below what the goal allows: Σ z p may vanish before the rest settles, and no step is possible then.
+    const double least = 1e-3 * tunables.goal * scale;
+    const Direction corrector =
+        find_direction(system, hessian, std::max(centring * now.products, least) / count,
+                       stalls ? 0 : affine * affine, follows);
+    const double step = corrector.step_within(reach);
+    short_steps = step < 0.1 ? short_steps + 1 : 0;
+    move(step);
     scale = balance(system);
   }
-  outcome.reached = outcome.gap <= outcome.tolerance;
-  finish(system, outcome.reached, at);
-  return outcome;
+  return outcome.gap <= outcome.tolerance;
 }
 
 // With impulses τ s the step adds −Σ τ s·(x − τ s/G) − ½ |v − v*|²_M at most to kinetic and elastic energy;

@@ -22,15 +22,11 @@ namespace ductile::dynamics {
 struct InteriorPointTunables {
   /// Of |v − v*|²_M + |v|²_M: the gap that rounds go on to. Velocities are good to its root.
   double goal = 1e-18;
-  /// Likewise with contacts: their caps of friction are not known as well.
-  double contact_goal = 1e-15;
+  /// Likewise: the gap from which caps of friction stay what they are. They are known well by then, and what
+  /// is left is symmetric, and so more accurate.
+  double friction_goal = 1e-15;
   /// Likewise: the gap that will do, where rounding does not let it become less.
   double tolerance = 1e-12;
-  /// Likewise with contacts: velocities good to 1e-4.
-  double contact_tolerance = 1e-8;
-  /// Rounds in which caps of friction follow the normal impulses. They settle with these; if not, the solve
-  /// after it does the rest (lag_friction()).
-  int friction_rounds = 18;
   /// Share of the bounds that the impulses of the last step are drawn within: further out, the first rounds
   /// go but small steps.
   double inside = 0.9;
@@ -67,17 +63,23 @@ class InteriorPoint {
   /// They are not.
   void start_anew() { start_known_ = false; }
 
+  /// In another step friction may follow normal impulses again, which led nowhere in the last solve.
+  void begin_step() { follows_friction_ = true; }
+
   std::size_t bytes() const;
 
  private:
+  bool go(System& system, Hessian& hessian, bool follows, Outcome& outcome);
   void moderate_start(const System& system);
   bool start(const System& system);
   void open_friction(System& system);
-  bool follow_friction(System& system, double energy, double mu);
+  template <class Act>
+  void each_friction(const System& system, const Act& act);
   double balance(System& system);
   Distance measure(const System& system);
-  void factor(System& system, Hessian& hessian);
-  Direction find_direction(const System& system, const Hessian& hessian, double mu, double second_order);
+  void factor(System& system, Hessian& hessian, bool follows);
+  Direction find_direction(const System& system, const Hessian& hessian, double mu, double second_order,
+                           bool follows);
   void move(double step);
   double share_without_gain(System& system);
   void finish(System& system, bool reached, Evaluation& at);
@@ -106,7 +108,8 @@ class InteriorPoint {
     double best = 0;
   };
   std::vector<TurnRow> turns_;  // of the system's turn inertias
-  bool start_known_ = false;
+  bool start_known_ = false, follows_friction_ = true;
+  std::vector<double> follows_;  // of the contacts: CappedRows::follows()
   std::vector<Vec3> d_;
   std::vector<Row4> rows_;
   std::vector<std::size_t> order_;

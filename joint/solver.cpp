@@ -34,6 +34,7 @@ void Solver::form(std::size_t free_bodies) {
 
 void Solver::begin(double h) {
   hessian_.begin_step();
+  newton_.interior_point.begin_step();
   motion_.share = 1;
   pushed_ = false;
   if (h != step()) prediction_.forget();

@@ -66,6 +66,47 @@ void expect_inverse(const System& system, const Hessian& hessian, RandomSystem& 
   EXPECT_LE((in_one(halves) - exact).norm(), tolerance * exact.norm());
 }
 
+// Rows of contacts whose friction follows the normal impulse: against a dense matrix that is not symmetric.
+TEST(Hessian, FactorKnowsFrictionThatFollows) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    RandomSystem r(seed, 4 + static_cast<int>(seed % 17));
+    Hessian hessian;
+    hessian.analyse(r.system);
+    hessian.factor_tangents(r.system, false);
+    // The last joints as contacts: a few, all, none.
+    const std::size_t contacts =
+        static_cast<std::size_t>(r.any(static_cast<int>(r.system.joints.size()) + 1));
+    r.system.contacts.resize(contacts);
+    Matrix H = dense(r.system);
+    const auto n = static_cast<int>(3 * r.system.free);
+    std::vector<double> follows(contacts);
+    for (std::size_t k = 0; k < contacts; ++k) {
+      const Joint& j = r.system.joints[r.system.first_contact() + k];
+      follows[k] = r.any(3) == 0 ? 0 : r.in(-0.5, 0.5) * r.system.record(j).tangent.nn;
+      Vector u = Vector::Zero(n), v = Vector::Zero(n);
+      for (const int body : {j.a, j.b}) {
+        if (!r.system.is_free(body)) continue;
+        const JacobianRows rows = body == j.a ? rows_of_a(j.J) : rows_of_b(j.J);
+        const double turns = r.system.bodies[z(body)].inertia > 0 ? 1 : 0;
+        u.segment<3>(3 * body) << rows.u.x, rows.u.y, turns * rows.u.w;
+        v.segment<3>(3 * body) << rows.v.x, rows.v.y, turns * rows.v.w;
+      }
+      H += follows[k] * v * u.transpose();
+    }
+    hessian.factor_following(r.system, follows);
+    EXPECT_EQ(hessian.factored(), Factored::nothing);  // others know nothing of it
+    std::vector<Vec3> x(r.system.free);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = {r.in(-1, 1), r.in(-1, 1), r.system.bodies[i].inertia > 0 ? r.in(-1, 1) : 0};
+    const Eigen::PartialPivLU<Matrix> lu(H);
+    const Vector exact = lu.solve(in_one(x));
+    hessian.solve_following(x);
+    // There is no pivoting, so that rounding may grow; here by no more than a few digits beyond the
+    // condition.
+    EXPECT_LE((in_one(x) - exact).norm(), 1e-12 / lu.rcond() * exact.norm()) << "seed " << seed;
+  }
+}
+
 // Beside a body that does not rotate, too: it once was turned by its neighbour, without end.
 TEST(Hessian, FactorKnowsTurnInertias) {
   int held = 0;
