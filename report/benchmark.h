@@ -41,5 +41,7 @@ std::vector<Benchmark> motion_benchmarks(const Context& context);
 std::vector<Benchmark> blow_benchmarks(const Context& context);
 /// Blows that are over in two steps at 60 Hz, and one that an estimate stands beside.
 std::vector<Benchmark> strong_blow_benchmarks(const Context& context);
+/// What was measured on structures that were built; allowed is the deviation that its reason explains.
+std::vector<Benchmark> experiment_benchmarks();
 
 }  // namespace ductile::report

@@ -51,6 +51,7 @@ Result run_benchmarks(const Context& context) {
   auto motion = motion_benchmarks(context);
   for (Benchmark& row : blow_benchmarks(context)) motion.push_back(std::move(row));
   const auto strong = strong_blow_benchmarks(context);
+  const auto experiments = experiment_benchmarks();
   Result result;
   result.text = {
       "Problems of the literature, each with its source, whether that was read or is quoted after others, "
@@ -100,11 +101,13 @@ Result run_benchmarks(const Context& context) {
       claim("In equilibrium, within 1 % of the reference", rest),
       claim("Calibration frames, within 2 % of plastic zones", calibration),
       claim("In motion, within 3 % at small steps and 10 % at 60 Hz", motion),
-      claim("Strong blows, within 3 % at small steps and 10 % at 60 Hz, 12.5 % of an estimate", strong)};
+      claim("Strong blows, within 3 % at small steps and 10 % at 60 Hz, 12.5 % of an estimate", strong),
+      claim("Experiments, within 10 % where nothing yields and 25 % where steel hardens", experiments)};
   result.tables = {table("statics", "In equilibrium", rest),
                    table("calibration", "Frames that programs are calibrated with", calibration),
                    table("motion", "In motion", motion),
-                   table("strong", "Strong blows, and one beside an estimate", strong)};
+                   table("strong", "Strong blows, and one beside an estimate", strong),
+                   table("experiments", "Experiments", experiments)};
   Table parts{.name = "parts",
               .title = "Vogel's six storeys, by the parts that each bar is cut into",
               .columns = {{"parts"}, {"factor on all loads at collapse"}},
