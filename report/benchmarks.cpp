@@ -76,17 +76,23 @@ Result run_benchmarks(const Context& context) {
       "of a blow are solved in parts; the same blows on beams that are as strong as steel, over in two "
       "steps, stand below. So does a beam that stretches, beside an estimate by one mode, which overrates it "
       "by an eighth where deflections are small.",
-      ("Experiments are not here: of Parkes' cantilevers (1955), Bodner and Symonds' (1962), Humphreys' "
-       "(1965), "
-       "Symonds and Jones' (1972) and Menkes and Opat's (1973) clamped beams, Liu and Jones' struck ones "
-       "(1987) "
-       "and Clark's rings (1962), of El-Zanaty's portal and of Baker's and Horne's tests no table could be "
-       "read; "
-       "of Cowper and Symonds' report (1957), Van Duzer's thesis on beams of 6061-T6 (1969) and Wilkinson "
-       "and "
-       "Hancock's portals (1999) only the openings, without a number. For the rate at which mild steel flows "
-       "a "
-       "material has Cowper and Symonds' law; it is held against its integral.")};
+      ("Experiments: what was measured, read with its whole input in tables that others made of the "
+       "authors' reports, which were not read. The Pazy wing was built to bend far. A beam model of it, "
+       "whose stiffness ductile takes, sags 5 to 8 % less than the wing, and ductile is within 0.1 % of "
+       "that model: the deviation is one of the stiffness. Of beams welded to columns all are here whose "
+       "flanges and web were tested by themselves, and whose plastic turn was at least three times that "
+       "of the column between them. They bore 0.95 to 1.24 times the moment that ductile gives them, "
+       "alike ones within 1 and 5 % of each other. Beams under slabs, those that were loaded until they "
+       "failed and whose slab slipped by less than 0.3 mm, bore 1.06 to 1.30 times the load. Steel that is "
+       "bent up and down, or under a point load, hardens beyond its yield stress; "
+       "ductile's does not, and folds earlier."),
+      ("Experiments in motion are not here: of Parkes' cantilevers (1955), Bodner and Symonds' (1962), "
+       "Humphreys' (1965), Symonds and Jones' (1972) and Menkes and Opat's (1973) clamped beams, Van "
+       "Duzer's of 6061-T6 (1969) and Liu and Jones' struck ones (1987) no table could be read, of "
+       "Clark's rings (1962) no more than their dimensions in the manual of Abaqus. Nor could "
+       "El-Zanaty's portal, Baker's and Horne's tests, and Wilkinson and Hancock's portals (1999). For the "
+       "rate at which mild steel flows a material has Cowper and Symonds' law; it is held against its "
+       "integral.")};
   const auto worst = [](const std::vector<Benchmark>& rows) {
     double most = 0;
     for (const Benchmark& b : rows) most = std::max(most, std::abs(b.deviation()));
@@ -102,7 +108,8 @@ Result run_benchmarks(const Context& context) {
       claim("Calibration frames, within 2 % of plastic zones", calibration),
       claim("In motion, within 3 % at small steps and 10 % at 60 Hz", motion),
       claim("Strong blows, within 3 % at small steps and 10 % at 60 Hz, 12.5 % of an estimate", strong),
-      claim("Experiments, within 10 % where nothing yields and 25 % where steel hardens", experiments)};
+      claim("Experiments, within 10 % where nothing yields and 25 % where steel hardens, 1 % of a beam model",
+            experiments)};
   result.tables = {table("statics", "In equilibrium", rest),
                    table("calibration", "Frames that programs are calibrated with", calibration),
                    table("motion", "In motion", motion),
