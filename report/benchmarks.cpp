@@ -85,7 +85,9 @@ Result run_benchmarks(const Context& context) {
        "alike ones within 1 and 5 % of each other. Beams under slabs, those that were loaded until they "
        "failed and whose slab slipped by less than 0.3 mm, bore 1.06 to 1.30 times the load. Steel that is "
        "bent up and down, or under a point load, hardens beyond its yield stress; "
-       "ductile's does not, and folds earlier."),
+       "ductile's does not, and folds earlier. How much of the deviation that is was not worked out, "
+       "since the tables have no tensile strengths. Which tests stand here, and the 25 % that are allowed, "
+       "were chosen with the deviations at hand: they show how far off ductile is, and predict nothing."),
       ("Experiments in motion are not here: of Parkes' cantilevers (1955), Bodner and Symonds' (1962), "
        "Humphreys' (1965), Symonds and Jones' (1972) and Menkes and Opat's (1973) clamped beams, Van "
        "Duzer's of 6061-T6 (1969) and Liu and Jones' struck ones (1987) no table could be read, of "
@@ -100,15 +102,15 @@ Result run_benchmarks(const Context& context) {
   };
   result.summary = fmt::format(
       "{} published problems and closed forms in equilibrium are met within {:.2g} %, {} in motion within "
-      "{:.2g} %, 60 Hz "
-      "included.",
-      rest.size(), worst(rest), motion.size(), worst(motion));
+      "{:.2g} %, 60 Hz included; what was measured on beams within {:.2g} %, steel's hardening "
+      "left out.",
+      rest.size(), worst(rest), motion.size(), worst(motion), worst(experiments));
   result.claims = {
       claim("In equilibrium, within 1 % of the reference", rest),
       claim("Calibration frames, within 2 % of plastic zones", calibration),
       claim("In motion, within 3 % at small steps and 10 % at 60 Hz", motion),
       claim("Strong blows, within 3 % at small steps and 10 % at 60 Hz, 12.5 % of an estimate", strong),
-      claim("Experiments, within 10 % where nothing yields and 25 % where steel hardens, 1 % of a beam model",
+      claim("Experiments, within 10 % where nothing yields and 25 % where steel folds, 1 % of a beam model",
             experiments)};
   result.tables = {table("statics", "In equilibrium", rest),
                    table("calibration", "Frames that programs are calibrated with", calibration),
