@@ -7,6 +7,8 @@
 // that those of parallel joints agree.
 #pragma once
 
+#include <vector>
+
 #include "system.h"
 
 namespace ductile::dynamics {
@@ -46,9 +48,11 @@ class StepLaws {
  private:
   double deferred_share(System& system, double h);
   void rescale(System& system, double by);
-  void follow_law(Joint& joint, JointRecord& record, Rows& strain) const;
+  double most_growth(System& system);
+  void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
   double delta_for(const System& system, double h);
 
+  std::vector<Vec3> change_;  // of the bodies
   double h_ = 0;
   bool known_ = false;   // the laws are those of h_, caps and stiffness
   double delta_ = 1;     // of the laws
