@@ -49,6 +49,24 @@ void weaken(Joint& j, JointRecord& r, double share) {
   set_caps(j, r, times(h, r.material.cap), times(h, r.material.cap_reverse), share);
 }
 
+double strained_by_blow(const System& system, std::span<const Rows> before) {
+  double most = 0;
+  for (const Joint& j : system.own_joints()) {
+    const JointRecord& r = system.record(j);
+    Rows more = j.impulse;
+    for (unsigned i = 0; i < 3; ++i) more[i] = (more[i] - before[system.index(j)][i]) / r.law.h;
+    if (r.law.surface != nullptr) {
+      most = std::max(most, r.law.surface->usage(more));
+      continue;
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      const double cap = std::min(r.material.cap[i], r.material.cap_reverse[i]);
+      if (cap > 0) most = std::max(most, std::abs(more[i]) / cap);
+    }
+  }
+  return most;
+}
+
 void close_blow(System& system) {
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);

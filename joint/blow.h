@@ -24,6 +24,10 @@ void open_blow(System& system);
 /// capacity: what is fast shall lose no more than the work that breaks it.
 void weaken(Joint& joint, JointRecord& record, double share);
 
+/// After the solve of a step that is struck: the most that the blow strains a row by, as a share of its
+/// capacity. `before` are the joints' impulses before it.
+double strained_by_blow(const System& system, std::span<const Rows> before);
+
 /// After the step: its laws are again those of any step, and what flowed does so at its cap.
 void close_blow(System& system);
 

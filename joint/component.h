@@ -61,7 +61,7 @@ struct Component {
   /// The steps of a blow are solved in parts.
   struct Parts {
     int count = 1;          // of the step that the solver's laws are for
-    double since_blow = 0;  // s
+    double since_blow = 0;  // s, a hard one
     bool advanced = false;  // this step was solved so: poses have moved
     struct OfBody {         // velocities in world axes
       Pose start;
@@ -172,6 +172,7 @@ struct Component {
   bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
   bool is_strained() const;
   bool strikes_hard();
+  bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
   void begin_parts();
   void solve_part(double h, bool first, bool blow);

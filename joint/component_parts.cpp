@@ -1,7 +1,8 @@
 // The steps of a blow in parts: what strikes a structure sends waves through it that are over in a few
-// milliseconds, and their plastic work depends on them. So a step in which a blow may strain joints to a good
-// share of their capacity, and those of the next 50 ms in which some still are, are solved as shorter ones,
-// with contacts as rows of each. Box2D sees one step: it moves bodies with their mean velocities, before its
+// milliseconds, and their plastic work depends on them. So a step in which a blow strains joints by a good
+// share of their capacity, be it more than they carried before, and those of the next 50 ms in which some are
+// strained that much, are solved as shorter ones, with contacts as rows of each. What strikes less hard is
+// part of what goes on. Box2D sees one step: it moves bodies with their mean velocities, before its
 // iterations of positions they get those at the end, and contacts have the sums of their impulses.
 //
 // Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest:
@@ -83,6 +84,10 @@ bool Component::strikes_hard() {
   });
 }
 
+// What is heavy strains much by its weight or its way in a step, though it may strike slowly; so may the hand
+// of the game. The solution of the whole step knows that.
+bool Component::strains_much() const { return solver.strained_by_blow() > strained; }
+
 bool Component::is_strained() const {
   return std::any_of(members.begin(), members.end(), [](const Member* m) {
     return std::max({m->joint->usage(axial), m->joint->usage(shear), m->joint->usage(rotation)}) > strained;
@@ -90,6 +95,7 @@ bool Component::is_strained() const {
 }
 
 void Component::solve_in_parts(const b2SolverData& data, bool blow) {
+  const bool hard = parts_.count == 1 || (blow && strikes_hard());
   const int count = std::max(2, static_cast<int>(std::lround(data.step.dt / part)));
   const double h = double{data.step.dt} / count;
   if (parts_.count != count) {
@@ -102,8 +108,8 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
     move();
     look_for_breaks(*this);
   }
+  parts_.since_blow = hard ? 0 : parts_.since_blow + data.step.dt;
   end_parts(data);
-  parts_.since_blow = blow ? 0 : parts_.since_blow + data.step.dt;
   parts_.advanced = true;
   report([this](Reports& r) {
     ++r.step.divided;
@@ -157,7 +163,11 @@ void Component::solve_part(double h, bool first, bool blow) {
     }
   }
   solver.touch(outside_.links, outside_.contacts);
-  if (first && blow) solver.strike(closing());
+  if (first && blow) {
+    solver.strike(closing());
+  } else {
+    solver.keep_friction();
+  }
   solve_direct();
 
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
@@ -180,7 +190,9 @@ void Component::solve_part(double h, bool first, bool blow) {
 }
 
 // Box2D moves the bodies by what it finds here, and has a step of position iterations to get their
-// velocities.
+// velocities. Those belong to the middle of a part. Where whole steps follow, bodies go on with their mean
+// velocities, which belong to the middle of this one: else all forces would act half a step too early from
+// then on, and a flow that is braked by a cap would be v h/2 short. What rings within the step is lost then.
 void Component::end_parts(const b2SolverData& data) {
   for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
     solver.contacts[k].normal = parts_.sums[k].normal;
@@ -189,15 +201,22 @@ void Component::end_parts(const b2SolverData& data) {
   return_contacts();
   if (solver.keeps_ledger) book_parts();
   const double rate = 1 / double{data.step.dt};
+  const bool last = !(parts_.since_blow < blow_time && is_strained());
+  double lost = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
+    const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
+    const Vec3 mean{rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)};
+    if (last) {
+      const Body& b = solver.bodies[i];
+      lost += (dot(momentum(b, m.exact), m.exact) - dot(momentum(b, mean), mean)) / 2;
+      m.exact = mean;
+    }
     m.given = in_floats(m.exact);
     m.left = box2d_pose(i);
-    if (!m.present) continue;
-    const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
-    data.velocities[m.island_index] =
-        in_floats({rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)});
+    if (m.present) data.velocities[m.island_index] = in_floats(mean);
   }
+  if (solver.keeps_ledger) solver.book_parts(0, -lost);
   for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
   }

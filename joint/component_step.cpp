@@ -206,7 +206,7 @@ void Component::first_velocity(const b2SolverData& data) {
   if (!blow) return solve(data);
   solver.strike(closing());
   solve_direct();
-  if (may_divide(data) && (is_strained() || strikes_hard())) return solve_in_parts(data, true);
+  if (may_divide(data) && (strikes_hard() || strains_much())) return solve_in_parts(data, true);
   give(data);
 }
 

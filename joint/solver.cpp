@@ -36,7 +36,7 @@ void Solver::begin(double h) {
   hessian_.begin_step();
   newton_.interior_point.begin_step();
   motion_.share = 1;
-  pushed_ = false;
+  keeps_friction_ = false;
   if (h != step()) prediction_.forget();
   const bool other_laws = laws_.begin(*this, h);
   if (other_laws) list_special(*this);
@@ -119,11 +119,12 @@ void Solver::solve_again(Solution& solution, SolveReport& report) {
 }
 
 // Coulomb's cap is that of the round before. At rest and in even motion the first is right. Answers to pushes
-// keep it: what pushes is solved contact by contact anyway, and the next step starts from the last.
+// keep it: what pushes is solved contact by contact anyway, and the next step starts from the last. So do
+// parts of a step that follow another part, as that was just before.
 void Solver::settle_friction(Solution& solution, SolveReport& report) {
   for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);
-    if (round == 8 || pushed_) break;
+    if (round == 8 || keeps_friction_) break;
     const Lag lag = lag_friction(*this, round);
     if (!lag.again) break;
     if (lag.other_rows) hessian_.forget();

@@ -64,9 +64,14 @@ class Solver : public System {
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
   void push(std::size_t body, const Vec3& change) {
     newton_.push(*this, body, change);
-    pushed_ = true;
+    keep_friction();
   }
+  /// Solves until the next begin() do not settle the contacts' friction anew: its caps are those of the
+  /// impulses that the contacts came with.
+  void keep_friction() { keeps_friction_ = true; }
   bool struck() const { return struck_; }
+  /// See blow.h.
+  double strained_by_blow() const { return dynamics::strained_by_blow(*this, before_blow_); }
   /// Of the step that advance() ended: see blow.h.
   const LeftOut& left_out() const { return left_out_; }
   /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
@@ -148,7 +153,7 @@ class Solver : public System {
   bool struck_ = false;            // the present step is that of a blow
   double closing_ = 0;             // whose fastest contact closes so fast, m/s
   LeftOut left_out_;               // of the last step
-  bool pushed_ = false;            // velocities changed since its first solve
+  bool keeps_friction_ = false;    // in the present step
 };
 
 }  // namespace ductile::dynamics
