@@ -88,7 +88,7 @@ class Game : b2DestructionListener {
     const unsigned code = in_.next();
     if (code == 240) {
       snapshot_.save(*world_);
-      saved_ = {bodies_, stock_, budget_, most_, turn_, solved_, unheld_};
+      saved_ = {bodies_, stock_, budget_, most_, turn_, unheld_};
       return;
     }
     if (code == 243) return go_back();
@@ -410,7 +410,7 @@ class Game : b2DestructionListener {
     bodies_ = saved_.bodies;
     stock_ = saved_.stock;
     budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn;
-    solved_ = saved_.solved, unheld_ = saved_.unheld;
+    unheld_ = saved_.unheld;
   }
 
   void happened(const JointEvent& event) {
@@ -449,16 +449,6 @@ class Game : b2DestructionListener {
     const unsigned how = in_.next();
     const float dt = lengths[how & 7u];
     const int velocity = (how & 0x38u) == 0x38 ? 0 : 8, position = (how & 0xc0u) == 0xc0 ? 0 : 3;
-    // A rigid row keeps its force when the step changes, and the spring that stands for it goes with the
-    // step: F²/2k of what rigid rows hold against each other, jammed by what slid, is another.
-    // What sleeps, or is disabled, has not seen that yet.
-    if (velocity > 0 && dt > 0) {
-      const double longer = dt / solved_;
-      if (longer > 1) budget_ += structure_->energy().elastic * (longer * longer - 1);
-      const bool all = std::all_of(bodies_.begin(), bodies_.end(),
-                                   [](const b2Body* b) { return b->IsAwake() && b->IsEnabled(); });
-      solved_ = all ? dt : std::min(solved_, static_cast<double>(dt));
-    }
     // Without iterations of velocities nothing holds: what parts then comes back in the next step, as fast as
     // that is short.
     const bool held = !std::exchange(unheld_, velocity == 0 && dt > 0);
@@ -630,14 +620,13 @@ class Game : b2DestructionListener {
   double size_ = 1, place_ = 0;
   double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
   double shortest_ = 1;           // s, of all steps
-  double solved_ = 1;             // s, the last step of whatever has not seen one since
   double heaviest_ = 0;           // kg, all bodies together, ever
   double turn_ = 0;               // rad, the most of a step
   Snapshot snapshot_;
   struct {
     std::vector<b2Body*> bodies;
     std::vector<b2Joint*> stock;
-    double budget = 0, most = 0, turn = 0, solved = 1;
+    double budget = 0, most = 0, turn = 0;
     bool unheld = false;
   } saved_;
   StructureDef def_;
