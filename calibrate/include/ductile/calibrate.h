@@ -38,75 +38,78 @@ enum class Elasticity {
 
 /// What a user says of joints instead of leaving it to section and material; unset fields are not overridden.
 struct JointOverrides {
-  std::optional<double> moment, moment_reverse;    ///< N m; unlimited, or 0 for a free row
-  std::optional<double> axial, axial_compression;  ///< N; likewise
-  std::optional<double> shear;                     ///< N; likewise
+  std::optional<double> moment{}, moment_reverse{};    ///< N m; unlimited, or 0 for a free row
+  std::optional<double> axial{}, axial_compression{};  ///< N; likewise
+  std::optional<double> shear{};                       ///< N; likewise
   /// k of each row, N/m, N/m, N m/rad; unlimited: as stiff as the step can integrate. They go before
   /// `elastic`.
-  std::optional<double> stiffness_axial, stiffness_shear, stiffness_moment;
-  std::optional<Elasticity> elastic;
+  std::optional<double> stiffness_axial{}, stiffness_shear{}, stiffness_moment{};
+  std::optional<Elasticity> elastic{};
   double frequency = 0;  ///< Hz, with `elastic`
   /// ζ: with `frequency`, of a vibration of that frequency; otherwise of the structure's lowest elastic mode.
-  std::optional<double> damping_ratio;
-  double elastic_rotation = 0;         ///< rad, with `elastic`
-  std::optional<double> max_rotation;  ///< rad, accumulated; unlimited: never breaks by it
+  std::optional<double> damping_ratio{};
+  double elastic_rotation = 0;           ///< rad, with `elastic`
+  std::optional<double> max_rotation{};  ///< rad, accumulated; unlimited: never breaks by it
   /// m, accumulated; likewise. By default ε_f L_p; the hinge's length, or that of the material that the joint
   /// stands for if it is less, for then nothing is left of it; the cut's height, for then its faces have
   /// passed each other.
-  std::optional<double> max_elongation, max_compression, max_slip;
-  std::optional<double> hinge_length;  ///< L_p, m; default: the section's height
+  std::optional<double> max_elongation{}, max_compression{}, max_slip{};
+  std::optional<double> hinge_length{};  ///< L_p, m; default: the section's height
   /// m, from the joint to where the moment is 0, instead of `hinge_length`: the hinge is as long as hardening
   /// makes it. A moment that falls linearly from M_u = (f_u/f_y) M_p to 0 over the shear span is above M_p in
   /// L_p = span · (1 − f_y/f_u), by similar triangles. A hinge within a span: the sum of both sides'. The
   /// strain is taken as ε_f in all of it, as in any hinge length; were hardening linear, its mean would be
   /// half.
-  std::optional<double> shear_span;
-  std::optional<bool> combine;  ///< one joint, of the section that they make together, where two pieces touch
-                                ///< along several intervals in line (a cut across a hole); default: one each
-  std::optional<bool> hold;     ///< keep the joint as it is where others are left out
+  std::optional<double> shear_span{};
+  /// One joint, of the section that they make together, where two pieces touch along several intervals in
+  /// line (a cut across a hole); default: one each.
+  std::optional<bool> combine{};
+  std::optional<bool> hold{};  ///< keep the joint as it is where others are left out
 };
 
 /// A body as drawn, before it is split.
 struct BodyDef {
   std::string name = "body";  ///< unique in its scene, without `/ # -`, not "ground"
   BodyType type = BodyType::dynamic_body;
-  Outline outline;    ///< m
+  Outline outline{};  ///< m
   double circle = 0;  ///< m: a disc of this radius about the origin instead of an outline; not split
-  std::optional<Material> material;  ///< required for dynamic bodies
-  double depth = 1;                  ///< m, out of plane
-  std::vector<Region> profile;  ///< instead of depth: the section that the strip is extruded from, x out of
-                                ///< plane, y across the strip, its centroid at the cut's middle; its height
-                                ///< fits each cut within 1 %
+  std::optional<Material> material{};  ///< required for dynamic bodies
+  double depth = 1;                    ///< m, out of plane
+  /// Instead of depth: the section that the strip is extruded from, x out of plane, y across the strip, its
+  /// centroid at the cut's middle; its height fits each cut within 1 %.
+  std::vector<Region> profile{};
   /// What `profile` is called in rolled.h, if it has a name: its A_v is that of EN 1993-1-1, not of its
   /// outline.
-  std::string profile_name;
+  std::string profile_name{};
   int pieces = 1;                ///< equal parts along `along`; 1: not split
   std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis. As
                                  ///< `cuts`, in the outline's own coordinates
-  std::vector<std::array<Point, 2>>
-      cuts;                       ///< explicit cuts instead: segments that leave the outline at both ends
-  bool automatic = false;         ///< split: number and place of the cuts from SceneDef::target_error
-  JointOverrides joint;           ///< for the joints inside this body
-  Point at;                       ///< m: where the outline's origin is placed
-  double angle = 0;               ///< rad
-  Point velocity;                 ///< m/s
-  double angular_velocity = 0;    ///< rad/s
-  std::vector<Point> velocities;  ///< m/s: of each piece, instead of velocity and angular_velocity
-  std::int16_t group = 0;         ///< collision filter group, as Box2D
-  bool collides = true;           ///< false: nothing touches it, and it may be thinner than Box2D collides
-  double price = 0;               ///< of a kg of it as built in, in whatever currency; 0: not known
-  std::string assembly;  ///< bodies of the same one are chosen and moved together in the window; empty: alone
+  /// Explicit cuts instead: segments that leave the outline at both ends.
+  std::vector<std::array<Point, 2>> cuts{};
+  bool automatic = false;           ///< split: number and place of the cuts from SceneDef::target_error
+  JointOverrides joint{};           ///< for the joints inside this body
+  Point at{};                       ///< m: where the outline's origin is placed
+  double angle = 0;                 ///< rad
+  Point velocity{};                 ///< m/s
+  double angular_velocity = 0;      ///< rad/s
+  std::vector<Point> velocities{};  ///< m/s: of each piece, instead of velocity and angular_velocity
+  std::int16_t group = 0;           ///< collision filter group, as Box2D
+  bool collides = true;             ///< false: nothing touches it, and it may be thinner than Box2D collides
+  double price = 0;                 ///< of a kg of it as built in, in whatever currency; 0: not known
+  /// Bodies of the same one are chosen and moved together in the window; empty: alone.
+  std::string assembly{};
 };
 
 /// A motor, winch or hydraulic jack: moves a row of a joint, with at most its cap. Beyond that it slips,
 /// which is no damage.
 struct DriveDef {
-  Row row = rotation;              ///< axial or rotation
-  std::optional<double> position;  ///< where it stops: length of a line, else distance (m) or turn (rad) of
-                                   ///< the second body from how it was drawn; unset: it goes on and on
+  Row row = rotation;  ///< axial or rotation
+  /// Where it stops: length of a line, else distance (m) or turn (rad) of the second body from how it was
+  /// drawn; unset: it goes on and on.
+  std::optional<double> position{};
   /// m/s or rad/s: > 0 lengthens, or turns the second body counter-clockwise; with a position its sign says
   /// nothing. 0: holds. Unset: it gets to its position evenly in `ramp`, or as fast as its cap lets it.
-  std::optional<double> speed;
+  std::optional<double> speed{};
   double cap = unlimited;     ///< N or N m
   double from = 0, ramp = 0;  ///< s: holds before `from`; its speed grows linearly over `ramp`
 };
@@ -117,27 +120,27 @@ enum class Carries { both, tension, compression };
 /// Two bodies joined wherever their edges overlap; across a segment; at a point, two or more, whether or not
 /// they meet there; or by a line from a point of one to a point of the other.
 struct JointBetweenDef {
-  std::string a, b;  ///< names of bodies
-  double gap = 0;    ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
-  JointOverrides overrides;
+  std::string a{}, b{};  ///< names of bodies
+  double gap = 0;        ///< m between edges that still count as touching; 0: 1e-6 of the smaller body's size
+  JointOverrides overrides{};
   /// m, world axes at t = 0: a node, each body's nearest piece joined to a's there. A pin, rigid, that
   /// nothing limits but its own overrides; `moment` or `stiffness_moment` makes it resist turning.
-  std::optional<Point> at;
-  std::vector<std::string> others;  ///< further bodies of a node
+  std::optional<Point> at{};
+  std::vector<std::string> others{};  ///< further bodies of a node
   /// Of a node: not a pin, but as strong as the sections that end there. Each of its joints has the moments
   /// and the `max_rotation` of the weaker body's own joint next to the node; a body that goes on beyond it,
   /// or is one piece, does not govern.
   bool welded = false;
   /// m, world axes at t = 0: the joint's section instead of common edges, between the pieces nearest to its
   /// middle, which is the joint's anchor. Two bodies may have several such joints.
-  std::optional<std::array<Point, 2>> across;
+  std::optional<std::array<Point, 2>> across{};
   /// m, world axes at t = 0: a rope, strut, winch or jack, from a point of a's nearest piece to one of b's.
   /// Turns freely at both; rigid, and limited by its overrides alone.
-  std::optional<std::array<Point, 2>> line;
+  std::optional<std::array<Point, 2>> line{};
   /// Of a line; one that is not `both` and has no `line` is between the bodies' centres of mass.
   Carries carries = Carries::both;
-  std::optional<double> length;   ///< m: of a line without force; unset: as drawn
-  std::optional<DriveDef> drive;  ///< the row's cap is then that of the drive
+  std::optional<double> length{};   ///< m: of a line without force; unset: as drawn
+  std::optional<DriveDef> drive{};  ///< the row's cap is then that of the drive
 
   bool is_line() const { return line || carries != Carries::both; }
   /// All that it joins, a first.
@@ -151,8 +154,8 @@ struct JointBetweenDef {
 /// Holds the piece under a point to the ground, in world axes: rows fixed, sprung, or free. Fixed and sprung
 /// rows may have their ground moved, as where a footing settles or a jack pushes.
 struct SupportDef {
-  std::string body;
-  Point at;
+  std::string body{};
+  Point at{};
   bool fix_x = false, fix_y = false, fix_angle = false;
   double stiffness_x = 0, stiffness_y = 0, stiffness_angle = 0;  ///< N/m, N m/rad: of a spring; 0: none
   std::array<double, 3> displacement{};  ///< x, y, angle, m and rad: how far the ground moves; 0 in free rows
@@ -161,9 +164,9 @@ struct SupportDef {
 
 /// A force and moment that ride with the piece under a point, in world axes.
 struct LoadDef {
-  std::string body;
-  Point at;
-  Point force;                                ///< N
+  std::string body{};
+  Point at{};
+  Point force{};                              ///< N
   double moment = 0;                          ///< N m
   double from = 0, ramp = 0, to = unlimited;  ///< s: grows linearly over `ramp` after `from`, zero after `to`
 };
@@ -171,8 +174,8 @@ struct LoadDef {
 /// A stock b2WheelJoint: a wheel body carried by a chassis body at a point, sprung along an axis of the
 /// chassis.
 struct WheelDef {
-  std::string chassis, wheel;  ///< names of bodies
-  Point at, axis{0, 1};
+  std::string chassis{}, wheel{};  ///< names of bodies
+  Point at{}, axis{0, 1};
   double frequency = 4, damping_ratio = 0.7;  ///< of the spring, Hz
   double motor_speed = 0;                     ///< rad/s
   double motor_torque = 0;                    ///< N m
@@ -183,13 +186,13 @@ struct SceneDef {
   double gravity_ramp = 0;     ///< s over which gravity grows linearly
   bool sleep = false;          ///< may Box2D put bodies to sleep
   bool interaction = false;    ///< N–M–Q yield surface instead of independent caps
-  JointOverrides joint;        ///< for all joints
+  JointOverrides joint{};      ///< for all joints
   double target_error = 0.01;  ///< relative displacement error that automatic splits may bring, in (0, 1)
-  std::vector<BodyDef> bodies;
-  std::vector<JointBetweenDef> joints;
-  std::vector<SupportDef> supports;
-  std::vector<LoadDef> loads;
-  std::vector<WheelDef> wheels;
+  std::vector<BodyDef> bodies{};
+  std::vector<JointBetweenDef> joints{};
+  std::vector<SupportDef> supports{};
+  std::vector<LoadDef> loads{};
+  std::vector<WheelDef> wheels{};
 };
 
 /// One rigid part of a split body (or the whole of an unsplit one).

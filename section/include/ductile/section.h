@@ -33,14 +33,14 @@ double doubled_area(const Ring& ring);
 
 /// A simple polygon with holes.
 struct Outline {
-  Ring outer;
-  std::vector<Ring> holes;
+  Ring outer{};
+  std::vector<Ring> holes{};
 };
 
 /// A part of a section, of one material. Regions of one section may touch but not overlap.
 struct Region {
-  Outline outline;
-  Material material;
+  Outline outline{};
+  Material material{};
 };
 
 /// Everything wrong with an outline; empty when it is valid. `place` prefixes every problem ("body
