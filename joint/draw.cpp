@@ -28,7 +28,8 @@ b2Color stage_color(double stage) {
 }
 
 double ElasticPlasticJoint::stage() const {
-  return stage_of(broken(), dissipated() > 0, capacity_used(), {usage(axial), usage(shear), usage(rotation)});
+  return stage_of(broken(), yielded() || capacity_used() > 0, capacity_used(),
+                  {usage(axial), usage(shear), usage(rotation)});
 }
 
 void Structure::draw(b2Draw& canvas, const JointDrawing& how) const {

@@ -326,6 +326,19 @@ TEST(Joint, ThatYieldedWithoutALimitSaysSo) {
   EXPECT_GE(h.structure.joints()[0]->stage(), 1);
 }
 
+// A level that begins with a bent bar: its state is what the game says, and no joule need be said with it.
+TEST(Joint, OfAStateThatYieldedIsPastYieldInItsStage) {
+  for (const double used : {0.0, 0.4}) {
+    Hanging h;
+    ElasticPlasticJointDef def = h.structure.joints()[0]->def();
+    h.world.DestroyJoint(h.structure.joints()[0]);
+    def.max_rotation = 0.5;
+    def.state.back[rotation] = 0.5 * used;
+    def.state.yielded = used == 0;
+    EXPECT_EQ(h.structure.create_joint(def)->stage(), 1 + used);
+  }
+}
+
 // A bar turned by a drive to 0.3 rad and back to -0.1 about a hinge that yields at 0.05 rad: it flows by 0.25
 // rad, and by 0.4 rad less twice the 0.05 that it springs. Poses are floats: 1e-7 rad of 0.05 in each of
 // three turns.
