@@ -183,9 +183,10 @@ struct WheelDef {
 
 struct SceneDef {
   Point gravity{0, -9.81};
-  double gravity_ramp = 0;     ///< s over which gravity grows linearly
-  bool sleep = false;          ///< may Box2D put bodies to sleep
-  bool interaction = false;    ///< N–M–Q yield surface instead of independent caps
+  double gravity_ramp = 0;  ///< s over which gravity grows linearly
+  bool sleep = false;       ///< may Box2D put bodies to sleep
+  /// N–M–Q yield surface instead of independent caps: safer, and dearer where joints flow.
+  bool interaction = false;
   JointOverrides joint{};      ///< for all joints
   double target_error = 0.01;  ///< relative displacement error that automatic splits may bring, in (0, 1)
   std::vector<BodyDef> bodies{};
