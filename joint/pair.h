@@ -20,6 +20,8 @@ inline Pair operator-(const Pair& a, const Pair& b) { return {{a[0] - b[0], a[1]
 inline Pair operator*(const Pair& a, const Pair& b) { return {{a[0] * b[0], a[1] * b[1]}}; }
 inline Pair operator/(const Pair& a, const Pair& b) { return {{a[0] / b[0], a[1] / b[1]}}; }
 inline Pair operator*(double a, const Pair& b) { return {{a * b[0], a * b[1]}}; }
+inline void operator-=(Pair& a, const Pair& b) { a = a - b; }
+inline void operator*=(Pair& a, double b) { a = b * a; }
 #endif
 
 inline Pair load(const double* from) {
