@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -281,18 +282,35 @@ class PlanarMap {
   }
 
   // Rings that touch at a point: the boundary that arrives there goes on along the first departure clockwise,
-  // which closes the wedge of material on its left.
+  // which closes the wedge of material on its left. So departures and arrivals alternate around the point as
+  // opening and closing brackets do. They are matched as such, because rounding may exchange the two sides of
+  // a spike: whatever it does, no two arrivals go on along the same departure.
   void link_crowded(int point) {
-    for (int e = arrivals_[point]; e >= 0; e = half_edges_[e].sibling) {
-      const Point back = points_[half_edges_[e].from] - points_[point];
-      double least = 7;
-      for (std::size_t d = 0; d < half_edges_.size(); ++d) {
-        if (half_edges_[d].from != point) continue;
-        const double wedge = turn(points_[half_edges_[d].to] - points_[point], back);
-        if (wedge < least) {
-          least = wedge;
-          half_edges_[e].next = static_cast<int>(d);
-        }
+    struct Ray {
+      double angle;
+      int edge;
+      bool departs;
+    };
+    std::vector<Ray> rays;
+    const auto add = [&](int edge, int other, bool departs) {
+      const Point away = points_[other] - points_[point];
+      rays.push_back({std::atan2(away.y, away.x), edge, departs});
+    };
+    for (int e = arrivals_[point]; e >= 0; e = half_edges_[e].sibling) add(e, half_edges_[e].from, false);
+    for (std::size_t d = 0; d < half_edges_.size(); ++d)
+      if (half_edges_[d].from == point) add(static_cast<int>(d), half_edges_[d].to, true);
+    std::sort(rays.begin(), rays.end(), [](const Ray& a, const Ray& b) {
+      return a.angle != b.angle ? a.angle < b.angle : a.departs > b.departs;
+    });
+    std::vector<int> open;
+    for (std::size_t i = 0; i < 2 * rays.size(); ++i) {  // twice around: what opens may close after a turn
+      const Ray& ray = rays[i % rays.size()];
+      if (ray.departs) {
+        if (i < rays.size()) open.push_back(ray.edge);
+      } else if (ray.edge >= 0 && !open.empty()) {
+        half_edges_[ray.edge].next = open.back();
+        open.pop_back();
+        rays[i % rays.size()].edge = -1;
       }
     }
   }
@@ -331,10 +349,11 @@ class PlanarMap {
     return first;
   }
 
-  // Counter-clockwise cycles are the outer boundaries of pieces, the others bound holes in them.
+  // Counter-clockwise cycles are the outer boundaries of pieces, the others bound holes in them. Cycles
+  // without area, as along a spike that is no wider than its points are round, are neither.
   Split trace() {
     struct Cycle {
-      Ring hole;  // empty for an outer boundary
+      Ring hole;  // empty for an outer boundary, and for what has no area
       int piece = -1;
     };
     std::vector<Cycle> cycles;
@@ -350,7 +369,10 @@ class PlanarMap {
       ring.reserve(n);
       for (int e = static_cast<int>(start); ring.size() < n; e = half_edges_[e].next)
         ring.push_back(points_[half_edges_[e].from]);
-      if (doubled_area(ring) > 0) {
+      const double doubled = doubled_area(ring);
+      if (std::abs(doubled) <= rounding_of(ring)) {
+        cycles.push_back({});
+      } else if (doubled > 0) {
         cycles.push_back({{}, static_cast<int>(result.pieces.size())});
         result.pieces.emplace_back().outer = std::move(ring);
       } else {
@@ -358,7 +380,7 @@ class PlanarMap {
       }
     }
     for (Cycle& cycle : cycles) {
-      if (cycle.piece >= 0) continue;
+      if (cycle.hole.empty()) continue;
       for (std::size_t i = 0; i < result.pieces.size() && cycle.piece < 0; ++i)
         if (result.pieces.size() == 1 || surrounds(result.pieces[i].outer, cycle.hole))
           cycle.piece = static_cast<int>(i);
@@ -386,6 +408,14 @@ class PlanarMap {
         result.intervals.push_back(interval);
     }
     return result;
+  }
+
+  // Of a ring's doubled area: a point where a cut crosses an edge is off it by a few units in the last place
+  // of the outline's size, which moves the edges beside it by as much.
+  double rounding_of(const Ring& ring) const {
+    double perimeter = length(ring.front() - ring.back());
+    for (std::size_t i = 1; i < ring.size(); ++i) perimeter += length(ring[i] - ring[i - 1]);
+    return 8 * std::numeric_limits<double>::epsilon() * size_ * perimeter;
   }
 
   static bool surrounds(const Ring& outer, const Ring& inner) {

@@ -36,7 +36,9 @@ class Splitter {
   /// Cuts `outline` (one that validate() accepts) along all `cuts` at once; cuts may cross each other.
   /// Vertices within 1e-9 of the outline's size of a cut lie on it. Two neighbours share the very coordinates
   /// of their interval, so that the areas of the pieces add up to the outline's but for the rounding of the
-  /// new points. Throws InvalidInput, whose problems begin with `place`, where a cut misses the outline, ends
+  /// new points: that puts each off its edge by ε times the outline's coordinates, and all of them change the
+  /// area by that times half of the outline's perimeter at most. What has no more area than that is no piece.
+  /// Throws InvalidInput, whose problems begin with `place`, where a cut misses the outline, ends
   /// inside it, or does not separate anything; with `useless`, such cuts are listed there instead, and the
   /// result is empty.
   Split split(const Outline& outline, std::span<const Cut> cuts, const std::string& place,

@@ -141,6 +141,25 @@ TEST(Split, BothLegsOfAU) {
   EXPECT_EQ(split({u, {}}, std::vector{Cut{{0, 2}, {1, 2}}}, "u").intervals.size(), 1u);
 }
 
+// A spike whose two sides lie on each other but for rounding: cuts that meet both sides in one point make a
+// crowd of edges there, whose order around the point nothing tells.
+TEST(Split, SpikeWithoutWidth) {
+  Outline spikes{{{0, 33}, {81, 15}, {0, 96}, {96, 0}, {0, 30}}, {}};
+  for (Point& p : spikes.outer) p = 0.23713737056616552 * p;
+  ASSERT_TRUE(validate(spikes).empty());
+  SceneDef scene{.bodies = {{.outline = spikes, .material = test_steel, .automatic = true}}};
+  const double whole = moments(spikes).area * test_steel.density;
+  for (const double error : {0.1, 0.03, 0.01, 0.003, 0.001, 0.0003}) {
+    scene.target_error = error;
+    double sum = 0;
+    for (const Piece& piece : calibrate(scene).pieces) {
+      EXPECT_GT(piece.mass, 1e-6 * whole) << error;
+      sum += piece.mass;
+    }
+    EXPECT_NEAR(sum, whole, 1e-14 * whole) << error;
+  }
+}
+
 TEST(Split, RefusesCutsThatDoNotCut) {
   const Outline ring{rectangle(0, 0, 4, 4), {rectangle(1, 1, 3, 3)}};
   EXPECT_THROW(split(ring, std::vector{Cut{{-1, 5}, {5, 5}}}, "ring"), InvalidInput);    // misses
