@@ -245,9 +245,9 @@ class Automatic {
       double error;
     };
     std::vector<Try> tries;
-    // The error falls as 1/n² as long as the shape allows more cuts; and where there are holes, again once
-    // pieces are so short that cuts meet them.
-    const int patience = outline_.holes.empty() ? 1 : 3;
+    // The error falls as 1/n² as long as the shape allows more cuts; where there are holes, again once pieces
+    // are so short that cuts meet them, and along a spiral, once there are several to a turn.
+    const int patience = outline_.holes.empty() && !is_slender() ? 1 : 3;
     double last = std::numeric_limits<double>::infinity(), last_n = 0;
     int round = 0, stalled = 0;
     for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
@@ -285,6 +285,15 @@ class Automatic {
     double sum = 0;
     for (const Member::Station& station : m.stations) sum += width(station.chord);
     return m.stations.size() > 2 && m.length > 1.5 * sum / static_cast<double>(m.stations.size());
+  }
+
+  // One strip that is so long that nothing but its bends can keep more cuts from making it more exact.
+  bool is_slender() const {
+    if (lines_.size() != 1) return false;
+    double area = 0;
+    for (std::size_t i = 1; i < line_.size(); ++i)
+      area += (line_[i].s - line_[i - 1].s) * (line_[i].width + line_[i - 1].width) / 2;
+    return line_.back().s * line_.back().s > 20 * area;
   }
 
   // Across the axis about which the body is most slender.

@@ -135,12 +135,26 @@ Axis::Axis(const Outline& outline, std::span<const Chord> faces)
   }
 
   first_ = g.first;
-  for (int t = 0; t < std::ssize(g.first); ++t)
-    if (g.degree[t] > 2) {
-      g.node[t] = static_cast<int>(nodes.size());
-      const auto [a, b, c] = of(t);
-      nodes.push_back((1.0 / 3) * (points[edges[a].from] + points[edges[b].from] + points[edges[c].from]));
-    }
+  // Triangles of three neighbours that are neighbours themselves, as the two in the middle of a cross, are
+  // one node: between them is no strip.
+  std::vector<int> node;
+  for (int t = 0; t < std::ssize(g.first); ++t) {
+    if (g.degree[t] < 3 || g.node[t] >= 0) continue;
+    node.assign(1, t);
+    g.node[t] = static_cast<int>(nodes.size());
+    Point sum{};
+    for (std::size_t i = 0; i < node.size(); ++i)
+      for (const int e : of(node[i])) {
+        sum = sum + points[edges[e].from];
+        if (!g.alive[e]) continue;
+        const int other = triangle_[edges[e].twin];
+        if (g.degree[other] < 3) continue;
+        g.alive[e] = g.alive[edges[e].twin] = false;
+        if (g.node[other] < 0) node.push_back(other);
+        g.node[other] = g.node[t];
+      }
+    nodes.push_back(1 / (3 * static_cast<double>(node.size())) * sum);
+  }
   for (const bool at_ends : {true, false})  // first what ends, then what closes
     for (int t = 0; t < std::ssize(g.first); ++t) {
       if (g.degree[t] == 0 || (g.degree[t] != 2) != at_ends) continue;

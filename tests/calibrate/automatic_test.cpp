@@ -143,6 +143,21 @@ std::vector<Shape> shapes_to_split() {
        {{{0, -0.5}, {8, -0.5}, {8, 5.5}, {2, 5.5}, {2, 4.5}, {7, 4.5}, {7, 0.5}, {0, 0.5}}, {}},
        {2, 5.5}},
       {"L", {{{0, -0.5}, {8, -0.5}, {8, 6}, {7, 6}, {7, 0.5}, {0, 0.5}}, {}}, {7, 6}},
+      {"cross",
+       {{{0, -0.5},
+         {4.5, -0.5},
+         {4.5, -5},
+         {5.5, -5},
+         {5.5, -0.5},
+         {10, -0.5},
+         {10, 0.5},
+         {5.5, 0.5},
+         {5.5, 5},
+         {4.5, 5},
+         {4.5, 0.5},
+         {0, 0.5}},
+        {}},
+       {10, 0.5}},
       {"with holes",
        {rectangle(0, -0.5, 20, 0.5),
         {rectangle(4, -0.1, 4.3, 0.1), rectangle(9.4, -0.1, 9.8, 0.1), rectangle(15, -0.2, 15.3, 0.2)}},
@@ -208,6 +223,42 @@ TEST(Automatic, AJaggedGirderReachesItsTarget) {
     EXPECT_EQ(plan.split_errors.at(0).governed_by, "target error") << target;
     EXPECT_LE(plan.pieces.size() - 1, std::ceil(2 / std::sqrt(target))) << target;
   }
+}
+
+// Where four arms meet, two triangles of three neighbours each are the middle: one node, and no strip of its
+// own, across which cuts would run along two of the arms. All cuts are as high as an arm is wide.
+TEST(Automatic, ArmsThatMeetInOnePoint) {
+  const Ring cross{{-5, -0.5}, {-0.5, -0.5}, {-0.5, -5}, {0.5, -5}, {0.5, -0.5}, {5, -0.5},
+                   {5, 0.5},   {0.5, 0.5},   {0.5, 5},   {-0.5, 5}, {-0.5, 0.5}, {-5, 0.5}};
+  Ring star;
+  for (int i = 0; i < 14; ++i)
+    star.push_back((i % 2 == 0 ? 8.0 : 1.0) *
+                   Point{std::cos(i * std::numbers::pi / 7), std::sin(i * std::numbers::pi / 7)});
+  for (const Ring& as_drawn : {cross, star})
+    for (const double turned : {0.0, 0.3, 1.0, std::numbers::pi / 4}) {
+      Ring ring = as_drawn;
+      for (Point& p : ring) p = std::cos(turned) * p + std::sin(turned) * left(p);
+      const BodyDef body{.outline = {ring, {}}, .material = test_steel, .automatic = true};
+      const Plan plan = calibrate(body);
+      EXPECT_EQ(plan.joints.size(), plan.pieces.size() - 1) << turned;
+      EXPECT_GE(plan.joints.size(), ring.size() == 12 ? 8u : 7u);
+      for (const PlannedJoint& joint : plan.joints) EXPECT_LT(joint.height, 1.001) << turned;
+    }
+}
+
+// Two and a half turns in few pieces are hardly a spiral: only several to a turn make its error fall.
+TEST(Automatic, SpiralReachesItsTarget) {
+  Ring ring, back;
+  for (int i = 0; i < 180; ++i) {
+    const Point u{std::cos(0.1 * i), std::sin(0.1 * i)};
+    ring.push_back((2 + 0.02 * i) * u);
+    back.push_back((1.7 + 0.02 * i) * u);
+  }
+  ring.insert(ring.end(), back.rbegin(), back.rend());
+  SceneDef scene{
+      .bodies = {{.name = "spiral", .outline = {ring, {}}, .material = test_steel, .automatic = true}},
+      .supports = {{"spiral", ring[141], true, true, true}}};
+  EXPECT_EQ(calibrate(scene).split_errors.at(0).governed_by, "target error");
 }
 
 }  // namespace
