@@ -222,9 +222,10 @@ Deviation compare(const std::vector<Displacement>& beam, const std::vector<Displ
 
 class Automatic {
  public:
-  Automatic(const Outline& outline, double target, std::span<const Hold> holds)
+  // `straight`: as a body that is no strip, whatever its axis.
+  Automatic(const Outline& outline, double target, std::span<const Hold> holds, bool straight)
       : outline_(outline), target_(target), faces_(faces_of(holds)), axis_(outline, faces_) {
-    if (!is_strip()) make_straight();
+    if (straight || !is_strip()) make_straight();
     for (int w = 0; w < std::ssize(axis_.members); ++w) lines_.push_back(line_of(w));
     find_longest_path();
     find_holds(holds);
@@ -238,25 +239,39 @@ class Automatic {
     return faces;
   }
 
-  AutomaticSplit run(Splitter& splitter, const std::string& place) {
+  struct Try {
+    std::vector<PlacedCut> cuts;
+    double error;
+  };
+
+  // The fewest cuts within the target error, as far as the shape allows.
+  Try search() {
     const double extent = line_.back().s;
-    struct Try {
-      std::vector<PlacedCut> cuts;
-      double error;
-    };
     std::vector<Try> tries;
     // The error falls as 1/n² as long as the shape allows more cuts; where there are holes, again once pieces
     // are so short that cuts meet them, and along a spiral, once there are several to a turn.
     const int patience = outline_.holes.empty() && !is_slender() ? 1 : 3;
     double last = std::numeric_limits<double>::infinity(), last_n = 0;
     int round = 0, stalled = 0;
-    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
-      double h = std::max(extent / n, least_side);
+    const auto attempt = [&](double n, double& h) {
+      h = std::max(extent / n, least_side);
       std::vector<PlacedCut> cuts = place_cuts(h);
       for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
-      const double own = error_of(cuts), expected = last * (last_n / n) * (last_n / n);
-      const bool stalls = own > 1.5 * expected && own > 0.7 * last;
+      const double own = error_of(cuts);
       tries.push_back({std::move(cuts), own});
+      return own;
+    };
+    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
+      double h = 0;
+      const double own = attempt(n, h), expected = last * (last_n / n) * (last_n / n);
+      const bool stalls = own > 1.5 * expected && own > 0.7 * last;
+      // More than it takes, where the error fell late: between this and the last, on a scale of ratios.
+      double few = last_n, many = n;
+      for (int back = 0; back < 4 && few > 0 && own <= margin * target_ / 2; ++back) {
+        double ignored = 0;
+        const double between = std::ceil(std::sqrt(few * many));
+        (attempt(between, ignored) <= margin * target_ ? many : few) = between;
+      }
       if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
         break;
       last = own;
@@ -272,10 +287,17 @@ class Automatic {
       least = std::numeric_limits<double>::infinity();
       for (const Try& t : tries) least = std::min(least, 2 * t.error);
     }
-    const auto best =
-        std::find_if(tries.begin(), tries.end(), [&](const Try& t) { return t.error <= least; });
-    return divide(splitter, std::move(best->cuts), best->error, place);
+    std::erase_if(tries, [&](const Try& t) { return !(t.error <= least); });
+    return std::move(*std::min_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
+      return a.cuts.size() < b.cuts.size();
+    }));
   }
+
+  bool follows_one_strip() const { return reach_ == 0 && lines_.size() == 1 && !axis_.members[0].closed; }
+
+  // Cuts until every piece is one that Box2D takes, leaving out cuts that prevent it.
+  AutomaticSplit divide(Splitter& splitter, std::vector<PlacedCut> cuts, double error,
+                        const std::string& place);
 
  private:
   // Is the body a strip at all? One member that is hardly longer than wide is none.
@@ -516,7 +538,20 @@ class Automatic {
           length(chord.right - last.chord.right) < apart)
         return;
     }
+    for (const PlacedCut& other : cuts)
+      if (cross_each_other(other.chord, chord)) return;
     cuts.push_back({w, station.s, chord});
+  }
+
+  // Pieces between cuts that cross are no chain. Cuts that start from one corner do not cross.
+  static bool cross_each_other(const Chord& a, const Chord& b) {
+    const auto parts = [](const Chord& line, const Chord& other) {
+      const Point along = line.right - line.left;
+      const double l = cross(along, other.left - line.left), r = cross(along, other.right - line.left);
+      const double least = 1e-6 * dot(along, along);
+      return std::min(l, r) < -least && std::max(l, r) > least;
+    };
+    return parts(a, b) && parts(b, a);
   }
 
   // ℓ of the cuts of one way.
@@ -628,30 +663,6 @@ class Automatic {
 
   // --- pieces ---
 
-  // Cuts until every piece is one that Box2D takes, leaving out cuts that prevent it.
-  AutomaticSplit divide(Splitter& splitter, std::vector<PlacedCut> cuts, double error,
-                        const std::string& place) {
-    AutomaticSplit result;
-    const std::size_t before = cuts.size();
-    for (int round = 0;; ++round) {
-      result.cuts.clear();
-      for (const PlacedCut& c : cuts) result.cuts.push_back({c.chord.left, c.chord.right});
-      std::vector<int> useless;
-      result.parts = splitter.split(outline_, result.cuts, place, &useless);
-      if (useless.empty()) useless = around_thin_pieces(result.parts, cuts, round > 3);
-      if (useless.empty()) break;
-      std::vector<PlacedCut> kept;
-      for (int i = 0; i < std::ssize(cuts); ++i)
-        if (std::find(useless.begin(), useless.end(), i) == useless.end()) kept.push_back(cuts[i]);
-      cuts = std::move(kept);
-      for (int w = 0; w < std::ssize(lines_); ++w) set_lengths(cuts_of(cuts, w), axis_.members[w]);
-    }
-    for (const PlacedCut& c : cuts) result.lengths.push_back(c.length);
-    for (int w = 0; w < std::ssize(lines_); ++w) add_ends(result.ends, w, cuts);
-    result.error = cuts.size() == before ? error : error_of(cuts);
-    return result;
-  }
-
   // For every piece that is too thin, the cut beside it that has the shortest pieces, or all cuts beside it.
   static std::vector<int> around_thin_pieces(const Split& parts, const std::vector<PlacedCut>& cuts,
                                              bool all) {
@@ -727,11 +738,44 @@ class Automatic {
   std::vector<Stretch> stretches_;
 };
 
+AutomaticSplit Automatic::divide(Splitter& splitter, std::vector<PlacedCut> cuts, double error,
+                                 const std::string& place) {
+  AutomaticSplit result;
+  const std::size_t before = cuts.size();
+  for (int round = 0;; ++round) {
+    result.cuts.clear();
+    for (const PlacedCut& c : cuts) result.cuts.push_back({c.chord.left, c.chord.right});
+    std::vector<int> useless;
+    result.parts = splitter.split(outline_, result.cuts, place, &useless);
+    if (useless.empty()) useless = around_thin_pieces(result.parts, cuts, round > 3);
+    if (useless.empty()) break;
+    std::vector<PlacedCut> kept;
+    for (int i = 0; i < std::ssize(cuts); ++i)
+      if (std::find(useless.begin(), useless.end(), i) == useless.end()) kept.push_back(cuts[i]);
+    cuts = std::move(kept);
+    for (int w = 0; w < std::ssize(lines_); ++w) set_lengths(cuts_of(cuts, w), axis_.members[w]);
+  }
+  for (const PlacedCut& c : cuts) result.lengths.push_back(c.length);
+  for (int w = 0; w < std::ssize(lines_); ++w) add_ends(result.ends, w, cuts);
+  result.error = cuts.size() == before ? error : error_of(cuts);
+  return result;
+}
+
 }  // namespace
 
 AutomaticSplit split_automatically(Splitter& splitter, const Outline& outline, double target,
                                    std::span<const Hold> holds, const std::string& place) {
-  return Automatic(outline, target, holds).run(splitter, place);
+  // Where a strip widens so much that its axis turns into one of its corners, straight cuts may do better.
+  constexpr double poor = 0.3;  // relative error
+  Automatic along(outline, target, holds, false);
+  Automatic::Try best = along.search();
+  if (best.error > poor && along.follows_one_strip()) {
+    Automatic across(outline, target, holds, true);
+    Automatic::Try straight = across.search();
+    if (straight.error < best.error / 2)
+      return across.divide(splitter, std::move(straight.cuts), straight.error, place);
+  }
+  return along.divide(splitter, std::move(best.cuts), best.error, place);
 }
 
 }  // namespace ductile::calibration

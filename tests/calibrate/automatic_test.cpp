@@ -258,7 +258,19 @@ TEST(Automatic, SpiralReachesItsTarget) {
   SceneDef scene{
       .bodies = {{.name = "spiral", .outline = {ring, {}}, .material = test_steel, .automatic = true}},
       .supports = {{"spiral", ring[141], true, true, true}}};
-  EXPECT_EQ(calibrate(scene).split_errors.at(0).governed_by, "target error");
+  const Plan plan = calibrate(scene);
+  EXPECT_EQ(plan.split_errors.at(0).governed_by, "target error");
+  EXPECT_LT(plan.pieces.size(), 200u);
+}
+
+// A strip that widens so much that its axis turns into one of its corners: cuts along that would cross those
+// before.
+TEST(Automatic, HourglassIsCutAcross) {
+  const Ring ring{{0, 0}, {4, 0}, {2.05, 3}, {4, 6}, {0, 6}, {1.95, 3}};
+  const Plan plan = calibrate(BodyDef{.outline = {ring, {}}, .material = test_steel, .automatic = true});
+  EXPECT_EQ(plan.split_errors.at(0).governed_by, "target error");
+  EXPECT_EQ(plan.joints.size(), plan.pieces.size() - 1);
+  for (const PlannedJoint& joint : plan.joints) EXPECT_NEAR(std::abs(joint.axis.y), 1, 1e-9);
 }
 
 }  // namespace
