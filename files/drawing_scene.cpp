@@ -187,7 +187,8 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
 }
 
 bool is_drawing(std::string_view text) {
-  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;  // UTF-16
+  const bool utf16 = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
+  if (utf16) return text.substr(2, 2).find('<') != std::string_view::npos;
   const auto first = std::find_if(text.begin(), text.end(), [](unsigned char c) {
     return !std::isspace(c) && c != 0xEF && c != 0xBB && c != 0xBF;  // a byte order mark
   });

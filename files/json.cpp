@@ -70,6 +70,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         message.starts_with("parse error") && end != std::string_view::npos) {
       message.remove_prefix(end + 2);
     }
+    if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) message = "is empty";
     problems_.add(line_and_column(text_, position > 0 ? position - 1 : 0), std::string(message),
                   "write valid JSON");
     return false;
@@ -155,6 +156,10 @@ void Problems::check() const {
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
   Problems problems(file);
+  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) {
+    problems.add("1:1", "is in UTF-16", "save it in UTF-8");
+    problems.check();
+  }
   if (const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
       first != std::string_view::npos && text[first] == '<') {
     problems.add(line_and_column(text, first), "is XML (a drawing?), not JSON",

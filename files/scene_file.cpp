@@ -390,6 +390,11 @@ SceneDef SceneReader::scene(const Value& value) {
 SceneDef parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
   const nlohmann::json json = parse_json(text, name);
   Problems problems(name);
+  if (json.is_object() && json.contains("layers") && !json.contains("bodies")) {
+    problems.add("top level", "has \"layers\": this is a map of Tiled, whose polygons are no bodies yet",
+                 "make a scene of them, as docs/files/starting.md shows");
+    problems.check();
+  }
   auto scene = SceneReader(problems, folder).scene(Value(json, "top level", problems));
   problems.check();
   return scene;

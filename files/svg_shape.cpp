@@ -143,9 +143,12 @@ double length_of(const Polyline& line) {
   return whole;
 }
 
-bool finite(const Bounds& box) {
-  return std::isfinite(length(box.low)) && std::isfinite(length(box.high)) &&
-         std::isfinite(length(box.high - box.low));
+// m: no body reaches farther.
+constexpr double farthest = 1e12;
+
+bool within_reach(const Bounds& box) {
+  const auto near = [](Point p) { return std::abs(p.x) < farthest && std::abs(p.y) < farthest; };
+  return near(box.low) && near(box.high);
 }
 
 }  // namespace
@@ -178,16 +181,15 @@ double Document::extent(const Painted& shape) const {
     const double half = stretch(shape.to) * pen_of(shape.style, shape.view).width / 2;
     box = {box.low - Point{half, half}, box.high + Point{half, half}};
   }
-  if (!finite(box)) {
-    throw ShapeError("shape", "reaches beyond what a double holds",
-                     "draw it smaller, or nearer to the origin");
+  if (!within_reach(box)) {
+    throw ShapeError("shape", "reaches beyond 1e12 m", "draw it smaller, or nearer to the origin");
   }
   return length(box.high - box.low);
 }
 
 Bounds Document::box(const Painted& shape) const {
   const Bounds box = box_around(curves(shape, shape.to));
-  return finite(box) ? box : Bounds();
+  return within_reach(box) ? box : Bounds();
 }
 
 Layer Document::filled(const Painted& shape, double tolerance) const {

@@ -341,6 +341,7 @@ TEST(Svg, IsToldFromASceneInEachEncoding) {
     EXPECT_TRUE(is_drawing(text)) << text;
   }
   EXPECT_FALSE(is_drawing("{}"));
+  EXPECT_FALSE(is_drawing(std::string_view("\xFF\xFE{\0}\0", 6)));
 }
 
 TEST(Svg, WhatIsNoDrawingIsRefused) {
@@ -702,6 +703,16 @@ TEST(Svg, SliversAreMendedAndSaid) {
   EXPECT_TRUE(drawn("<circle id='a' cx='50' cy='50' r='20' fill='none' stroke='black' stroke-width='9.3' "
                     "stroke-dasharray='7 3' stroke-linecap='round' transform='rotate(7)'/>")
                   .left_out.empty());
+}
+
+TEST(Svg, WhatReachesTooFarIsLeftOutAlone) {
+  const auto drawn = Drawing(drawing("<circle id='far' r='1e30'/>" + path("M0 0h9v9h-9z")), "t.svg")
+                         .shapes({.metres_per_unit = 1});
+  ASSERT_EQ(drawn.shapes.size(), 1u);
+  EXPECT_EQ(drawn.shapes[0].name, "a");
+  ASSERT_EQ(drawn.left_out.size(), 1u);
+  EXPECT_EQ(drawn.left_out[0].place, "t.svg:#far, shape");
+  EXPECT_EQ(drawn.left_out[0].what, "reaches beyond 1e12 m");
 }
 
 TEST(Svg, ClipsOfWhatIsNoShapeAreSaid) {
