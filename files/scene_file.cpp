@@ -366,11 +366,18 @@ void read_list(const std::optional<Value>& list, std::vector<T>& target, Read re
 
 SceneDef SceneReader::scene(const Value& value) {
   SceneDef scene;
-  Object object(value);
-  if (object.is_object() && value.json().contains("regions")) {
+  const auto has = [&](const char* key) { return value.json().is_object() && value.json().contains(key); };
+  if (has("regions")) {
     value.wrong("has \"regions\": this is a section",
                 "a scene has \"bodies\"; a section goes to ductile section");
+    return scene;
   }
+  if (has("layers") && !has("bodies")) {
+    value.wrong("has \"layers\": this is a map of Tiled, whose polygons are no bodies yet",
+                "make a scene of them, as docs/files/starting.md shows");
+    return scene;
+  }
+  Object object(value);
   object.read(fields::scene, scene);
   if (const auto joint = object.find("joint")) {
     Object overrides(*joint);
@@ -390,11 +397,6 @@ SceneDef SceneReader::scene(const Value& value) {
 SceneDef parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
   const nlohmann::json json = parse_json(text, name);
   Problems problems(name);
-  if (json.is_object() && json.contains("layers") && !json.contains("bodies")) {
-    problems.add("top level", "has \"layers\": this is a map of Tiled, whose polygons are no bodies yet",
-                 "make a scene of them, as docs/files/starting.md shows");
-    problems.check();
-  }
   auto scene = SceneReader(problems, folder).scene(Value(json, "top level", problems));
   problems.check();
   return scene;

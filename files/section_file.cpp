@@ -45,11 +45,12 @@ Region read_region(const Value& value) {
 
 std::vector<Region> read_regions(const Value& value) {
   std::vector<Region> regions;
-  Object object(value);
-  if (object.is_object() && value.json().contains("bodies")) {
+  if (value.json().is_object() && value.json().contains("bodies")) {
     value.wrong("has \"bodies\": this is a scene",
                 "a section has \"regions\"; a scene goes to ductile calibrate");
+    return regions;
   }
+  Object object(value);
   if (const auto list = object.require("regions")) {
     for (const Value& element : list->elements()) regions.push_back(read_region(element));
     if (list->json().is_array() && regions.empty())

@@ -63,7 +63,19 @@ void add_scene(CLI::App* command, SceneFile& scene) {
   add_scale(command, scene.metres_per_unit);
 }
 
+namespace {
+
+void tell_of_scale(const SceneFile& file) {
+  if (file.metres_per_unit > 0)
+    fmt::print(stderr,
+               "warning: {}: is no drawing: --scale changes nothing, all its numbers are in SI units\n",
+               file.name);
+}
+
+}  // namespace
+
 SceneDef scene_of(const SceneFile& file, const std::string& text) {
+  if (!is_drawing(text)) tell_of_scale(file);
   return is_drawing(text) ? scene_of_drawing(text, file)
                           : parse_scene(text, file.name, std::filesystem::path(file.name).parent_path());
 }
@@ -72,6 +84,7 @@ Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target
   const std::string& scene_file = file.name;
   const std::string text = read_text(scene_file);  // once: it may be a pipe
   if (is_rube(text)) {
+    tell_of_scale(file);
     std::vector<Problem> beyond;
     Plan plan = parse_plan(text, scene_file, ".", &beyond);
     if (rest == NotInPlan::made) return plan;

@@ -61,8 +61,7 @@ int run(int argc, char** argv) {
     return exit;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << "command line:" << one_line(error.get_name()) << ": " << one_line(error.what())
-              << "; ductile --help lists commands and options\n";
+    std::cerr << "command line:" << one_line(error.what()) << "; ductile --help lists commands and options\n";
     return bad_input;
   } catch (const InvalidInput& error) {
     print(error.problems());

@@ -207,6 +207,13 @@ TEST(CalibrateCommand, ErrorsInADrawingNameTheDrawing) {
   EXPECT_EQ(scaled.err.find(svg + ":#arm"), 0u) << scaled.err;
 }
 
+TEST(CalibrateCommand, AScaleOfWhatIsNoDrawingIsTold) {
+  const Folder folder;
+  const Ran ran = run("calibrate " + folder.write("scene.json", cantilever()) + " --scale 0.001");
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_NE(ran.err.find("--scale changes nothing"), std::string::npos) << ran.err;
+}
+
 TEST(CalibrateCommand, OptionsOutOfRangeAreBadInput) {
   const Folder folder;
   const std::string scene = folder.write("scene.json", cantilever());
