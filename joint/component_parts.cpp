@@ -199,7 +199,6 @@ void Component::end_parts(const b2SolverData& data) {
     solver.contacts[k].tangent = parts_.sums[k].tangent;
   }
   return_contacts();
-  if (solver.keeps_ledger) book_parts();
   const double rate = 1 / double{data.step.dt};
   const bool last = !(parts_.since_blow < blow_time && is_strained());
   double lost = 0;
@@ -216,7 +215,10 @@ void Component::end_parts(const b2SolverData& data) {
     m.left = box2d_pose(i);
     if (m.present) data.velocities[m.island_index] = in_floats(mean);
   }
-  if (solver.keeps_ledger) solver.book_parts(0, -lost);
+  if (solver.keeps_ledger) {
+    book_parts();
+    solver.book_parts(0, -lost);
+  }
   for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
   }

@@ -229,6 +229,16 @@ INSTANTIATE_TEST_SUITE_P(Beams, SameBlow,
                          testing::Values(Struck{10, 500, 30, 5, true}, Struck{10, 1000, 15, 5.3, false},
                                          Struck{16, 250, 35, 4, false}));
 
+// A heavy disc goes on to touch what it bent: that does not begin 50 ms of parts anew.
+TEST(SolvedInParts, EndsSoonAfterTheHardBlow) {
+  ClampedBeam beam(10, 1.0 / 60);
+  beam.drop({10, 500, 30, 5, true});
+  beam.run(2);
+  EXPECT_GT(beam.structure.energy().dissipated, 0);
+  EXPECT_GE(beam.divided, 3);
+  EXPECT_LE(beam.divided, 8);
+}
+
 // Between the steps of a blow the solver's laws are those of parts of a step: that is brought back, too.
 TEST(SolvedInParts, RunsOnAsItDid) {
   ClampedBeam beam(10, 1.0 / 60);
