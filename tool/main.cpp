@@ -61,7 +61,10 @@ int run(int argc, char** argv) {
     return exit;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << "command line:" << one_line(error.what()) << "; ductile --help lists commands and options\n";
+    const std::string what = one_line(error.what());
+    const bool placed = what.find(": ") < what.find(' ');  // "--scale: -1 is not > 0"
+    std::cerr << "command line:" << (placed ? "" : "arguments: ") << what
+              << "; ductile --help lists commands and options\n";
     return bad_input;
   } catch (const InvalidInput& error) {
     print(error.problems());
