@@ -70,10 +70,12 @@ class Parts {
     return n;
   }
 
-  // Straight within 1e-12 of the outline's size counts as convex.
+  // Straight on within 1e-12 of the outline's size counts as convex; straight back, as at the foot of a spike
+  // without width, does not.
   bool convex(int a, int b, int c) const {
     const Point p = points_[b] - points_[a], q = points_[c] - points_[b];
-    return cross(p, q) >= -straight_ * length(p + q);
+    const double bend = cross(p, q), rounding = straight_ * length(p + q);
+    return bend > rounding || (bend >= -rounding && dot(p, q) > 0);
   }
 
   static void make_strictly_convex(Ring& ring) {

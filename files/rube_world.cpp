@@ -154,8 +154,12 @@ void World::check(const Item& item) {
                                    ? joints_[static_cast<std::size_t>(other)].text("type")
                                    : "";
       const bool turns = kind == "revolute" || kind == "prismatic";
-      if (!turns || planned_[static_cast<std::size_t>(other)] >= 0) {
-        item.value().wrong("gears a joint that is no revolute or prismatic one", "gear such joints");
+      if (!turns) {
+        item.value().wrong(std::string("gears a joint that is no revolute or prismatic one, its ") + key,
+                           "gear such joints");
+      } else if (planned_[static_cast<std::size_t>(other)] >= 0) {
+        item.value().wrong(std::string("gears a joint that is calibrated, its ") + key,
+                           "give that one \"ductile.calibrate\": false");
       } else if (const int turned = joints_[static_cast<std::size_t>(other)].integer("bodyB", 0, most);
                  bodies_[static_cast<std::size_t>(turned)].type != BodyType::dynamic_body) {
         item.value().wrong("gears a joint whose bodyB is not dynamic", "give bodyB of what it gears type 2");

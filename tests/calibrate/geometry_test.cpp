@@ -205,6 +205,15 @@ TEST(ConvexParts, FewForPlainShapes) {
   EXPECT_LE(convex_parts({disc, {}}, 8).size(), 22u);  // 62 triangles, at most 6 in a part: at least 11
 }
 
+// Three edges on one line, folded: the spike to (5, 10) has no width but by rounding, and is no corner of
+// what lies beside its foot.
+TEST(ConvexParts, LeaveOutASpikeWithoutWidth) {
+  Outline folded{{{-15, 5}, {-4, -7}, {-3, 8}, {-11, 6}, {5, 10}}, {}};
+  for (Point& p : folded.outer) p = 3.3982083289425596 * p;
+  const double whole = moments(folded).area;
+  EXPECT_NEAR(area(convex_parts(folded, 8)), whole, 1e-12 * whole);
+}
+
 // What touches is bounded together; the convex parts cover it and leave the holes out.
 struct TouchingCase {
   const char* name;

@@ -283,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"arc_flag", path("M 0 0 A 1 1 0 2 0 3 3"), "path command 2"},
         Bad{"infinite", path("M 0 0 L 1e999 0 L 1 1"), "path command 2"},
         Bad{"not_a_number", path("M 0 0 L nan 0 L 1 1"), "path command 2"},
-        Bad{"overflows", path("M 1e308 0 l 1e308 0 l 1e308 9 z"), "double"},
+        Bad{"overflows", path("M 1e308 0 l 1e308 0 l 1e308 9 z"), "1e12 m"},
         Bad{"two_areas", path("M0 0h1v1h-1z M3 3h1v1h-1z"), "2 separate areas"},
         Bad{"island_in_a_hole", path("M0 0h9v9h-9z M1 1v7h7v-7z M3 3h2v2h-2z"), "2 separate areas"},
         Bad{"only_a_line", path("M 0 0 L 10 10"), "no area"},
