@@ -265,13 +265,6 @@ class Automatic {
       double h = 0;
       const double own = attempt(n, h), expected = last * (last_n / n) * (last_n / n);
       const bool stalls = own > 1.5 * expected && own > 0.7 * last;
-      // More than it takes, where the error fell late: between this and the last, on a scale of ratios.
-      double few = last_n, many = n;
-      for (int back = 0; back < 4 && few > 0 && own <= margin * target_ / 2; ++back) {
-        double ignored = 0;
-        const double between = std::ceil(std::sqrt(few * many));
-        (attempt(between, ignored) <= margin * target_ ? many : few) = between;
-      }
       if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
         break;
       last = own;
