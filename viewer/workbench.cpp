@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "ductile/files.h"
-#include "ductile/scene_list.h"
 #include "making.h"
 #include "open.h"
 
@@ -23,14 +22,6 @@ SceneDef undamped(SceneDef scene) {
   for (BodyDef& body : scene.bodies) stop(body.joint);
   for (JointBetweenDef& joint : scene.joints) stop(joint.overrides);
   return scene;
-}
-
-/// Steps per second that one of this repository's scenes asks for; 0: those of every other scene.
-double usual_hz(const std::filesystem::path& file) {
-  for (const SceneEntry& entry : scene_list) {
-    if (file.filename() == std::string(entry.name) + ".scene.json" && entry.hz != 60) return entry.hz;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -83,7 +74,6 @@ void Workbench::put(Opened opened, const std::filesystem::path& source) {
   in_file(source.string(), [&] {
     plan = opened.level ? *opened.level : calibrate(opened.scene);
     run = std::make_unique<Timeline>(plan, solver());
-    if (const double hz = usual_hz(opened.file); hz > 0) run->act(act::Set{{.dt = 1 / hz}});
   });
   // Nothing can fail from here on.
   ++edition_;

@@ -13,8 +13,8 @@
 namespace ductile {
 namespace {
 
-std::uint64_t hash_of(const Plan& plan, JointSolver solver, double hz) {
-  Simulation run(plan, solver, {.dt = 1 / hz});
+std::uint64_t hash_of(const Plan& plan, JointSolver solver) {
+  Simulation run(plan, solver);
   std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
   const auto add = [&](double x) { hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3; };
   for (int step = 0; step < 600; ++step) {
@@ -42,7 +42,7 @@ int main() {
     for (const auto& [name, solver] :
          {std::pair{"direct", JointSolver::direct}, std::pair{"iterative", JointSolver::iterative}}) {
       std::printf("%s %s %016llx\n", std::string(scene.name).c_str(), name,
-                  static_cast<unsigned long long>(hash_of(plan, solver, scene.hz)));
+                  static_cast<unsigned long long>(hash_of(plan, solver)));
     }
   }
 }

@@ -42,7 +42,7 @@ void expect_promises_kept(const LeanPlan& lean, double tolerance) {
 
 // What a run of its own shows, as a share of the size of all that joints hold: the farthest that a piece of
 // it is from its twin, until something breaks.
-double seen(const Plan& plan, const LeanPlan& lean, double seconds, double dt) {
+double seen(const Plan& plan, const LeanPlan& lean, double seconds) {
   std::vector<bool> looked_at(plan.pieces.size(), true);
   for (const int i : static_check(plan).loose) looked_at[static_cast<std::size_t>(i)] = false;
   Point low{unlimited, unlimited}, high{-unlimited, -unlimited};
@@ -54,7 +54,7 @@ double seen(const Plan& plan, const LeanPlan& lean, double seconds, double dt) {
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
   }
-  Simulation full(plan, JointSolver::direct, {.dt = dt}), less(lean.plan, lean.solver, {.dt = dt});
+  Simulation full(plan), less(lean.plan, lean.solver);
   double farthest = 0;
   const auto broke = [](const SceneEvent& event) { return event.kind == JointEvent::broke; };
   while (full.time() < seconds) {
@@ -79,14 +79,14 @@ TEST_P(LeaveOutOf, ErrorIsNoMoreThanPromised) {
   const SceneEntry& scene = GetParam();
   const double seconds = std::min(scene.seconds, 3.);
   const Plan plan = calibrate(scene_of(std::string(scene.name)));
-  const LeanPlan lean = leave_out(plan, {.seconds = seconds, .stepping = {.dt = 1 / scene.hz}});
+  const LeanPlan lean = leave_out(plan, {.seconds = seconds});
   double promised = 0;
   for (const LeftOut& item : lean.plan.left_out) {
     EXPECT_GT(item.time_saved, 0) << item.what;
     promised += item.error;
   }
   EXPECT_LE(promised, 0.01);
-  EXPECT_LE(seen(plan, lean, seconds, 1 / scene.hz), promised);
+  EXPECT_LE(seen(plan, lean, seconds), promised);
 }
 
 INSTANTIATE_TEST_SUITE_P(LeaveOut, LeaveOutOf, testing::ValuesIn(scene_list), [](const auto& info) {

@@ -233,8 +233,8 @@ class LedgerOfScene : public testing::TestWithParam<SceneEntry> {};
 TEST_P(LedgerOfScene, Balances) {
   const SceneEntry& entry = GetParam();
   Booked run(read_scene(std::string(DUCTILE_SOURCE_DIR "/scenes/") + std::string(entry.name) + ".scene.json"),
-             JointSolver::direct, {.dt = 1 / entry.hz});
-  run.steps(static_cast<int>(std::min(entry.seconds, 5.) * entry.hz));
+             JointSolver::direct);
+  run.steps(static_cast<int>(std::min(entry.seconds, 5.) * 60));
   // Corrections of overlap, see scene_list_test.cpp.
   run.expect_balance(1e-3, std::string_view(entry.name) == "frame_heavy_bomb" ? 2e-4 : 1e-4);
 }

@@ -106,7 +106,7 @@ class Scenes : public testing::TestWithParam<SceneEntry> {};
 
 TEST_P(Scenes, EndAsTheListSays) {
   const SceneEntry& scene = GetParam();
-  Play run(scene.name, scene.hz, true);
+  Play run(scene.name, 60, true);
   run.until(scene.seconds);
   EXPECT_EQ(run.outcome(), scene.outcome);
   EXPECT_EQ(run.bounds_hit, 0);
@@ -124,7 +124,7 @@ TEST_P(Scenes, EndAsTheListSays) {
 std::uint64_t hash_of(const SceneEntry& scene, int steps) {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto add = [&](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3; };
-  Play run(scene.name, scene.hz);
+  Play run(scene.name);
   for (int i = 0; i < steps; ++i) {
     run.step();
     for (std::size_t k = 0; k < run.simulation.plan().pieces.size(); ++k) {
@@ -224,7 +224,7 @@ TEST(Frame, FeetCarryTheWeightAndItStandsPlumb) {
 }
 
 TEST(FrameBomb, TakesNoMoreEnergyThanTheBombBrought) {
-  Play run("frame_bomb", 240);
+  Play run("frame_bomb");
   run.until(5);
   double dissipated = 0;
   for (std::size_t i = 0; i < run.simulation.plan().joints.size(); ++i)

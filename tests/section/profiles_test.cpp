@@ -44,17 +44,17 @@ TEST(Curves, ArcsKeepWithinTheToleranceWithoutWaste) {
     Point centre, a, b;
     double from, sweep;
   };
-  for (const auto& [c, a, b, from, sweep] :
-       {Arc{{0, 0}, {1, 0}, {0, 1}, 0, 2 * pi}, Arc{{5, -3}, {0.02, 0}, {0, 0.02}, 1, -1.5},
-        Arc{{0, 0}, {3, 1}, {-0.1, 0.3}, -2, 3}, Arc{{1, 1}, {1, 0}, {0.7, 0.8}, 0.3, 6}}) {
+  for (const Arc& arc : {Arc{{0, 0}, {1, 0}, {0, 1}, 0, 2 * pi}, Arc{{5, -3}, {0.02, 0}, {0, 0.02}, 1, -1.5},
+                         Arc{{0, 0}, {3, 1}, {-0.1, 0.3}, -2, 3}, Arc{{1, 1}, {1, 0}, {0.7, 0.8}, 0.3, 6}}) {
     const auto curve = [&](double t) -> Point {
+      const auto& [c, a, b, from, sweep] = arc;
       const double phi = from + sweep * t;
       return {c.x + a.x * std::cos(phi) + b.x * std::sin(phi),
               c.y + a.y * std::cos(phi) + b.y * std::sin(phi)};
     };
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
       Ring ring{curve(0)};
-      flatten_arc(ring, c, a, b, from, sweep, tolerance);
+      flatten_arc(ring, arc.centre, arc.a, arc.b, arc.from, arc.sweep, tolerance);
       EXPECT_LE(farthest(ring, curve), tolerance * (1 + 1e-9));
       EXPECT_NEAR(ring.back().x, curve(1).x, 1e-14);
       if (ring.size() > 20) {  // one chord less would not do
@@ -71,20 +71,21 @@ TEST(Curves, BeziersKeepWithinTheTolerance) {
   struct Cubic {
     Point p0, p1, p2, p3;
   };
-  for (const auto& [p0, p1, p2, p3] :
+  for (const Cubic& cubic :
        {Cubic{{0, 0}, {1, 2}, {3, -1}, {4, 1}}, Cubic{{0, 0}, {1, 1}, {0, 1}, {1, 0}},  // loop-like
         Cubic{{0, 0}, {0, 0}, {1, 1}, {1, 1}}, Cubic{{0, 0}, {10, 0}, {-9, 0}, {1, 0}}}) {
     const auto curve = [&](double t) -> Point {
       const auto mix = [t](double a, double b) { return a + (b - a) * t; };  // de Casteljau
       const auto on = [&](Point a, Point b) -> Point { return {mix(a.x, b.x), mix(a.y, b.y)}; };
+      const auto& [p0, p1, p2, p3] = cubic;
       const Point a = on(p0, p1), b = on(p1, p2), c = on(p2, p3);
       return on(on(a, b), on(b, c));
     };
     for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
-      Ring ring{p0};
-      flatten_cubic(ring, p0, p1, p2, p3, tolerance);
+      Ring ring{cubic.p0};
+      flatten_cubic(ring, cubic.p0, cubic.p1, cubic.p2, cubic.p3, tolerance);
       EXPECT_LE(farthest(ring, curve), tolerance);
-      EXPECT_EQ(ring.back(), p3);
+      EXPECT_EQ(ring.back(), cubic.p3);
     }
   }
   Ring ring{{0, 0}};

@@ -252,7 +252,6 @@ TEST(Workbench, StepsStayAsTheyWereSet) {
   const fs::path scenes = fs::path(DUCTILE_SOURCE_DIR) / "scenes";
   Workbench bench;
   bench.open(scenes / "frame_bomb.scene.json");
-  EXPECT_EQ(bench.run().stepping().dt, 1. / 240) << "as the list of scenes asks for";
   bench.set_stepping({.dt = 1. / 500, .velocity_iterations = 20});
   SceneDef scene = bench.scene();
   scene.gravity.y /= 2;
