@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -17,10 +18,11 @@ namespace {
 // The triangulation's triangles, merged to larger polygons.
 class Parts {
  public:
-  Parts(const std::vector<Point>& points, std::vector<HalfEdge> triangles)
-      : points_(points), edges_(std::move(triangles)) {
-    straight_ = 1e-12 * bounds_of(points).diagonal();
-  }
+  /// What is straight within `tolerance` of the outline's size counts as convex.
+  Parts(const Triangulation& triangles, double tolerance)
+      : points_(triangles.points),
+        edges_(triangles.edges),
+        straight_(tolerance * bounds_of(points_).diagonal()) {}
 
   // Hertel and Mehlhorn: leave out every edge whose absence leaves its ends convex, the longest first, which
   // does away with slivers.
@@ -43,6 +45,7 @@ class Parts {
     }
   }
 
+  /// Afterwards edges are used up.
   std::vector<Ring> rings() {
     std::vector<Ring> result;
     for (int start = 0; start < size(); ++start) {
@@ -53,11 +56,17 @@ class Parts {
         ring.push_back(points_[from(e)]);
         e = std::exchange(edges_[e].next, -1);
       }
+      const double area = doubled_area(ring);
       make_strictly_convex(ring);
+      area_ += area;
+      changed_ += std::abs(doubled_area(ring) - area);
       if (ring.size() > 2) result.push_back(std::move(ring));
     }
     return result;
   }
+
+  /// The share of their area that rings() had to change to make polygons convex.
+  double changed() const { return changed_ / area_; }
 
  private:
   int size() const { return static_cast<int>(edges_.size()); }
@@ -70,11 +79,11 @@ class Parts {
     return n;
   }
 
-  // Straight on within 1e-12 of the outline's size counts as convex; straight back, as at the foot of a spike
-  // without width, does not.
+  // Straight on counts as convex; straight back, as at the foot of a spike without width, does not.
   bool convex(int a, int b, int c) const {
     const Point p = points_[b] - points_[a], q = points_[c] - points_[b];
-    const double bend = cross(p, q), rounding = straight_ * length(p + q);
+    const double rounding = straight_ * length(p + q),
+                 bend = straight_ > 0 ? cross(p, q) : orientation(points_[a], points_[b], points_[c]);
     return bend > rounding || (bend >= -rounding && dot(p, q) > 0);
   }
 
@@ -95,6 +104,7 @@ class Parts {
   const std::vector<Point>& points_;
   std::vector<HalfEdge> edges_;
   double straight_ = 0;
+  double area_ = 0, changed_ = 0;  // m², doubled
 };
 
 // The outline itself, where it is convex and small enough already.
@@ -150,11 +160,18 @@ double least_width(const Ring& convex) {  // rotating calipers: the vertex oppos
 
 std::vector<Ring> convex_parts(const Outline& outline, int most_vertices) {
   if (is_convex_part(outline, most_vertices)) return std::vector<Ring>(1, outline.outer);
-  Triangulation triangles = triangulate(outline);
+  const Triangulation triangles = triangulate(outline);
   if (triangles.edges.empty()) return {};
-  Parts parts(triangles.points, std::move(triangles.edges));
-  parts.merge(most_vertices);
-  return parts.rings();
+  // About spikes without width, straight on and straight back are a rounding apart: there only exact signs
+  // tell.
+  std::vector<Ring> rings;
+  for (const double tolerance : {1e-12, 0.0}) {
+    Parts parts(triangles, tolerance);
+    parts.merge(most_vertices);
+    rings = parts.rings();
+    if (parts.changed() <= 1e-10) break;
+  }
+  return rings;
 }
 
 }  // namespace ductile::calibration

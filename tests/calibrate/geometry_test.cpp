@@ -214,6 +214,25 @@ TEST(ConvexParts, LeaveOutASpikeWithoutWidth) {
   EXPECT_NEAR(area(convex_parts(folded, 8)), whole, 1e-12 * whole);
 }
 
+// Two spikes on one line, to (101, −151) and (−101, 50): within 1e-12 of the size their sides go straight on
+// into each other, and a part that takes that for convex would lose the corner at their feet.
+TEST(ConvexParts, KeepTheCornerAtTheFeetOfTwoSpikes) {
+  const Outline spikes{{{0, -50.48065716667471},
+                        {0.75228820587278744, -97.122525930787532},
+                        {2.1654459264312274, -184.7383046054108},
+                        {149.19714605293123, -184.13151744744755},
+                        {150.36479620398885, -35.839948263130282},
+                        {33.307125681699716, -83.78778284837442},
+                        {100.96131433334942, -151.44197150002412},
+                        {33.307125681699688, -83.787782848374391},
+                        {-28.062830890831279, -22.417826275843424},
+                        {-100.96131433334942, 50.48065716667471},
+                        {-28.062830890831293, -22.417826275843417}},
+                       {}};
+  const double whole = moments(spikes).area;
+  EXPECT_NEAR(area(convex_parts(spikes, 8)), whole, 1e-12 * whole);
+}
+
 // What touches is bounded together; the convex parts cover it and leave the holes out.
 struct TouchingCase {
   const char* name;
