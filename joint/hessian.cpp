@@ -22,6 +22,16 @@ inline void add_product(Block& block, const JacobianRows& left, const JacobianRo
   }
 }
 
+// Likewise, of a row each.
+void add_product(Block& block, double by, const Vec3& left, const Vec3& right) {
+  const double rows[3] = {by * left.x, by * left.y, by * left.w};
+  for (int r = 0; r < 3; ++r) {
+    block.a[3 * r] += rows[r] * right.x;
+    block.a[3 * r + 1] += rows[r] * right.y;
+    block.a[3 * r + 2] += rows[r] * right.w;
+  }
+}
+
 // Without the columns of a body that does not rotate.
 JacobianRows of_body(JacobianRows rows, const Body& body) {
   if (body.inertia > 0) return rows;
@@ -104,21 +114,13 @@ void Hessian::factor_following(const System& system, std::span<const double> fol
     const Joint& j = system.joints[k];
     const JacobianRows a = of_body(rows_of_a(j.J), system.bodies[z(j.a)]);
     const JacobianRows b = of_body(rows_of_b(j.J), system.bodies[z(j.b)]);
-    const auto add = [](Block& block, double by, const Vec3& left, const Vec3& right) {
-      const double rows[3] = {by * left.x, by * left.y, by * left.w};
-      for (int r = 0; r < 3; ++r) {
-        block.a[3 * r] += rows[r] * right.x;
-        block.a[3 * r + 1] += rows[r] * right.y;
-        block.a[3 * r + 2] += rows[r] * right.w;
-      }
-    };
-    if (system.is_free(j.a)) add(lu_.diagonal(j.a), by, a.v, a.u);
-    if (system.is_free(j.b)) add(lu_.diagonal(j.b), by, b.v, b.u);
+    if (system.is_free(j.a)) add_product(lu_.diagonal(j.a), by, a.v, a.u);
+    if (system.is_free(j.b)) add_product(lu_.diagonal(j.b), by, b.v, b.u);
     if (j.block < 0) continue;
     const JacobianRows &later = j.a > j.b ? a : b, &earlier = j.a > j.b ? b : a;
-    add(lu_.lower(j.block), by, later.v, earlier.u);
-    add(lu_.excess(j.block), by, later.u, earlier.v);
-    add(lu_.excess(j.block), -by, later.v, earlier.u);
+    add_product(lu_.lower(j.block), by, later.v, earlier.u);
+    add_product(lu_.excess(j.block), by, later.u, earlier.v);
+    add_product(lu_.excess(j.block), -by, later.v, earlier.u);
   }
   lu_.factor(ldlt_);
   factored_ = Factored::nothing;
@@ -154,11 +156,11 @@ void Hessian::assemble(const System& system, bool turn_inertias) {
   }
   for (const TurnInertia& t : system.turn_inertias) {
     if (!turn_inertias) break;
-    // As in of_body(): what does not rotate is no unknown.
-    const bool a_turns = system.bodies[z(t.a)].inertia > 0, b_turns = system.bodies[z(t.b)].inertia > 0;
-    if (a_turns) ldlt_.diagonal(t.a).a[8] += t.inertia;
-    if (b_turns) ldlt_.diagonal(t.b).a[8] += t.inertia;
-    if (a_turns && b_turns) ldlt_.block(t.block).a[8] -= t.inertia;
+    const Vec3 a = of_body({.u = t.row_a}, system.bodies[z(t.a)]).u;
+    const Vec3 b = of_body({.u = t.row_b}, system.bodies[z(t.b)]).u;
+    if (system.is_free(t.a)) add_product(ldlt_.diagonal(t.a), t.inertia, a, a);
+    if (system.is_free(t.b)) add_product(ldlt_.diagonal(t.b), t.inertia, b, b);
+    if (t.block >= 0) add_product(ldlt_.block(t.block), t.inertia, t.a > t.b ? a : b, t.a > t.b ? b : a);
   }
 }
 

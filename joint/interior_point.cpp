@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact_rows.h"
+#include "turn_inertia.h"
 
 namespace ductile::dynamics {
 
@@ -17,9 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double energy_of(const Body& b, const Vec3& v) { return dot(v, momentum(b, v)); }
 
-// ω_b − ω_a
 double turn_rate(const System& system, const TurnInertia& t) {
-  return system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
+  return t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
 }
 
 // The rows of a joint at the present velocities.
@@ -43,7 +43,7 @@ void InteriorPoint::form(const System& system) {
   surface_of_.reserve(room);
   surfaces_.reserve(surfaces);
   bounds_.assign(bounds, {});
-  turns_.reserve(system.joints.size());
+  turns_.reserve(system.turn_inertias.capacity());
   impulses_.reserve(room);
   best_.reserve(room);
   d_.assign(system.bodies.size(), {});
@@ -66,8 +66,8 @@ double InteriorPoint::balance(System& system) {
     add_transposed(j, impulses_[k], d_[z(j.a)], d_[z(j.b)]);
   }
   for (std::size_t k = 0; k < turns_.size(); ++k) {
-    d_[z(system.turn_inertias[k].a)].w -= turns_[k].s;
-    d_[z(system.turn_inertias[k].b)].w += turns_[k].s;
+    const TurnInertia& t = system.turn_inertias[k];
+    t.add(turns_[k].s, d_[z(t.a)], d_[z(t.b)]);
   }
   double scale = 0;
   for (std::size_t i = 0; i < system.free; ++i) {
@@ -165,7 +165,7 @@ Distance InteriorPoint::measure(const System& system) {
   for (std::size_t k = 0; k < turns_.size(); ++k) {
     const TurnInertia& t = system.turn_inertias[k];
     TurnRow& r = turns_[k];
-    const double inverse = system.bodies[z(t.a)].inverse_inertia + system.bodies[z(t.b)].inverse_inertia;
+    const double inverse = inverse_mass(system, t);
     if (!(t.inertia * inverse > 0)) continue;
     r.lack = turn_rate(system, t) - t.rate - r.s / t.inertia;
     d.lack += t.inertia * r.lack * r.lack / 2;
@@ -200,8 +200,7 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
   });
   for (std::size_t k = 0; k < turns_.size(); ++k) {
     const TurnInertia& t = system.turn_inertias[k];
-    d_[z(t.a)].w += t.inertia * turns_[k].lack;
-    d_[z(t.b)].w -= t.inertia * turns_[k].lack;
+    t.add(-t.inertia * turns_[k].lack, d_[z(t.a)], d_[z(t.b)]);
   }
   for (std::size_t i = 0; i < d_.size(); ++i) {
     if (i >= system.free) d_[i] = {};
@@ -215,7 +214,7 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
   });
   for (std::size_t k = 0; k < turns_.size(); ++k) {
     const TurnInertia& t = system.turn_inertias[k];
-    turns_[k].ds = t.inertia * (turns_[k].lack + d_[z(t.b)].w - d_[z(t.a)].w);
+    turns_[k].ds = t.inertia * (turns_[k].lack + t.rate_of(d_[z(t.a)], d_[z(t.b)]));
   }
   return direction;
 }

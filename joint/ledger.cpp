@@ -22,7 +22,7 @@ void Ledger::form(const System& system) {
   taken_.assign(system.joints.size(), {});
   moved_.assign(system.joints.size(), {});
   turns_.assign(system.bodies.size(), {});
-  turn_inertias_.reserve(system.joints.size());
+  turn_inertias_.reserve(system.turn_inertias.capacity());
 }
 
 void Ledger::open(System& system, std::span<const Vec3> before, double h) {
@@ -42,8 +42,10 @@ void Ledger::open(System& system, std::span<const Vec3> before, double h) {
   }
   turn_inertias_ = system.turn_inertias;
   for (const TurnInertia& t : turn_inertias_) {
-    const double now = system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
-    energies.numerical += t.impulse * (now + before[z(t.b)].w - before[z(t.a)].w) / 2;
+    const double now = t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
+    energies.numerical += t.impulse * (now + t.rate_of(before[z(t.a)], before[z(t.b)])) / 2;
+    energies.driven +=
+        t.impulse * t.rate_of(prescribed_velocity(system, t.a), prescribed_velocity(system, t.b));
   }
 }
 
@@ -94,7 +96,7 @@ void Ledger::close(std::span<const Vec3> change) {
     for (unsigned i = 0; i < 3; ++i) energies.numerical += j.impulse[i] * v[i] / 2;
   }
   for (const TurnInertia& t : turn_inertias_)
-    energies.numerical += t.impulse * (change[z(t.b)].w - change[z(t.a)].w) / 2;
+    energies.numerical += t.impulse * t.rate_of(own(t.a), own(t.b)) / 2;
 }
 
 }  // namespace ductile::dynamics

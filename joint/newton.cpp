@@ -134,8 +134,8 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
     curvature += dot(md, d_[i]);
   }
   for (const TurnInertia& t : system.turn_inertias) {
-    const double y = d_[z(t.b)].w - d_[z(t.a)].w;
-    const double now = system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w;
+    const double y = t.rate_of(d_[z(t.a)], d_[z(t.b)]);
+    const double now = t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
     at_rest += t.inertia * y * (now - y - t.rate);
     curvature += t.inertia * y * y;
   }

@@ -84,7 +84,7 @@ double objective(System& system, const Evaluation& at) {
     }
   }
   for (const TurnInertia& t : system.turn_inertias)
-    f += t.impulse * (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate) / 2;
+    f += t.impulse * (t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v) - t.rate) / 2;
   return f;
 }
 

@@ -157,7 +157,6 @@ void Solver::advance() {
     const Turn back = turn_of(-h * v.w);
     turned_[i] = {back.c * v.x - back.s * v.y, back.s * v.x + back.c * v.y, v.w};
   }
-  remember_turn_rates(*this, turned_);
   if (predicted_) prediction_.fit();
   for (Joint& j : own_joints()) {
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
@@ -167,6 +166,7 @@ void Solver::advance() {
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
   }
+  remember_turn_rates(*this, turned_);
   biases_known = true;
   if (std::exchange(struck_, false)) close_blow(*this);
   if (lower_caps(*this, laws_)) hessian_.forget();

@@ -12,7 +12,9 @@ namespace ductile::dynamics {
 void System::form(std::size_t free_bodies) {
   free = free_bodies;
   turn_inertias.clear();
-  turn_inertias.reserve(joints.size());
+  std::size_t inertias = 0;
+  for (const Joint& j : joints) inertias += j.frame.line ? 3 : 1;
+  turn_inertias.reserve(inertias);
   clumps.assign(free_bodies, {});
   for (JointRecord& r : records) r.turn_inertia = -1;
   mass = 0;
@@ -50,7 +52,7 @@ void System::keep(Tape& tape) {
   tape(joints, records);
   std::size_t inertias = turn_inertias.size();
   tape(inertias);
-  if (tape.reads()) turn_inertias.assign(std::min(inertias, joints.size()), {});
+  if (tape.reads()) turn_inertias.assign(std::min(inertias, turn_inertias.capacity()), {});
   for (std::size_t k = own(); k < joints.size() && tape.reads(); ++k) {
     joints[k].G = records[k].law.G;
     records[k].turn_inertia = -1;
@@ -60,12 +62,16 @@ void System::keep(Tape& tape) {
     JointRecord& r = record(j);
     if (tape.reads()) restore(j, r);
     if (r.turn_inertia < 0) continue;
-    if (z(r.turn_inertia) >= turn_inertias.size() || j.block < 0) return tape.refuse();
-    TurnInertia& t = turn_inertias[z(r.turn_inertia)];
-    t.a = j.a, t.b = j.b, t.block = j.block;
+    const std::size_t count = j.frame.line ? 3 : 1;
+    if (z(r.turn_inertia) + count > turn_inertias.size() || (j.block < 0 && !j.frame.line))
+      return tape.refuse();
+    for (std::size_t i = 0; i < count; ++i) {
+      TurnInertia& t = turn_inertias[z(r.turn_inertia) + i];
+      t.a = j.a, t.b = j.b, t.block = j.block;
+    }
   }
   for (const TurnInertia& t : turn_inertias) {
-    if (t.block < 0) return tape.refuse();
+    if (t.a == t.b) return tape.refuse();
   }
   tape(turn_inertias, gaps_known, biases_known);
   if (tape.reads()) list_special(*this);

@@ -82,16 +82,23 @@ struct PlasticFlow {
   Rows forward{}, back{};  // accumulated by sign, ≥ 0
 };
 
-/// Inertia against a change of the relative turn of two bodies: turn_inertia.h.
+/// Inertia against a change of the rate at which two bodies turn, or turn what pulls at them:
+/// turn_inertia.h.
 struct TurnInertia {
-  int a = 0, b = 0;                  // free bodies
-  int block = -1;                    // of H
-  double inertia = 0;                // C, kg m²
-  double rate = 0;                   // w, rad/s
-  double impulse = 0;                // N m s: on B, against it on A, of the last solve
-  double highest = 0, unneeded = 0;  // what was needed at most, in so many s
+  int a = 0, b = 0;                      // bodies
+  int block = -1;                        // of H, when both are free
+  Vec3 row_a{0, 0, -1}, row_b{0, 0, 1};  // of the rate, for their velocities in their own frames
+  double inertia = 0;                    // C, kg m²; kg where the rate is a velocity
+  double rate = 0;                       // w, rad/s or m/s
+  double impulse = 0;                    // N m s or N s: along row_b on B, row_a on A, of the last solve
+  double highest = 0, unneeded = 0;      // what was needed at most, in so many s
 
-  void keep(Tape& tape) { tape(inertia, rate, highest, unneeded); }
+  double rate_of(const Vec3& va, const Vec3& vb) const { return dot(row_a, va) + dot(row_b, vb); }
+  void add(double s, Vec3& to_a, Vec3& to_b) const {
+    to_a += s * row_a;
+    to_b += s * row_b;
+  }
+  void keep(Tape& tape) { tape(row_a, row_b, inertia, rate, highest, unneeded); }
 };
 
 /// Free bodies that turn as one: each is part of another, up to the one that has the mass of all.
@@ -109,7 +116,7 @@ struct JointRecord {
   Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
   RowLaw law;
   Coupling tangent;           // ds/dx that is in H
-  int turn_inertia = -1;      // index into System::turn_inertias
+  int turn_inertia = -1;      // index into System::turn_inertias, of the first
   double deferred_drift = 0;  // Σ m_eff d² of the constraint drift d of a longer step, not yet taken back
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
@@ -161,7 +168,7 @@ struct System {
   std::vector<Place> places;               // of the bodies
   std::vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
   std::vector<JointRecord> records;        // of the joints
-  std::vector<TurnInertia> turn_inertias;  // of some of them
+  std::vector<TurnInertia> turn_inertias;  // of some of them, one each, three of a line
   std::vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
   std::vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
   std::vector<Link> links;                 // whose rows follow the structure's own joints

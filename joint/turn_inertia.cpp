@@ -1,6 +1,7 @@
 #include "turn_inertia.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -8,8 +9,9 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr double safety = 2;       // s
-constexpr double kept_time = 0.5;  // s that inertia is kept beyond its need
+constexpr double safety = 2;         // s
+constexpr double line_safety = 1.1;  // s of lines
+constexpr double kept_time = 0.5;    // s that inertia is kept beyond its need
 
 int root_of(std::vector<Clump>& clumps, int i) {
   while (clumps[z(i)].part_of != i) i = clumps[z(i)].part_of = clumps[z(clumps[z(i)].part_of)].part_of;
@@ -42,11 +44,52 @@ double needed(const System& system, const Joint& j, double h, double longer) {
   return std::max(0.0, longer * longer * l2 * (alpha > m / 2 ? alpha * alpha / (4 * m) : alpha / 4 - m / 16));
 }
 
+// What a joint needs, and the masses that its rates move.
+struct Need {
+  std::array<double, 3> inertia{}, mass{};
+  std::size_t count = 1;
+  bool any() const { return inertia[0] > 0 || inertia[1] > 0 || inertia[2] > 0; }
+};
+
+// The rates of a line: at which its anchors move across, A turns, and B turns.
+void set_rows(const Joint& j, TurnInertia* t) {
+  const Frame& f = j.frame;
+  const Turn &a = j.J.axis_a, &b = j.J.axis_b;
+  t[0].row_a = {a.s, -a.c, -(f.ax * a.c + f.ay * a.s)};
+  t[0].row_b = {-b.s, b.c, f.bx * b.c + f.by * b.s};
+  t[1].row_a = t[2].row_b = {0, 0, 1};
+  t[1].row_b = t[2].row_a = {};
+}
+
+Need needed_by_line(const System& system, const Joint& j, double h) {
+  std::array<TurnInertia, 3> t;
+  set_rows(j, t.data());
+  Need need{.count = 3};
+  const double pull = h * j.impulse[0], length = system.record(j).gap[0];  // h² T
+  if (!(pull > 0 && length > 0)) return need;
+  const std::array<double, 3> stiffness{pull / length, -pull * t[0].row_a.w, -pull * t[0].row_b.w};
+  for (std::size_t i = 0; i < 3; ++i) {
+    t[i].a = j.a, t[i].b = j.b;
+    const double inverse = inverse_mass(system, t[i]);
+    if (!(inverse > 0)) continue;
+    need.mass[i] = 1 / inverse;
+    need.inertia[i] = std::max(0.0, line_safety / 4 * stiffness[i] - need.mass[i] / 8);
+  }
+  return need;
+}
+
 // Finds clumps where they are asked for: what needs nothing with a joint's own bodies needs nothing at all.
 class Needs {
  public:
   Needs(System& system, double h) : system_(system), h_(h) {}
-  double operator()(const Joint& j) {
+  Need operator()(const Joint& j) {
+    if (j.frame.line) return needed_by_line(system_, j, h_);
+    return {.inertia = {needed_between_pieces(j)},
+            .mass = {std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia)}};
+  }
+
+ private:
+  double needed_between_pieces(const Joint& j) {
     const double alone = needed(system_, j, h_, 1);
     if (alone == 0) return 0;
     if (!std::exchange(known_, true)) find_clumps(system_);
@@ -55,52 +98,71 @@ class Needs {
     return needed(system_, j, h_, (clump(j.a) + clump(j.b)) / own);
   }
 
- private:
   System& system_;
   double h_;
   bool known_ = false;
 };
 
 void raise(TurnInertia& t, double to) {
+  to = std::max(to, 1.3 * t.inertia);
   t.rate *= t.inertia / to;
   t.inertia = to;
   t.highest = t.unneeded = 0;
 }
 
-TurnInertia& of(System& system, const Joint& j) {
+bool may_need(const Joint& j) { return j.block >= 0 || j.frame.line; }
+
+// Of a joint, and made for it.
+TurnInertia* of(System& system, const Joint& j) {
   int& index = system.record(j).turn_inertia;
   if (index < 0) {
     index = static_cast<int>(system.turn_inertias.size());
-    system.turn_inertias.push_back({.a = j.a, .b = j.b, .block = j.block});
+    for (int i = 0; i < (j.frame.line ? 3 : 1); ++i)
+      system.turn_inertias.push_back({.a = j.a, .b = j.b, .block = j.block});
   }
-  return system.turn_inertias[z(index)];
+  TurnInertia* t = &system.turn_inertias[z(index)];
+  if (j.frame.line) set_rows(j, t);
+  return t;
+}
+
+// Less than there was, after half a second of less need. Whether there is.
+bool lower(TurnInertia& t, double need, double h) {
+  t.highest = std::max(t.highest, need);
+  t.unneeded += h;
+  if (t.unneeded < kept_time) return false;
+  const bool lowers = t.highest < t.inertia / 2;
+  if (lowers) t.inertia = t.highest;
+  t.highest = t.unneeded = 0;
+  return lowers;
 }
 
 }  // namespace
+
+double inverse_mass(const System& system, const TurnInertia& t) {
+  const auto of_body = [&](int body, const Vec3& row) {
+    if (!system.is_free(body)) return 0.0;
+    const Body& b = system.bodies[z(body)];
+    return b.inverse_mass * (row.x * row.x + row.y * row.y) + b.inverse_inertia * row.w * row.w;
+  };
+  return of_body(t.a, t.row_a) + of_body(t.b, t.row_b);
+}
 
 bool follow_tension(System& system, double h) {
   bool changed = false;
   Needs needs(system, h);
   for (const Joint& j : system.own_joints()) {
-    if (j.block < 0 || j.frame.line) continue;
-    const double need = needs(j);
-    if (need == 0 && system.turn_inertias.empty()) continue;
-    if (need > 0) of(system, j);
-    if (system.record(j).turn_inertia < 0) continue;
-    TurnInertia& t = of(system, j);
-    if (need > t.inertia) {
-      raise(t, std::max(need, 1.3 * t.inertia));
-      changed = true;
-      continue;
+    if (!may_need(j)) continue;
+    const Need need = needs(j);
+    if (!need.any() && system.record(j).turn_inertia < 0) continue;
+    TurnInertia* t = of(system, j);
+    for (std::size_t i = 0; i < need.count; ++i) {
+      if (need.inertia[i] > t[i].inertia) {
+        raise(t[i], need.inertia[i]);
+        changed = true;
+      } else {
+        changed |= lower(t[i], need.inertia[i], h);
+      }
     }
-    t.highest = std::max(t.highest, need);
-    t.unneeded += h;
-    if (t.unneeded < kept_time) continue;
-    if (t.highest < t.inertia / 2) {
-      t.inertia = t.highest;
-      changed = true;
-    }
-    t.highest = t.unneeded = 0;
   }
   return changed;
 }
@@ -109,29 +171,30 @@ bool raise_to_tension(System& system, double h) {
   bool raised = false;
   Needs needs(system, h);
   for (const Joint& j : system.own_joints()) {
-    if (j.block < 0 || j.frame.line) continue;
-    const double need = needs(j);
-    if (need == 0) continue;
-    const Body &a = system.bodies[z(j.a)], &b = system.bodies[z(j.b)];
+    if (!may_need(j)) continue;
+    const Need need = needs(j);
     const int index = system.record(j).turn_inertia;
-    const double have = index < 0 ? 0 : system.turn_inertias[z(index)].inertia;
-    if (need <= 1.5 * have || need <= 0.1 * std::min(a.inertia, b.inertia)) continue;
-    TurnInertia& t = of(system, j);
-    raise(t, std::max(need, 1.3 * t.inertia));
-    raised = true;
+    for (std::size_t i = 0; i < need.count; ++i) {
+      const double have = index < 0 ? 0 : system.turn_inertias[z(index) + i].inertia;
+      if (need.inertia[i] <= 1.5 * have || need.inertia[i] <= 0.1 * need.mass[i]) continue;
+      raise(of(system, j)[i], need.inertia[i]);
+      raised = true;
+    }
   }
   return raised;
 }
 
 void remember_turn_rates(System& system, std::span<const Vec3> velocities) {
-  for (TurnInertia& t : system.turn_inertias) t.rate = velocities[z(t.b)].w - velocities[z(t.a)].w;
+  if (system.turn_inertias.empty()) return;
+  for (const Joint& j : system.own_joints())
+    if (j.frame.line && system.record(j).turn_inertia >= 0) of(system, j);
+  for (TurnInertia& t : system.turn_inertias) t.rate = t.rate_of(velocities[z(t.a)], velocities[z(t.b)]);
 }
 
 void add_turn_impulses(System& system, std::span<Vec3> g) {
   for (TurnInertia& t : system.turn_inertias) {
-    t.impulse = t.inertia * (system.bodies[z(t.b)].v.w - system.bodies[z(t.a)].v.w - t.rate);
-    g[z(t.a)].w -= t.impulse;
-    g[z(t.b)].w += t.impulse;
+    t.impulse = t.inertia * (t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v) - t.rate);
+    t.add(t.impulse, g[z(t.a)], g[z(t.b)]);
   }
 }
 

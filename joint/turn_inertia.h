@@ -15,6 +15,14 @@
 // of its frequency. Rigid pieces have less mass in their shortest waves, m (1 − x (¼ − I/ml²)) for
 // eigenvalues x ≤ 4 of L: the same square with α + m (¼ − I/ml²), or the bound at x = 4 where that is larger.
 //
+// A line pulls at two anchors, r from the centres of mass, along its axis t over its length ℓ, and its bodies
+// turn each by itself. Its work to the second order, T/2 (y²/ℓ + t·r_a θ_a² − t·r_b θ_b²), with y by which
+// the anchors move across, has three stiffnesses K, and each that is not negative an inertia of its rate:
+//   C = max(0, s h²K/4 − m/8)      m: the mass that the rate moves
+// Σ C + M ≥ h²K/4 where a body has up to four lines; s = 1.1, as T may rise. C is raised by 1.3 at least, so
+// that a resolved vibration is slowed by (3.9 s − 1)φ²/24 at most; by the average acceleration method it is
+// by φ²/12.
+//
 // Pieces that rigid rows hold to each other turn as one, a clump. What is ϱ times as long and as heavy as its
 // pieces has T and all of the above with ϱ l and ϱ m; C of short pieces would be ϱ times what it needs, and
 // what swings on it too slow for its load.
@@ -35,8 +43,11 @@ bool follow_tension(System& system, double h);
 /// the solve is to be done once more.
 bool raise_to_tension(System& system, double h);
 
-/// Sets the rates after a step, with bodies' velocities in their new frames.
+/// Sets the rates after a step, with bodies' velocities in their new frames, and joints located there.
 void remember_turn_rates(System& system, std::span<const Vec3> velocities);
+
+/// J M⁻¹ Jᵀ of the rate.
+double inverse_mass(const System& system, const TurnInertia& t);
 
 /// Adds the gradient at the bodies' v, and writes each one's impulse.
 void add_turn_impulses(System& system, std::span<Vec3> g);

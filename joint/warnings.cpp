@@ -27,9 +27,6 @@ constexpr double most_left_out = 0.15;
 /// is kept, and ¾φ² of the energy is lost, 1 % at 0.115.
 constexpr double most_turn = 0.1;
 
-/// Of sideways().
-constexpr double most_swing = 2;
-
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
   char line[300];
   std::va_list values;
@@ -52,24 +49,6 @@ double mass_ratio(const b2Body* a, const b2Body* b) {
 double turn_about(const b2Body* body, const b2Vec2& local_anchor, double h) {
   if (!is_free(body) || !((local_anchor - body->GetLocalCenter()).Length() > b2_linearSlop)) return 0;
   return h * std::abs(double{body->GetAngularVelocity()});
-}
-
-/// How fast a taut line swings sideways, as (ωh)² of its bodies against each other. Its tension acts along
-/// the axis of the step's start: bodies that several lines hold swing at up to twice that, and from (ωh)² = 4
-/// on gain energy (leapfrog).
-double sideways(const ElasticPlasticJoint& line, double h) {
-  auto& j = const_cast<ElasticPlasticJoint&>(line);
-  b2Vec2 along = j.GetAnchorB() - j.GetAnchorA();
-  const double length = along.Normalize(), tension = line.force(axial);
-  if (!(tension > 0 && length > 0)) return 0;
-  const auto inverse_mass = [&](const b2Body* body, const b2Vec2& anchor) {
-    if (!is_free(body)) return 0.0;
-    const double arm = b2Dot(anchor - body->GetWorldCenter(), along), m = body->GetMass();
-    const double inertia = body->GetInertia() - m * body->GetLocalCenter().LengthSquared();
-    return 1 / m + (inertia > 0 ? arm * arm / inertia : 0);
-  };
-  return h * h * tension / length *
-         (inverse_mass(j.GetBodyA(), j.GetAnchorA()) + inverse_mass(j.GetBodyB(), j.GetAnchorB()));
 }
 
 /// The least width of a fixture without the skin that Box2D gives it, m.
@@ -137,8 +116,7 @@ std::vector<std::string> Structure::warnings() const {
   }
   int lowered = 0;
   double ratio = 1, contact_ratio = 1, width = unlimited;
-  double turn = 0, swing = 0;
-  const ElasticPlasticJoint* swinging = nullptr;
+  double turn = 0;
   std::uint32_t first_lowered = 0, widest = 0, turning = 0;
   for (const ElasticPlasticJoint* joint : structure.joints) {
     for (const Row row : {axial, shear, rotation}) {
@@ -146,14 +124,11 @@ std::vector<std::string> Structure::warnings() const {
     }
     auto* j = const_cast<ElasticPlasticJoint*>(joint);
     if (const double r = mass_ratio(j->GetBodyA(), j->GetBodyB()); r > ratio) ratio = r, widest = joint->id();
-    const Member& member = *structure.find(joint->id());
-    if (const Component* c = member.component; c != nullptr) {
+    if (const Component* c = structure.find(joint->id())->component; c != nullptr) {
       const double h = c->solver.step();
       const double most = std::max(turn_about(j->GetBodyA(), j->GetLocalAnchorA(), h),
                                    turn_about(j->GetBodyB(), j->GetLocalAnchorB(), h));
       if (most > turn) turn = most, turning = joint->id();
-      const double fastest = member.data().frame.line ? sideways(*joint, h) : 0;
-      if (fastest > swing) swing = fastest, swinging = joint;
     }
     for (const b2Body* body : {j->GetBodyA(), j->GetBodyB()}) {
       for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
@@ -175,12 +150,6 @@ std::vector<std::string> Structure::warnings() const {
         "joint %u turns by %.2f rad a step, where %.1g is promised: bodies are drawn apart as they turn, "
         "and a spin loses up to three quarters of the square of it; use a smaller step",
         turning, turn, most_turn));
-  }
-  if (swing > most_swing * 1.0001) {
-    all.push_back(text(
-        "joint %u, a line under %.3g N, swings sideways faster than the step follows, and may gain energy: "
-        "use a smaller step, a longer line or heavier bodies",
-        swinging->id(), swinging->force(axial)));
   }
   if (ratio > 1.0001e6) {
     all.push_back(

@@ -44,8 +44,10 @@ Matrix dense(const System& system) {
   }
   for (const TurnInertia& t : system.turn_inertias) {
     Vector d = Vector::Zero(n);
-    d[3 * t.a + 2] = system.bodies[z(t.a)].inertia > 0 ? -1 : 0;
-    d[3 * t.b + 2] = system.bodies[z(t.b)].inertia > 0 ? 1 : 0;
+    for (const auto& [body, row] : {std::pair{t.a, t.row_a}, std::pair{t.b, t.row_b}}) {
+      if (!system.is_free(body)) continue;
+      d.segment<3>(3 * body) << row.x, row.y, system.bodies[z(body)].inertia > 0 ? row.w : 0;
+    }
     H += t.inertia * d * d.transpose();
   }
   return H;
@@ -115,9 +117,15 @@ TEST(Hessian, FactorKnowsTurnInertias) {
     Hessian hessian;
     hessian.analyse(r.system);
     for (const Joint& j : r.system.joints) {
-      if (j.block < 0) continue;
-      r.system.turn_inertias.push_back(
-          {.a = j.a, .b = j.b, .block = j.block, .inertia = r.in(0, 2) * r.system.bodies[z(j.a)].mass});
+      TurnInertia t{
+          .a = j.a, .b = j.b, .block = j.block, .inertia = r.in(0, 2) * r.system.bodies[z(j.a)].mass};
+      if (seed % 2 == 1) {  // as of lines
+        t.row_a = {r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)};
+        t.row_b = {r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)};
+      } else if (j.block < 0) {
+        continue;
+      }
+      r.system.turn_inertias.push_back(t);
       held += (r.system.bodies[z(j.a)].inertia > 0) != (r.system.bodies[z(j.b)].inertia > 0) ? 1 : 0;
     }
     std::vector<Vec3> g(r.system.bodies.size());

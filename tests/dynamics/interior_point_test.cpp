@@ -630,7 +630,8 @@ TEST(InteriorPoint, LeavesAtRestWhatNothingMoves) {
   for (const Body& b : problem.system.bodies) EXPECT_EQ(dot(b.v, b.v), 0);
 }
 
-// Inertia C against a change of relative turn is a row of G = C without caps that is at rest at its rate.
+// Inertia C against a change of relative turn, or of the speed across, is a row of G = C without caps that is
+// at rest at its rate.
 // Velocities of both are good to the root of twice their gaps.
 TEST(InteriorPoint, KnowsTurnInertias) {
   int compared = 0;
@@ -642,20 +643,23 @@ TEST(InteriorPoint, KnowsTurnInertias) {
     const std::vector<Joint> joints = turns.system.joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const Joint& j = joints[k];
-      const double m_eff = turns.system.records[k].m_eff[2];
-      if (j.block < 0 || !(m_eff > 0) || random() % 2 == 0) continue;
+      const std::size_t of = random() % 2 == 0 ? 1 : 2;
+      const double m_eff = turns.system.records[k].m_eff[of];
+      if ((of == 2 && j.block < 0) || !(m_eff > 0) || random() % 2 == 0) continue;
       const double C = m_eff * std::pow(10.0, normal(random)), rate = normal(random);
-      turns.system.turn_inertias.push_back(
-          {.a = j.a, .b = j.b, .block = j.block, .inertia = C, .rate = rate});
+      TurnInertia t{.a = j.a, .b = j.b, .block = j.block, .inertia = C, .rate = rate};
+      if (of == 1) t.row_a = rows_of_a(j.J).v, t.row_b = rows_of_b(j.J).v;
+      turns.system.turn_inertias.push_back(t);
       Joint row = j;
-      row.bias = {0, 0, -rate};
+      row.bias = {};
+      row.bias[of] = -rate;
       row.impulse = {};
       rows.system.joints.push_back(row);
       JointRecord& r = rows.system.records.emplace_back();
       r.m_eff = turns.system.records[k].m_eff;
       r.law.h = turns.system.records[k].law.h;
-      r.law.G = {0, 0, C};
-      r.law.cap = r.law.cap_reverse = {0, 0, infinity};
+      r.law.G[of] = C;
+      r.law.cap[of] = r.law.cap_reverse[of] = infinity;
     }
     if (turns.system.turn_inertias.empty()) continue;
     rows.form();

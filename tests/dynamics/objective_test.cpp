@@ -21,12 +21,16 @@ std::vector<Vec3> direction(RandomSystem& r) {
   return d;
 }
 
-// Of the joints between free bodies.
+// Of the joints between free bodies, and as of lines of the others.
 void add_turn_inertias(RandomSystem& r) {
   for (const Joint& j : r.system.joints) {
-    if (!r.system.is_free(j.a) || !r.system.is_free(j.b)) continue;
     const double inertia = r.in(0, 2) * r.system.bodies[z(j.a)].mass;
-    r.system.turn_inertias.push_back({.a = j.a, .b = j.b, .inertia = inertia, .rate = r.in(-1, 1)});
+    TurnInertia t{.a = j.a, .b = j.b, .inertia = inertia, .rate = r.in(-1, 1)};
+    if (!r.system.is_free(j.a) || !r.system.is_free(j.b)) {
+      t.row_a = {r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)};
+      t.row_b = {r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)};
+    }
+    r.system.turn_inertias.push_back(t);
   }
 }
 
