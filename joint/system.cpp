@@ -13,7 +13,7 @@ void System::form(std::size_t free_bodies) {
   free = free_bodies;
   turn_inertias.clear();
   std::size_t inertias = 0;
-  for (const Joint& j : joints) inertias += j.frame.line ? 3 : 1;
+  for (const Joint& j : joints) inertias += turns_each(j) ? 3 : 1;
   turn_inertias.reserve(inertias);
   clumps.assign(free_bodies, {});
   for (JointRecord& r : records) r.turn_inertia = -1;
@@ -44,6 +44,13 @@ void System::form(std::size_t free_bodies) {
   }
 }
 
+bool System::turns_each(const Joint& j) const {
+  constexpr double alike = 4;
+  if (j.frame.line || !is_free(j.a) || !is_free(j.b)) return true;
+  const double a = bodies[z(j.a)].mass, b = bodies[z(j.b)].mass;
+  return a > alike * b || b > alike * a;
+}
+
 void System::keep(Tape& tape) {
   tape(places);
   if (tape.reads()) locate_all(*this);
@@ -62,9 +69,8 @@ void System::keep(Tape& tape) {
     JointRecord& r = record(j);
     if (tape.reads()) restore(j, r);
     if (r.turn_inertia < 0) continue;
-    const std::size_t count = j.frame.line ? 3 : 1;
-    if (z(r.turn_inertia) + count > turn_inertias.size() || (j.block < 0 && !j.frame.line))
-      return tape.refuse();
+    const std::size_t count = turns_each(j) ? 3 : 1;
+    if (z(r.turn_inertia) + count > turn_inertias.size() || (j.block < 0 && count == 1)) return tape.refuse();
     for (std::size_t i = 0; i < count; ++i) {
       TurnInertia& t = turn_inertias[z(r.turn_inertia) + i];
       t.a = j.a, t.b = j.b, t.block = j.block;

@@ -168,7 +168,7 @@ struct System {
   std::vector<Place> places;               // of the bodies
   std::vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
   std::vector<JointRecord> records;        // of the joints
-  std::vector<TurnInertia> turn_inertias;  // of some of them, one each, three of a line
+  std::vector<TurnInertia> turn_inertias;  // of some of them: one each, or three
   std::vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
   std::vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
   std::vector<Link> links;                 // whose rows follow the structure's own joints
@@ -188,6 +188,8 @@ struct System {
   std::span<const Joint> own_joints() const { return {joints.data(), own()}; }
   std::size_t first_contact() const { return joints.size() - contacts.size(); }
   bool is_free(int body) const { return z(body) < free; }
+  /// Whether tension between two bodies turns each by itself: turn_inertia.h.
+  bool turns_each(const Joint& joint) const;
 
   /// After form(), of the same bodies and joints.
   void keep(Tape& tape);

@@ -10,7 +10,7 @@ namespace ductile::dynamics {
 namespace {
 
 constexpr double safety = 2;         // s
-constexpr double line_safety = 1.1;  // s of lines
+constexpr double each_safety = 1.1;  // s of what turns each by itself
 constexpr double kept_time = 0.5;    // s that inertia is kept beyond its need
 
 int root_of(std::vector<Clump>& clumps, int i) {
@@ -51,29 +51,36 @@ struct Need {
   bool any() const { return inertia[0] > 0 || inertia[1] > 0 || inertia[2] > 0; }
 };
 
-// The rates of a line: at which its anchors move across, A turns, and B turns.
+// The rates of what turns each by itself: at which a line's anchors move across, A turns, and B turns.
 void set_rows(const Joint& j, TurnInertia* t) {
   const Frame& f = j.frame;
   const Turn &a = j.J.axis_a, &b = j.J.axis_b;
-  t[0].row_a = {a.s, -a.c, -(f.ax * a.c + f.ay * a.s)};
-  t[0].row_b = {-b.s, b.c, f.bx * b.c + f.by * b.s};
+  if (f.line) {
+    t[0].row_a = {a.s, -a.c, -(f.ax * a.c + f.ay * a.s)};
+    t[0].row_b = {-b.s, b.c, f.bx * b.c + f.by * b.s};
+  }
   t[1].row_a = t[2].row_b = {0, 0, 1};
   t[1].row_b = t[2].row_a = {};
 }
 
-Need needed_by_line(const System& system, const Joint& j, double h) {
+// What a joint needs where its bodies turn each by itself.
+Need needed_by_each(const System& system, const Joint& j, double h) {
   std::array<TurnInertia, 3> t;
   set_rows(j, t.data());
+  const Frame& f = j.frame;
+  const Turn &a = j.J.axis_a, &b = j.J.axis_b;
+  const double length = f.line ? system.record(j).gap[0] : 0, N = h * j.impulse[0], Q = h * j.impulse[1];
+  const std::array<double, 3> stiffness{
+      // times h²
+      length > 0 ? N / length : 0, N * (f.ax * a.c + f.ay * a.s) + Q * (f.ay * a.c - f.ax * a.s),
+      -N * (f.bx * b.c + f.by * b.s) - Q * (f.by * b.c - f.bx * b.s)};
   Need need{.count = 3};
-  const double pull = h * j.impulse[0], length = system.record(j).gap[0];  // h² T
-  if (!(pull > 0 && length > 0)) return need;
-  const std::array<double, 3> stiffness{pull / length, -pull * t[0].row_a.w, -pull * t[0].row_b.w};
   for (std::size_t i = 0; i < 3; ++i) {
     t[i].a = j.a, t[i].b = j.b;
     const double inverse = inverse_mass(system, t[i]);
     if (!(inverse > 0)) continue;
     need.mass[i] = 1 / inverse;
-    need.inertia[i] = std::max(0.0, line_safety / 4 * stiffness[i] - need.mass[i] / 8);
+    need.inertia[i] = std::max(0.0, each_safety / 4 * stiffness[i] - need.mass[i] / 8);
   }
   return need;
 }
@@ -83,9 +90,12 @@ class Needs {
  public:
   Needs(System& system, double h) : system_(system), h_(h) {}
   Need operator()(const Joint& j) {
-    if (j.frame.line) return needed_by_line(system_, j, h_);
-    return {.inertia = {needed_between_pieces(j)},
-            .mass = {std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia)}};
+    Need need;
+    if (system_.turns_each(j)) need = needed_by_each(system_, j, h_);
+    if (j.frame.line || j.block < 0) return need;
+    need.inertia[0] = needed_between_pieces(j);
+    need.mass[0] = std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia);
+    return need;
   }
 
  private:
@@ -110,18 +120,16 @@ void raise(TurnInertia& t, double to) {
   t.highest = t.unneeded = 0;
 }
 
-bool may_need(const Joint& j) { return j.block >= 0 || j.frame.line; }
-
 // Of a joint, and made for it.
 TurnInertia* of(System& system, const Joint& j) {
   int& index = system.record(j).turn_inertia;
   if (index < 0) {
     index = static_cast<int>(system.turn_inertias.size());
-    for (int i = 0; i < (j.frame.line ? 3 : 1); ++i)
+    for (int i = 0; i < (system.turns_each(j) ? 3 : 1); ++i)
       system.turn_inertias.push_back({.a = j.a, .b = j.b, .block = j.block});
   }
   TurnInertia* t = &system.turn_inertias[z(index)];
-  if (j.frame.line) set_rows(j, t);
+  if (system.turns_each(j)) set_rows(j, t);
   return t;
 }
 
@@ -151,7 +159,7 @@ bool follow_tension(System& system, double h) {
   bool changed = false;
   Needs needs(system, h);
   for (const Joint& j : system.own_joints()) {
-    if (!may_need(j)) continue;
+    if (j.block < 0 && !system.turns_each(j)) continue;
     const Need need = needs(j);
     if (!need.any() && system.record(j).turn_inertia < 0) continue;
     TurnInertia* t = of(system, j);
@@ -171,7 +179,7 @@ bool raise_to_tension(System& system, double h) {
   bool raised = false;
   Needs needs(system, h);
   for (const Joint& j : system.own_joints()) {
-    if (!may_need(j)) continue;
+    if (j.block < 0 && !system.turns_each(j)) continue;
     const Need need = needs(j);
     const int index = system.record(j).turn_inertia;
     for (std::size_t i = 0; i < need.count; ++i) {

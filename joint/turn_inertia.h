@@ -15,9 +15,11 @@
 // of its frequency. Rigid pieces have less mass in their shortest waves, m (1 − x (¼ − I/ml²)) for
 // eigenvalues x ≤ 4 of L: the same square with α + m (¼ − I/ml²), or the bound at x = 4 where that is larger.
 //
-// A line pulls at two anchors, r from the centres of mass, along its axis t over its length ℓ, and its bodies
-// turn each by itself. Its work to the second order, T/2 (y²/ℓ + t·r_a θ_a² − t·r_b θ_b²), with y by which
-// the anchors move across, has three stiffnesses K, and each that is not negative an inertia of its rate:
+// A light body is turned by itself: one on a line, whose other end swings with something else, on a support,
+// or on a body four times as heavy. A line of length ℓ pulls along its axis t at anchors r from the centres
+// of mass, and its work to the second order, T/2 (y²/ℓ + t·r_a θ_a² − t·r_b θ_b²), with y by which the
+// anchors move across, has three stiffnesses K; a joint has the last two, with all of its force for T t. Each
+// that is not negative has an inertia of its rate:
 //   C = max(0, s h²K/4 − m/8)      m: the mass that the rate moves
 // Σ C + M ≥ h²K/4 where a body has up to four lines; s = 1.1, as T may rise. C is raised by 1.3 at least, so
 // that a resolved vibration is slowed by (3.9 s − 1)φ²/24 at most; by the average acceleration method it is

@@ -23,10 +23,11 @@ struct Lines {
     bodies.push_back(add_box(world, {.y = y, .width = size, .height = size, .mass = mass, .group = -1}));
     return bodies.back();
   }
-  ElasticPlasticJoint* line(b2Body* a, double at_a, b2Body* b, double at_b, double EA) {
+  ElasticPlasticJoint* line(b2Body* a, double at_a, b2Body* b, double at_b, double EA, double pull = 0) {
     ElasticPlasticJointDef def;
     def.InitializeLine(a, b, vec(0, at_a), vec(0, at_b));
     def.rows[axial] = RowDef::rope(EA / std::abs(at_b - at_a));
+    def.length = std::abs(at_b - at_a) * (1 - pull / EA);
     return structure.create_joint(def);
   }
   void step() {
@@ -75,6 +76,48 @@ INSTANTIATE_TEST_SUITE_P(Loads, HookUnderLoad,
                                          Hook{20000, 60}, Hook{20000, 240}),
                          [](const auto& info) {
                            return std::to_string(std::lround(info.param.load)) + "_at_" +
+                                  std::to_string(std::lround(info.param.hz));
+                         });
+
+struct Plate {
+  bool line_above;  // a pin below; or the other way round
+  double hz;
+};
+class PlateUnderLoad : public testing::TestWithParam<Plate> {};
+
+// A plate of 50 kg, 0.4 m high, between a line and a pin, and 60 t on it: at the pin the same force turns it.
+TEST_P(PlateUnderLoad, HangsStillWhileItSwings) {
+  const auto [line_above, hz] = GetParam();
+  Lines lines(10, hz);
+  b2Body *crane = add_box(lines.world, {.width = 0.1, .height = 0.1, .type = b2_staticBody}),
+         *plate = lines.box(-5.2, 0.4, 50), *weight = lines.box(line_above ? -5.9 : -7.9, 1, 60000);
+  const auto pin = [&](b2Body* a, b2Body* b, double y) {
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, vec(0, y), {0, 1});
+    def.rows[rotation] = RowDef::free();
+    lines.structure.create_joint(def);
+  };
+  const double pull = (line_above ? 60050 : 60000) * 10., length = line_above ? 5 : 2;
+  if (line_above) {
+    lines.line(crane, 0, plate, -5, 3e7, pull);
+    pin(plate, weight, -5.4);
+  } else {
+    pin(crane, plate, -5);
+    lines.line(plate, -5.4, weight, -7.4, 3e7, pull);
+  }
+  weight->SetLinearVelocity({0.3f, 0});
+  const double stored = pull * pull * length / 3e7 / 2, first = lines.energy() + stored;
+  for (int i = 0; i < 40 * hz; ++i) {
+    lines.step();
+    ASSERT_LE(lines.energy(), first + 1e-4 * (60000 * 0.045 + stored)) << "step " << i;
+    ASSERT_LT(std::abs(plate->GetAngle()), 0.5) << "step " << i;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Places, PlateUnderLoad,
+                         testing::Values(Plate{true, 30}, Plate{true, 60}, Plate{false, 30},
+                                         Plate{false, 60}),
+                         [](const auto& info) {
+                           return (info.param.line_above ? "line_above_at_" : "line_below_at_") +
                                   std::to_string(std::lround(info.param.hz));
                          });
 
