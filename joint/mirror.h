@@ -34,12 +34,14 @@ struct Mirror {
   bool guest = false;                   // touches the structure or is tied to it, but no joint of it
   const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
 
-  b2Position left{};      // pose as it was left
-  b2Velocity given{};     // velocity as it was left
-  Vec3 exact;             // what `given` is rounded of, world axes
-  b2Velocity taken{};     // velocity that Box2D had at the step's start
-  b2Velocity expected{};  // what gravity, damping and contacts' stored impulses make of `given`, bit by bit
-  Vec3 alone;             // what gravity and damping alone make of it, not rounded
+  // Not {}: b2Vec2's own constructor leaves its numbers as they are.
+  b2Position left{{0, 0}, 0};   // pose as it was left
+  b2Velocity given{{0, 0}, 0};  // velocity as it was left
+  Vec3 exact;                   // what `given` is rounded of, world axes
+  b2Velocity taken{{0, 0}, 0};  // velocity that Box2D had at the step's start
+  // What gravity, damping and contacts' stored impulses make of `given`, bit by bit.
+  b2Velocity expected{{0, 0}, 0};
+  Vec3 alone;                    // what gravity and damping alone make of it, not rounded
   b2Velocity pushed{{0, 0}, 0};  // what others have added to it since
   float rounding = 0;            // m/s: of `taken`, by the contacts' stored impulses in it
   int32 island_index = 0;
