@@ -137,11 +137,11 @@ void cut(const Polyline& line, const Pen& pen, std::vector<Polyline>& out) {
     at = (at + 1) % lengths.size();
   }
   double left = lengths[at] - offset;
-  constexpr std::size_t most = 100'000;
+  constexpr std::size_t most = 10'000;
   const auto begin = [&](const Point& p) {
     if (at % 2 == 0) out.push_back({{p}, false});
     if (out.size() > most) {
-      throw ShapeError("stroke-dasharray", "makes more than 100000 dashes", "make the dashes longer");
+      throw ShapeError("stroke-dasharray", "makes more than 10000 dashes", "make the dashes longer");
     }
   };
   begin(line.points[0]);

@@ -18,7 +18,7 @@ struct Pen {
 };
 
 /// Rings that together, by the non-zero rule, cover what the pen draws; round joins and caps within the
-/// tolerance. Throws ShapeError where there are more than 100,000 dashes.
+/// tolerance. Throws ShapeError where there are more than 10,000 dashes.
 std::vector<Ring> stroke(const std::vector<Polyline>& lines, const Pen& pen, double tolerance);
 
 }  // namespace ductile::svg

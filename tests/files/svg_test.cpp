@@ -287,6 +287,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"two_areas", path("M0 0h1v1h-1z M3 3h1v1h-1z"), "2 separate areas"},
         Bad{"island_in_a_hole", path("M0 0h9v9h-9z M1 1v7h7v-7z M3 3h2v2h-2z"), "2 separate areas"},
         Bad{"only_a_line", path("M 0 0 L 10 10"), "no area"},
+        Bad{"dashes_without_end", "<path id='a' d='M 0 0 H 99' stroke='red' stroke-dasharray='0.001'/>",
+            "makes more than 10000 dashes; make the dashes longer"},
         Bad{"group_of_two", "<g id='a'><rect width='1' height='1'/><rect width='1' height='1'/></g>",
             "2 shapes; name the shape itself: rect 1, rect 2"},
         Bad{"text", "<text id='a'>x</text>", "#a: is text; turn it into a path"},
