@@ -53,6 +53,10 @@ inline constexpr double rigid_ratio = 1e9;
 /// not ring in them.
 inline constexpr double stiff_ratio = 1e5;
 
+/// Likewise beyond so many m_eff/h² where steps vary or bodies turn far in one: what parts them then is not
+/// what it was in the step before, and springs that no step resolves, ωh ≥ π, would store it.
+inline constexpr double unresolved_ratio = 10;
+
 /// δ at least of rows that go slack or are driven, which carry w over alone: what they did is not what was
 /// before. γ = 0, r = m, u₋ = p and d = δ.
 inline constexpr double special_delta = 0.05;
