@@ -37,11 +37,12 @@ void Solver::begin(double h) {
   newton_.interior_point.begin_step();
   motion_.share = 1;
   keeps_friction_ = false;
-  if (h != step()) prediction_.forget();
+  const double last_h = step();
+  if (h != last_h) prediction_.forget();
   const bool other_laws = laws_.begin(*this, h);
   if (other_laws) list_special(*this);
   begin_drives(*this, h);
-  if (follow_tension(*this, h) || other_laws) hessian_.forget();
+  if (follow_tension(*this, h, last_h) || other_laws) hessian_.forget();
 }
 
 void Solver::divide(double parts) {

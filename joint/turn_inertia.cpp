@@ -155,9 +155,9 @@ double inverse_mass(const System& system, const TurnInertia& t) {
   return of_body(t.a, t.row_a) + of_body(t.b, t.row_b);
 }
 
-bool follow_tension(System& system, double h) {
+bool follow_tension(System& system, double h, double last_h) {
   bool changed = false;
-  Needs needs(system, h);
+  Needs needs(system, last_h > 0 ? h * std::max(1.0, h / last_h) : h);
   for (const Joint& j : system.own_joints()) {
     if (j.block < 0 && !system.turns_each(j)) continue;
     const Need need = needs(j);

@@ -36,10 +36,10 @@
 
 namespace ductile::dynamics {
 
-/// Before a step of h seconds, from the last step's impulses: inertia that is gained enters at equal turn
-/// rates, so that no energy comes of it; what is not needed any more goes after half a second, so that
-/// factors last. True where H changed.
-bool follow_tension(System& system, double h);
+/// Before a step of h seconds, from the impulses of the last one's tension, in last_h seconds or, where that
+/// is less, in h: inertia that is gained enters at equal turn rates, so that no energy comes of it; what is
+/// not needed any more goes after half a second, so that factors last. True where H changed.
+bool follow_tension(System& system, double h, double last_h);
 
 /// After a solve: true where its impulses ask for half as much again as there is, which was raised then, and
 /// the solve is to be done once more.
