@@ -156,6 +156,10 @@ double inverse_mass(const System& system, const TurnInertia& t) {
 }
 
 bool follow_tension(System& system, double h, double last_h) {
+  // What is faster than steps is excited where they vary, as a swing by whoever stands on it: there it loses
+  // of its rate what the steps differ by.
+  if (last_h > 0 && h != last_h)
+    for (TurnInertia& t : system.turn_inertias) t.rate *= std::min(h / last_h, last_h / h);
   bool changed = false;
   Needs needs(system, last_h > 0 ? h * std::max(1.0, h / last_h) : h);
   for (const Joint& j : system.own_joints()) {
