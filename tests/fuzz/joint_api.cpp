@@ -88,7 +88,7 @@ class Game : b2DestructionListener {
     const unsigned code = in_.next();
     if (code == 240) {
       snapshot_.save(*world_);
-      saved_ = {bodies_, stock_, budget_, most_, turn_, unheld_};
+      saved_ = {bodies_, stock_, budget_, most_, turn_, unheld_, last_dt_};
       return;
     }
     if (code == 243) return go_back();
@@ -410,7 +410,7 @@ class Game : b2DestructionListener {
     bodies_ = saved_.bodies;
     stock_ = saved_.stock;
     budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn;
-    unheld_ = saved_.unheld;
+    unheld_ = saved_.unheld, last_dt_ = saved_.last_dt;
   }
 
   void happened(const JointEvent& event) {
@@ -503,8 +503,11 @@ class Game : b2DestructionListener {
     // to second order: kinetic energy alone is held to what there was.
     require(turn_ > 0.3 || !held || kinetic() <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding,
             "no energy from nowhere");
-    // While the speed limit keeps a gap from closing, what it takes comes back with the gap.
-    if (report.slowed == 0) budget_ = held ? std::min(budget_, now) : now;
+    // While the speed limit keeps a gap from closing, what it takes comes back with the gap. After a step of
+    // another length velocities are as old as half of both, and strains are not: what is too little of a
+    // vibration then comes back, too.
+    const bool of_one_time = std::exchange(last_dt_, dt) == dt;
+    if (report.slowed == 0 && (of_one_time || !held)) budget_ = held ? std::min(budget_, now) : now;
   }
 
   /// The angle, rad, by which a body turns in a step against the world or a body that it is joined to, times
@@ -615,6 +618,7 @@ class Game : b2DestructionListener {
   bool judged_ = false, veto_ = false;
   bool curved_ = false;  // some joint has a yield surface
   bool unheld_ = false;  // in the last step, by request
+  float last_dt_ = 0;    // s
   bool moved_ = false;   // a body that holds others, by hand
   int mischief_ = 0, steps_ = 0;
   double size_ = 1, place_ = 0;
@@ -628,6 +632,7 @@ class Game : b2DestructionListener {
     std::vector<b2Joint*> stock;
     double budget = 0, most = 0, turn = 0;
     bool unheld = false;
+    float last_dt = 0;
   } saved_;
   StructureDef def_;
   std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});
