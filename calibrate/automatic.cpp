@@ -253,17 +253,12 @@ class Automatic {
     const int patience = outline_.holes.empty() && !is_slender() ? 1 : 3;
     double last = std::numeric_limits<double>::infinity(), last_n = 0;
     int round = 0, stalled = 0;
-    const auto attempt = [&](double n, double& h) {
-      h = std::max(extent / n, least_side);
+    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
+      double h = std::max(extent / n, least_side);
       std::vector<PlacedCut> cuts = place_cuts(h);
       for (; static_cast<double>(cuts.size()) > 2 * most_parts; h *= 2) cuts = place_cuts(2 * h);
-      const double own = error_of(cuts);
+      const double own = error_of(cuts), expected = last * (last_n / n) * (last_n / n);
       tries.push_back({std::move(cuts), own});
-      return own;
-    };
-    for (double n = std::min(std::ceil(std::sqrt((clamped_both_ ? 8 : 1) / target_)), most_parts);;) {
-      double h = 0;
-      const double own = attempt(n, h), expected = last * (last_n / n) * (last_n / n);
       const bool stalls = own > 1.5 * expected && own > 0.7 * last;
       if (own <= margin * target_ || (stalls && ++stalled == patience) || h > extent / n || n >= most_parts)
         break;
