@@ -573,11 +573,13 @@ class Game : b2DestructionListener {
   }
 
   /// Joints reach so far that rounding of what turns is as fast as anything else; or were thrown so far apart
-  /// that their forces at the arms that they have now are beyond double precision.
+  /// that their forces at the arms that they have now are beyond double precision; or are where the floats of
+  /// Box2D's poses are a hundredth of a size apart, and part them by that in each step.
   bool far() const {
     return std::any_of(
         structure_->joints().begin(), structure_->joints().end(), [this](ElasticPlasticJoint* j) {
-          return std::max(apart(*j->GetBodyA(), j->GetAnchorA()), apart(*j->GetBodyB(), j->GetAnchorB())) >
+          return 6e-8f * j->GetAnchorA().Length() > 0.01 * size_ ||
+                 std::max(apart(*j->GetBodyA(), j->GetAnchorA()), apart(*j->GetBodyB(), j->GetAnchorB())) >
                      1000 ||
                  b2Distance(j->GetAnchorA(), j->GetAnchorB()) > 30 * size_;
         });
