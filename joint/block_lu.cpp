@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ductile::dynamics {
@@ -13,18 +14,18 @@ namespace {
 std::array<unsigned char, 3> factor_with_pivots(Block& block) {
   double* m = block.a;
   std::array<unsigned char, 3> rows{0, 1, 2};
-  for (unsigned j = 0; j < 3; ++j) {
-    unsigned pivot = j;
-    for (unsigned i = j + 1; i < 3; ++i)
+  for (std::size_t j = 0; j < 3; ++j) {
+    std::size_t pivot = j;
+    for (std::size_t i = j + 1; i < 3; ++i)
       if (std::abs(m[3 * i + j]) > std::abs(m[3 * pivot + j])) pivot = i;
     if (pivot != j) {
       std::swap_ranges(m + 3 * j, m + 3 * j + 3, m + 3 * pivot);
       std::swap(rows[j], rows[pivot]);
     }
     m[4 * j] = 1 / m[4 * j];
-    for (unsigned i = j + 1; i < 3; ++i) {
+    for (std::size_t i = j + 1; i < 3; ++i) {
       m[3 * i + j] *= m[4 * j];
-      for (unsigned k = j + 1; k < 3; ++k) m[3 * i + k] -= m[3 * i + j] * m[3 * j + k];
+      for (std::size_t k = j + 1; k < 3; ++k) m[3 * i + k] -= m[3 * i + j] * m[3 * j + k];
     }
   }
   return rows;

@@ -25,7 +25,7 @@ inline void add_product(Block& block, const JacobianRows& left, const JacobianRo
 // Likewise, of a row each.
 void add_product(Block& block, double by, const Vec3& left, const Vec3& right) {
   const double rows[3] = {by * left.x, by * left.y, by * left.w};
-  for (int r = 0; r < 3; ++r) {
+  for (std::size_t r = 0; r < 3; ++r) {
     block.a[3 * r] += rows[r] * right.x;
     block.a[3 * r + 1] += rows[r] * right.y;
     block.a[3 * r + 2] += rows[r] * right.w;
