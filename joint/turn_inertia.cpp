@@ -51,7 +51,8 @@ struct Need {
   bool any() const { return inertia[0] > 0 || inertia[1] > 0 || inertia[2] > 0; }
 };
 
-// The rates of what turns each by itself: at which a line's anchors move across, A turns, and B turns.
+// The rates where tension turns each body by itself: at which a line's anchors move across, A turns, and B
+// turns.
 void set_rows(const Joint& j, TurnInertia* t) {
   const Frame& f = j.frame;
   const Turn &a = j.J.axis_a, &b = j.J.axis_b;
@@ -63,17 +64,17 @@ void set_rows(const Joint& j, TurnInertia* t) {
   t[1].row_b = t[2].row_a = {};
 }
 
-// What a joint needs where its bodies turn each by itself.
+// What a joint needs whose bodies tension turns each by itself.
 Need needed_by_each(const System& system, const Joint& j, double h) {
   std::array<TurnInertia, 3> t;
   set_rows(j, t.data());
   const Frame& f = j.frame;
   const Turn &a = j.J.axis_a, &b = j.J.axis_b;
   const double length = f.line ? system.record(j).gap[0] : 0, N = h * j.impulse[0], Q = h * j.impulse[1];
-  const std::array<double, 3> stiffness{
-      // times h²
-      length > 0 ? N / length : 0, N * (f.ax * a.c + f.ay * a.s) + Q * (f.ay * a.c - f.ax * a.s),
-      -N * (f.bx * b.c + f.by * b.s) - Q * (f.by * b.c - f.bx * b.s)};
+  // K, times h².
+  const std::array<double, 3> stiffness{length > 0 ? N / length : 0,
+                                        N * (f.ax * a.c + f.ay * a.s) + Q * (f.ay * a.c - f.ax * a.s),
+                                        -N * (f.bx * b.c + f.by * b.s) - Q * (f.by * b.c - f.bx * b.s)};
   Need need{.count = 3};
   for (std::size_t i = 0; i < 3; ++i) {
     t[i].a = j.a, t[i].b = j.b;
