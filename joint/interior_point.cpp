@@ -235,8 +235,10 @@ InteriorPoint::Outcome InteriorPoint::solve(System& system, Hessian& hessian, Ev
   const bool found = follows_friction_ && !system.contacts.empty() && go(system, hessian, true, outcome);
   if (!found) {
     // Coulomb's law is no potential's derivative, and there may be no way to where it holds. Caps that stay
-    // leave a convex problem; the solve after this one has other caps.
+    // leave a convex problem; the solve after this one has other caps. What led nowhere is no place to start
+    // from.
     follows_friction_ = system.contacts.empty();
+    moderate_start(system);
     go(system, hessian, false, outcome);
   }
   outcome.reached = outcome.gap <= outcome.tolerance;

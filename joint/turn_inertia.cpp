@@ -93,9 +93,13 @@ class Needs {
   Need operator()(const Joint& j) {
     Need need;
     if (system_.turns_each(j)) need = needed_by_each(system_, j, h_);
-    if (j.frame.line || j.block < 0) return need;
-    need.inertia[0] = needed_between_pieces(j);
-    need.mass[0] = std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia);
+    if (!j.frame.line && j.block >= 0) {
+      need.inertia[0] = needed_between_pieces(j);
+      need.mass[0] = std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia);
+    }
+    // What is as good as rigid will do: more, of a joint that is jammed, would be lost beside the masses.
+    for (std::size_t i = 0; i < need.count; ++i)
+      need.inertia[i] = std::min(need.inertia[i], rigid_ratio * need.mass[i]);
     return need;
   }
 

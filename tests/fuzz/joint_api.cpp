@@ -98,7 +98,10 @@ class Game : b2DestructionListener {
         break;
       case 1:
       case 2:
-        if (body()) make_joint(body(), body());
+        if (body() != nullptr) {
+          b2Body *a = body(), *b = body();
+          make_joint(a, b);
+        }
         break;
       case 3:
         make_chain(1 + in_.below(8));
@@ -121,12 +124,13 @@ class Game : b2DestructionListener {
       case 11:
         if (b2Body* b = body()) {
           const double fast = in_.scale(-3, 3) * size_;
-          b->SetLinearVelocity(vec(fast * in_.share(), fast * in_.share()));
-          b->SetAngularVelocity(static_cast<float>(in_.scale(-3, 2) * in_.share()));
+          b->SetLinearVelocity(Vec{fast * in_.share(), fast * in_.share()});
+          const double turn = in_.scale(-3, 2);
+          b->SetAngularVelocity(static_cast<float>(turn * in_.share()));
         }
         break;
       case 12:
-        world_->ShiftOrigin(vec(place_ * in_.share(), size_ * 100 * in_.share()));
+        world_->ShiftOrigin(Vec{place_ * in_.share(), size_ * 100 * in_.share()});
         break;
       case 13:
         if (b2Body* b = body()) {
@@ -159,8 +163,8 @@ class Game : b2DestructionListener {
         break;
       case 21:
         if (b2Body* b = body(); b && !judged_) {
-          b->ApplyForceToCenter(vec(in_.share() * in_.scale(0, 8), in_.share() * in_.scale(0, 8)), true);
-          b->ApplyTorque(static_cast<float>(in_.share() * in_.scale(0, 8)), true);
+          b->ApplyForceToCenter(Vec{share_of(0, 8), share_of(0, 8)}, true);
+          b->ApplyTorque(static_cast<float>(share_of(0, 8)), true);
         }
         break;
       case 22:
@@ -189,7 +193,11 @@ class Game : b2DestructionListener {
     }
   }
 
-  static b2Vec2 vec(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+  /// As braces are, its numbers are read from left to right by every compiler.
+  struct Vec {
+    double x, y;
+    operator b2Vec2() const { return {static_cast<float>(x), static_cast<float>(y)}; }
+  };
 
   b2Body* make_body(const b2Vec2* at = nullptr) {
     if (bodies_.size() >= 24) return nullptr;
@@ -197,14 +205,14 @@ class Game : b2DestructionListener {
     const b2BodyType types[] = {b2_dynamicBody, b2_dynamicBody, b2_dynamicBody, b2_staticBody,
                                 b2_kinematicBody};
     def.type = types[in_.below(5)];
-    def.position = at ? *at : vec(place_ + 8 * size_ * in_.share(), 8 * size_ * in_.share());
+    def.position = at ? *at : Vec{place_ + 8 * size_ * in_.share(), 8 * size_ * in_.share()};
     def.angle = static_cast<float>(in_.share() * 2 * std::numbers::pi);
     const unsigned how = in_.next();
     def.fixedRotation = (how & 7u) == 7;
     def.bullet = (how & 8u) != 0;
     def.enabled = (how & 0xf0u) != 0xf0;
     if (def.type == b2_kinematicBody && !judged_) {
-      def.linearVelocity = vec(size_ * 4 * in_.share(), size_ * 4 * in_.share());
+      def.linearVelocity = Vec{size_ * 4 * in_.share(), size_ * 4 * in_.share()};
       def.angularVelocity = static_cast<float>(in_.share());
     }
     b2Body* b = world_->CreateBody(&def);
@@ -229,6 +237,10 @@ class Game : b2DestructionListener {
     b->CreateFixture(&def);
   }
 
+  double share_of(double low, double high) {
+    const double share = in_.share();
+    return share * in_.scale(low, high);
+  }
   /// Joint by joint only pieces that are about as heavy as each other hold together.
   double some_mass() { return iterative() ? in_.scale(2, 3) : in_.scale(0, 6); }
   bool iterative() const { return def_.solver == SolverKind::iterative; }
@@ -236,7 +248,7 @@ class Game : b2DestructionListener {
   void set_mass(b2Body* b, double mass, double wide, double high) {
     const double inertia = mass * (wide * wide + high * high) / 12;
     const double x = wide * in_.share() / 4, y = high * in_.share() / 4;
-    const b2MassData data{static_cast<float>(mass), vec(x, y),
+    const b2MassData data{static_cast<float>(mass), Vec{x, y},
                           static_cast<float>(inertia + mass * (x * x + y * y))};
     b->SetMassData(&data);
   }
@@ -263,8 +275,9 @@ class Game : b2DestructionListener {
     ElasticPlasticJointDef def;
     const double out = in_.flag() ? 0.5 : 3;
     const b2Vec2 between = 0.5f * (a->GetWorldCenter() + b->GetWorldCenter());
-    def.Initialize(a, b, between + vec(out * size_ * in_.share(), out * size_ * in_.share()),
-                   vec(in_.share() + 1.01, in_.share()));
+    const Vec from{out * size_ * in_.share(), out * size_ * in_.share()};
+    const Vec axis{in_.share() + 1.01, in_.share()};
+    def.Initialize(a, b, between + from, axis);
     // As strong as to carry so many kilograms over its length.
     const double strong = 1e5, stiff = 1e9;
     def.rows[axial] = row(strong, stiff);
@@ -296,7 +309,7 @@ class Game : b2DestructionListener {
   void make_chain(int pieces) {
     b2Body* last = body();
     for (int i = 0; i < pieces; ++i) {
-      const b2Vec2 at = last ? last->GetWorldCenter() + vec(size_, 0) : vec(place_, 0);
+      const b2Vec2 at = last ? last->GetWorldCenter() + Vec{size_, 0} : b2Vec2(Vec{place_, 0});
       b2Body* next = make_body(&at);
       if (!next) return;
       if (last) make_joint(last, next);
@@ -316,8 +329,8 @@ class Game : b2DestructionListener {
     if (!b) return;
     moved_ |= holds(*b);
     const double far = in_.scale(-4, 0) * size_;
-    b->SetTransform(b->GetPosition() + vec(far * in_.share(), far * in_.share()),
-                    b->GetAngle() + static_cast<float>(in_.share() * in_.scale(-4, 0.5)));
+    const Vec by{far * in_.share(), far * in_.share()};
+    b->SetTransform(b->GetPosition() + by, b->GetAngle() + static_cast<float>(share_of(-4, 0.5)));
   }
 
   void change_fixtures(b2Body* b) {
@@ -327,7 +340,9 @@ class Game : b2DestructionListener {
     } else {
       int count = 0;
       for (const b2Fixture* f = b->GetFixtureList(); f; f = f->GetNext()) ++count;
-      if (count < 3) add_fixture(b, size_ * in_.scale(-0.5, 0.5), size_ * in_.scale(-0.5, 0.5));
+      if (count == 3) return;
+      const Vec size{size_ * in_.scale(-0.5, 0.5), size_ * in_.scale(-0.5, 0.5)};
+      add_fixture(b, size.x, size.y);
     }
   }
 
@@ -356,16 +371,15 @@ class Game : b2DestructionListener {
   }
 
   void change(ElasticPlasticJoint& j, Row which, int what) {
-    switch (what) {
-      case 0:
-        j.set_caps(which, in_.scale(-3, 9), in_.scale(-3, 9));
-        break;
-      case 1:
-        j.set_stiffness(which, in_.flag() ? rigid : in_.scale(0, 15), in_.scale(-3, 2));
-        break;
-      default:
-        j.set_limits(in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1));
-        break;
+    if (what == 0) {
+      const double caps[] = {in_.scale(-3, 9), in_.scale(-3, 9)};
+      j.set_caps(which, caps[0], caps[1]);
+    } else if (what == 1) {
+      const double spring[] = {in_.flag() ? rigid : in_.scale(0, 15), in_.scale(-3, 2)};
+      j.set_stiffness(which, spring[0], spring[1]);
+    } else {
+      const double limits[] = {in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1), in_.scale(-3, 1)};
+      j.set_limits(limits[0], limits[1], limits[2], limits[3]);
     }
   }
 
@@ -383,7 +397,7 @@ class Game : b2DestructionListener {
     b2WeldJointDef weld;
     weld.Initialize(a, b, at);
     b2MouseJointDef mouse;
-    mouse.bodyA = a, mouse.bodyB = b, mouse.target = at + vec(size_, size_);
+    mouse.bodyA = a, mouse.bodyB = b, mouse.target = at + Vec{size_, size_};
     mouse.maxForce = 1e5f, mouse.stiffness = 1e4f, mouse.damping = 1e3f;
     const b2JointDef* defs[] = {&pin, &rope, &weld, &mouse};
     const int kind = in_.below(4);
