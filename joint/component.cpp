@@ -12,10 +12,11 @@
 namespace ductile::dynamics {
 
 Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind,
-                     std::vector<BodyPair> touching)
+                     std::vector<BodyPair> touching, std::vector<b2Body*> ordered)
     : solver(solver_kind == SolverKind::iterative),
       members(std::move(enlisted_members)),
-      met(std::move(touching)) {
+      met(std::move(touching)),
+      formed_of_(members.size()) {
   constexpr int unnumbered = std::numeric_limits<int>::max();
   by_address_.reserve(2 * (members.size() + met.size()));
   for (const Member* m : members) {
@@ -54,20 +55,21 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   }
   for (const BodyPair& pair : met) count_in(pair.a), count_in(pair.b);
   const std::size_t free_bodies = bodies.size();
-  std::vector<std::pair<int, int>> edges;
-  edges.reserve(members.size() + met.size());
-  for (const Member* m : members) {
-    b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
-    if (is_free(a) && is_free(b)) edges.emplace_back(number(a), number(b));
+  if (ordered.empty()) {
+    std::vector<std::pair<int, int>> edges;
+    edges.reserve(members.size() + met.size());
+    for (const Member* m : members) {
+      b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
+      if (is_free(a) && is_free(b)) edges.emplace_back(number(a), number(b));
+    }
+    for (const BodyPair& pair : met) {
+      if (is_free(pair.a) && is_free(pair.b)) edges.emplace_back(number(pair.a), number(pair.b));
+    }
+    ordered.reserve(free_bodies + others.size());
+    for (const int i : BlockLdlt::order_for(static_cast<int>(free_bodies), edges))
+      ordered.push_back(bodies[z(i)]);
+    ordered.insert(ordered.end(), others.begin(), others.end());
   }
-  for (const BodyPair& pair : met) {
-    if (is_free(pair.a) && is_free(pair.b)) edges.emplace_back(number(pair.a), number(pair.b));
-  }
-  const std::vector<int> order = BlockLdlt::order_for(static_cast<int>(free_bodies), edges);
-  std::vector<b2Body*> ordered;
-  ordered.reserve(free_bodies + others.size());
-  for (const int i : order) ordered.push_back(bodies[z(i)]);
-  ordered.insert(ordered.end(), others.begin(), others.end());
 
   const b2Vec2 near = ordered.front()->GetWorldCenter();
   origin = {std::round(near.x), std::round(near.y)};
@@ -161,6 +163,20 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   }
 }
 
+void Component::remove(Member& m) {
+  Joint& j = solver.joints[m.index];
+  if (!solver.gaps_known) solver.record(j).gap = dynamics::locate(j, solver.places);
+  hand_back(m);
+  m.belong_to(nullptr);
+  met.push_back({m.joint->GetBodyA(), m.joint->GetBodyB()});
+  for (const int body : {j.a, j.b}) mirrors[z(body)].lose_joint();
+  solver.remove(m.index);
+  members[m.index] = members.back();
+  members[m.index]->index = m.index;
+  members.pop_back();
+  rest_ = Rest::none;
+}
+
 // Whether a new joint's bodies come with velocities that it does not leave them.
 bool Component::parts(const Joint& j) const {
   const auto of_body = [&](int i) {
@@ -187,6 +203,7 @@ KnownPose Component::known(int body) const {
 void Component::hand_back(Member& m) const {
   const Joint& j = solver.joints[m.index];
   m.own = {j, solver.records[m.index], solver.drift_time(), {known(j.a), known(j.b)}, m.own.fresh};
+  if (m.broken) m.own.joint.impulse = {};
 }
 
 bool Component::fits_bodies() const {
@@ -199,7 +216,7 @@ bool Component::is_of(const Structure::Impl& structure) const {
 
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
-  tape(origin, displaced_, struck_, rests, mirrors, parts_, solver);
+  tape(origin, formed_of_, displaced_, struck_, rests, mirrors, parts_, solver);
   rest_ = rests ? Rest::expected : Rest::none;
 }
 

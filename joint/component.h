@@ -3,6 +3,7 @@
 
 #include <box2d/box2d.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -90,8 +91,22 @@ struct Component {
     std::vector<b2Velocity> lost;   // what limit_speed() took since
   };
 
-  /// Of these joints, and of what touches their bodies.
-  Component(std::vector<Member*> enlisted, SolverKind kind, std::vector<BodyPair> touching);
+  /// Of these joints, and of what touches their bodies. Where the order of elimination is given, it has all
+  /// of their bodies.
+  Component(std::vector<Member*> enlisted, SolverKind kind, std::vector<BodyPair> touching,
+            std::vector<b2Body*> order = {});
+  /// Whether it may go on when so many joints leave it. It drags along what they left: rows of bodies that it
+  /// has no more, and an order of elimination for what they held together. One that is swept has its rows in
+  /// the order in which they were made.
+  bool outlasts(std::size_t leaving) const {
+    return direct() && leaving < members.size() &&
+           members.size() - leaving + std::max<std::size_t>(4, formed_of_ / 16) >= formed_of_;
+  }
+  /// Between steps, or before the first call of one: the joint leaves, and nothing else is formed anew. Its
+  /// bodies keep their places, in the order of elimination and in the pattern of H, as guests do.
+  void remove(Member& member);
+  /// Whether joints have left it since it was formed.
+  bool is_worn() const { return members.size() < formed_of_; }
 
   /// Before a step: where the island has the bodies, and whether they are still what the component was formed
   /// for. Takes their velocities, but where the step may be the last one again.
@@ -131,9 +146,10 @@ struct Component {
 
   Solver solver;
   std::vector<Member*> members;  // as solver.joints
-  std::vector<BodyPair> met;     // what touched when the component was formed: guests may be no more
-  std::vector<Mirror> mirrors;   // as solver.bodies
-  Origin origin;                 // of the solver's poses
+  /// What touched when the component was formed, or was joined since: guests may be no more.
+  std::vector<BodyPair> met;
+  std::vector<Mirror> mirrors;  // as solver.bodies
+  Origin origin;                // of the solver's poses
   Account account;
   std::vector<Structure::Impl*> structures;  // of its members; the first reports its energies
   std::size_t enlisted = 0;                  // joints of it that the island has, while these are enlisted
@@ -147,6 +163,7 @@ struct Component {
   bool is_whole() const;
   int freedom(std::size_t body, std::size_t free_bodies) const;
   int index_of(const b2Body* body) const;
+  bool is_of_another(int body) const;
   bool knows(int a, int b) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
@@ -196,6 +213,7 @@ struct Component {
   std::vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
   std::vector<Pose> goal_;  // of a projection
+  std::size_t formed_of_;   // joints
   bool displaced_ = false;  // bodies were moved apart while their joint was in no island
   bool struck_ = false;     // velocities were changed between the steps
   Parts parts_;

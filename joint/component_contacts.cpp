@@ -7,13 +7,14 @@
 #include "component.h"
 #include "frames.h"
 #include "seams.h"
+#include "structure.h"
 
 namespace ductile::dynamics {
 
 bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
-  if (!knows(t.in_a, t.in_b)) return false;
+  if (!knows(t.in_a, t.in_b) || is_of_another(t.in_a) || is_of_another(t.in_b)) return false;
   t.at_seam = is_at_seam(t);
   outside_.touches.push_back(t);
   return true;
@@ -24,6 +25,12 @@ bool Component::knows(int a, int b) const {
   if (a < 0 || b < 0) return false;
   const std::pair<int, int> pair = std::minmax(a, b);
   return !solver.is_free(pair.second) || std::binary_search(solver.pairs.begin(), solver.pairs.end(), pair);
+}
+
+// Whether a guest is a piece of another component: one that was of this one, and broke off.
+bool Component::is_of_another(int body) const {
+  const Mirror& m = mirrors[z(body)];
+  return m.guest && solver.is_free(body) && Structure::Impl::structure_of(*m.body) != nullptr;
 }
 
 int Component::index_of(const b2Body* body) const {

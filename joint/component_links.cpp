@@ -11,7 +11,7 @@ namespace ductile::dynamics {
 bool Component::tie(StockJoint t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
-  if (!knows(t.in_a, t.in_b)) return false;
+  if (!knows(t.in_a, t.in_b) || is_of_another(t.in_a) || is_of_another(t.in_b)) return false;
   outside_.ties.push_back(t);
   return true;
 }

@@ -19,7 +19,7 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
   const auto see = [this](const auto& all) {
     for (const auto& t : all) {
       for (const b2Body* body : {t.a(), t.b()}) {
-        if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = true;
+        if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = !is_of_another(i);
       }
     }
   };

@@ -79,6 +79,10 @@ void Island::velocity(const b2SolverData& data) {
   if (velocity_calls_ == last) return;
   if (velocity_calls_++ == 0) {
     choose_contacts(data);
+    for (Component* c : active_) {
+      if (c->enlisted < c->members.size()) separate(*c);
+    }
+    std::erase_if(active_, [](const Component* c) { return c->enlisted == 0; });
     std::size_t known = 0;
     bool fits = true;
     for (Component* c : active_) {
@@ -113,6 +117,20 @@ void Island::velocity(const b2SolverData& data) {
 
 void Island::position(const b2SolverData& data) {
   for (Component* c : active_) c->position(data);
+}
+
+// What broke off has come into an island of its own: the lesser part leaves, and is formed anew.
+void Island::separate(Component& c) {
+  for (Member* m : enlisted_) m->is_here = true;
+  const bool stays = 2 * c.enlisted >= c.members.size();
+  std::vector<Member*> leaving;
+  for (Member* m : c.members) {
+    if (m->is_here != stays) leaving.push_back(m);
+  }
+  for (Member* m : enlisted_) m->is_here = false;
+  if (!c.outlasts(leaving.size())) return;
+  for (Member* m : leaving) c.remove(*m);
+  c.enlisted = stays ? c.members.size() : 0;
 }
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
@@ -198,10 +216,11 @@ void Island::form() {
   }
 }
 
-Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touching) {
+Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touching,
+                        std::vector<b2Body*> order) {
   const SolverKind solver = group.front()->structure->def.solver;
-  Component& c =
-      *components.emplace_back(std::make_unique<Component>(std::move(group), solver, std::move(touching)));
+  Component& c = *components.emplace_back(
+      std::make_unique<Component>(std::move(group), solver, std::move(touching), std::move(order)));
   for (const Member* m : c.members) {
     if (c.is_of(*m->structure)) continue;
     c.structures.push_back(m->structure);
@@ -210,7 +229,9 @@ Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touchi
   return c;
 }
 
-void Island::dissolve(Component& component) {
+void Island::remove(Member& m) {
+  Component& component = *m.component;
+  if (component.outlasts(1)) return component.remove(m);
   hand_back(component);
   std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
 }
@@ -220,7 +241,6 @@ void Island::hand_back(Component& component) {
   component.solver.find_gaps();
   for (Member* m : component.members) {
     component.hand_back(*m);
-    if (m->broken) m->own.joint.impulse = {};
     m->belong_to(nullptr);
   }
 }

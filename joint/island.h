@@ -26,9 +26,11 @@ class Island {
   void leave(Structure::Impl& structure);
   /// As many joints may be enlisted as the structures have; allocates.
   void make_room();
-  /// Its joints carry on with what they were; the next step finds them in no component and forms anew.
-  void dissolve(Component& component);
-  Component& form(std::vector<Member*> group, std::vector<BodyPair> touching);
+  /// The joint is no more. Its component goes on without it; where it does not outlast that, its joints carry
+  /// on with what they were, and the next step finds them in no component and forms anew.
+  void remove(Member& member);
+  Component& form(std::vector<Member*> group, std::vector<BodyPair> touching,
+                  std::vector<b2Body*> order = {});
 
   // After a step (first_touch.cpp).
   void meet_guests(b2World& in);
@@ -60,6 +62,7 @@ class Island {
   /// The component is no more.
   void hand_back(Component& component);
   void forget_last();
+  void separate(Component& component);
   void form();
   // reach.cpp
   void choose_contacts(const b2SolverData& data);

@@ -69,7 +69,8 @@ struct Member {
   Said said;
   BreakLimits limits;
   bool broken = false;
-  double length = -1;  // of a line without force, before it was first solved
+  bool is_here = false;  // in the island that is looked at
+  double length = -1;    // of a line without force, before it was first solved
   int break_group = 0;
   int node = 0;
   std::shared_ptr<const YieldSurface> surface;

@@ -13,17 +13,28 @@ BodyMass::BodyMass(const b2Body& body)
       gyration(mass > 0 ? std::sqrt(inertia / mass) : 0),
       center(body.GetLocalCenter()) {}
 
-Mirror::Mirror(b2Body& of, int joined)
+Mirror::Mirror(b2Body& of, int joints_of_it)
     : body(&of),
       mass(of),
       type(of.GetType()),
+      joined(joints_of_it),
       guest(joined == 0),
       left{of.GetWorldCenter(), of.GetAngle()},
       given{of.GetLinearVelocity(), of.GetAngularVelocity()},
       exact(in_doubles(given)) {
+  find_joints();
+}
+
+void Mirror::find_joints() {
   int held = 0;
-  for (const b2JointEdge* e = of.GetJointList(); e != nullptr; e = e->next) ++held;
-  if (!guest && held == joined) joints = of.GetJointList();
+  for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++held;
+  joints = !guest && held == joined ? body->GetJointList() : nullptr;
+}
+
+void Mirror::lose_joint() {
+  guest = --joined == 0;
+  joints = nullptr;
+  if (type == b2_dynamicBody) find_joints();  // the list of the ground may be as long as the structure
 }
 
 void Mirror::keep(Tape& tape) {

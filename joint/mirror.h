@@ -31,7 +31,8 @@ struct Mirror {
   b2Body* body = nullptr;
   BodyMass mass;
   b2BodyType type = b2_staticBody;
-  bool guest = false;                   // touches the structure or is tied to it, but no joint of it
+  int joined = 0;      // joints of the component that it has
+  bool guest = false;  // has none: it touches the structure, is tied to it, or once was of it
   const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
 
   // Not {}: b2Vec2's own constructor leaves its numbers as they are.
@@ -53,8 +54,10 @@ struct Mirror {
 
   bool has_its_mass() const { return type != b2_dynamicBody || mass.is_of(*body); }
   bool fits() const { return body->GetType() == type && has_its_mass(); }
+  /// The component loses a joint of the body.
+  void lose_joint();
   /// Whether nothing touches or holds the body but joints of the component. Box2D prepends new joints to a
-  /// body's list, and one of ours that goes dissolves the component.
+  /// body's list, and of one of ours that goes lose_joint() knows.
   bool only_ours() const { return body->GetContactList() == nullptr && body->GetJointList() == joints; }
   /// Its pose and velocity at the start of a step.
   b2Position pose_in(const b2SolverData& data) const {
@@ -70,6 +73,9 @@ struct Mirror {
            std::abs(at.a - left.a) <= std::max(rounding / mass.gyration, 2.4e-7f * std::abs(left.a));
   }
   void keep(Tape& tape);
+
+ private:
+  void find_joints();
 };
 
 /// A place in the world that poses are kept relative to, so that doubles resolve strains anywhere, m.

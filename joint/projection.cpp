@@ -202,7 +202,7 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
   }
   find_gaps(system);
   system.gaps_known = false;  // bodies will move
-  for (std::size_t k = 0; k < kept_.size(); ++k) kept_[k] = system.records[k].gap;
+  for (std::size_t k = 0; k < system.own(); ++k) kept_[k] = system.records[k].gap;
   for (std::size_t i = system.free; i < system.bodies.size(); ++i) put(system.places[i], goal[i]);
   for (std::size_t i = 0; i < system.free; ++i) start_[i] = poses_[i] = system.places[i].pose;
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach_of(system);

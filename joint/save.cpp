@@ -18,7 +18,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 6;    // changes with what the solver carries from step to step
+constexpr int past = 7;    // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -195,7 +195,7 @@ class Structure::Impl::Save {
       for (const Member* m : a.reads() ? std::vector<Member*>{} : all[i]->members) ids.push_back(m->id);
       a("joints", ids);
       Guests guests = touching(a, a.reads() ? nullptr : all[i]);
-      Component& c = a.reads() ? form(a, ids, std::move(guests.met)) : *all[i];
+      Component& c = a.reads() ? form(a, ids, guests) : *all[i];
       if (a.reads()) dismiss(c, guests.gone);
       tape(a, "past", [&](Tape& t) { c.keep(t); });
     });
@@ -209,6 +209,8 @@ class Structure::Impl::Save {
   struct Guests {
     std::vector<Gone> gone;
     std::vector<BodyPair> met;  // of them and of the world's bodies
+    /// In the order of elimination: of a component that joints have left since it was formed.
+    std::vector<b2Body*> order;
   };
 
   // What touched when the component was formed. Guests that are no more keep their places in it, and are not
@@ -239,18 +241,26 @@ class Structure::Impl::Save {
     });
     std::vector<b2Body*> all = known;
     for (const Gone& g : guests.gone) all.push_back(g.body);
-    std::vector<std::uint32_t> numbers;
-    const auto add = [&](const b2Body* body) {
-      // From the back: a guest that is gone has the address of a body that is there.
-      const auto found = std::find(all.rbegin(), all.rend(), body);
-      numbers.push_back(static_cast<std::uint32_t>(all.rend() - found - 1));
+    // From the back: a guest that is gone has the address of a body that is there.
+    const auto number_of = [&all](const b2Body* body) {
+      return static_cast<std::uint32_t>(all.rend() - std::find(all.rbegin(), all.rend(), body) - 1);
     };
-    for (const BodyPair& pair : c != nullptr ? c->met : std::vector<BodyPair>{}) add(pair.a), add(pair.b);
-    a("met", numbers);
-    for (std::size_t k = 0; a.reads() && k + 1 < numbers.size(); k += 2) {
-      if (numbers[k] == numbers[k + 1] || std::max(numbers[k], numbers[k + 1]) >= all.size())
+    std::vector<std::uint32_t> met, order;
+    if (c != nullptr) {
+      for (const BodyPair& pair : c->met) met.push_back(number_of(pair.a)), met.push_back(number_of(pair.b));
+      for (const Mirror& m : c->is_worn() ? c->mirrors : std::vector<Mirror>{})
+        order.push_back(number_of(m.body));
+    }
+    a("met", met);
+    a("order", order);
+    for (std::size_t k = 0; a.reads() && k + 1 < met.size(); k += 2) {
+      if (met[k] == met[k + 1] || std::max(met[k], met[k + 1]) >= all.size())
         a.refuse("met", "must be pairs of bodies");
-      guests.met.push_back({all[numbers[k]], all[numbers[k + 1]]});
+      guests.met.push_back({all[met[k]], all[met[k + 1]]});
+    }
+    for (const std::uint32_t number : a.reads() ? order : std::vector<std::uint32_t>{}) {
+      if (number >= all.size()) a.refuse("order", "must be of bodies");
+      guests.order.push_back(all[number]);
     }
     return guests;
   }
@@ -267,7 +277,7 @@ class Structure::Impl::Save {
     if (!gone.empty()) c.solver.form(c.solver.free_bodies());
   }
 
-  Component& form(Archive& a, const std::vector<std::uint32_t>& ids, std::vector<BodyPair> met) {
+  Component& form(Archive& a, const std::vector<std::uint32_t>& ids, const Guests& guests) {
     std::vector<Member*> members;
     for (const std::uint32_t id : ids) {
       Member* found = s_.find(id);
@@ -275,7 +285,18 @@ class Structure::Impl::Save {
       members.push_back(found);
     }
     if (members.empty()) a.refuse("joints", "are none");
-    return s_.island->form(std::move(members), std::move(met));
+    if (!guests.order.empty()) {
+      std::vector<b2Body*> bodies, ordered = guests.order;
+      for (const Member* m : members)
+        bodies.push_back(m->joint->GetBodyA()), bodies.push_back(m->joint->GetBodyB());
+      for (const BodyPair& pair : guests.met) bodies.push_back(pair.a), bodies.push_back(pair.b);
+      std::sort(bodies.begin(), bodies.end());
+      bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+      std::sort(ordered.begin(), ordered.end());
+      if (ordered != bodies || !std::is_partitioned(guests.order.begin(), guests.order.end(), is_free))
+        a.refuse("order", "must be of the component's bodies, those first that joints move");
+    }
+    return s_.island->form(std::move(members), guests.met, guests.order);
   }
 
   Impl& s_;

@@ -32,6 +32,15 @@ void Solver::form(std::size_t free_bodies) {
   laws_changed();
 }
 
+void Solver::remove(std::size_t joint) {
+  System::remove(joint);
+  hessian_.forget();
+  newton_.forget();
+  prediction_.forget();
+  predicted_ = false;
+  last_ = {};
+}
+
 void Solver::begin(double h) {
   hessian_.begin_step();
   newton_.interior_point.begin_step();

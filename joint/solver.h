@@ -47,6 +47,8 @@ class Solver : public System {
   explicit Solver(bool swept_in_passes = false);
 
   void form(std::size_t free_bodies);
+  /// See System::remove(). Nothing is predicted of the step that follows.
+  void remove(std::size_t joint);
   std::size_t free_bodies() const { return free; }
   /// In the paper's way.
   bool swept() const { return motion_.swept; }

@@ -108,7 +108,7 @@ ElasticPlasticJoint* Structure::Impl::take(b2WeldJoint* weld, const ElasticPlast
 }
 
 void Structure::Impl::forget(Member& member) {
-  if (member.component != nullptr) island->dissolve(*member.component);
+  if (member.component != nullptr) island->remove(member);
   for (const double joules : member.own.record.dissipated) gone.dissipated += joules;
   for (const double joules : member.own.record.stored) gone.numerical += joules;  // lost with the joint
   if (member.node != 0 && !member.broken) nodes.orphans.push_back(member.joint->def());

@@ -44,6 +44,28 @@ void System::form(std::size_t free_bodies) {
   }
 }
 
+void System::remove(std::size_t joint) {
+  const Joint& j = joints[joint];
+  if (is_free(j.a) && is_free(j.b)) {
+    const std::pair<int, int> pair = std::minmax(j.a, j.b);
+    const auto place = std::lower_bound(pairs.begin(), pairs.end(), pair);
+    if (place == pairs.end() || *place != pair) pairs.insert(place, pair);
+  }
+  if (const int first = records[joint].turn_inertia; first >= 0) {
+    const int count = turns_each(j) ? 3 : 1;
+    const auto begin = turn_inertias.begin() + first;
+    turn_inertias.erase(begin, begin + count);
+    for (JointRecord& r : records)
+      if (r.turn_inertia > first) r.turn_inertia -= count;
+  }
+  const std::size_t last = own() - 1;
+  joints[joint] = joints[last];
+  records[joint] = records[last];
+  joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(last));
+  records.erase(records.begin() + static_cast<std::ptrdiff_t>(last));
+  if (!driven.empty() || !rated.empty()) list_special(*this);
+}
+
 bool System::turns_each(const Joint& j) const {
   constexpr double alike = 4;
   if (j.frame.line || !is_free(j.a) || !is_free(j.b)) return true;

@@ -195,6 +195,9 @@ struct System {
   void keep(Tape& tape);
   /// Inverse masses, m_eff and the total mass, of so many free bodies.
   void form(std::size_t free_bodies);
+  /// A joint of the structure goes, and the last of these takes its index. In the pattern of H its bodies
+  /// stay a pair.
+  void remove(std::size_t joint);
 
  private:
   bool keep_others(Tape& tape);
