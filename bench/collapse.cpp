@@ -99,6 +99,23 @@ void collapse(benchmark::State& state, int storeys, int bays, int steps) {
   }
 }
 
+// What it costs that a joint goes: its step beside one in which nothing does. Every 97th, so that all hangs
+// together.
+void removal(benchmark::State& state, int storeys, int bays) {
+  Built b(frame(storeys, bays), Built::ours, g);
+  b.run(0.5);
+  std::size_t next = 0;
+  alternate(
+      state, "quiet",
+      [&] {
+        return seconds([&] {
+          b.world.DestroyJoint(b.joints[next += 97]);
+          b.step();
+        });
+      },
+      [&] { return seconds([&] { b.step(); }); });
+}
+
 const bool registered = [] {
   struct Frame {
     const char* name;
@@ -112,6 +129,11 @@ const bool registered = [] {
         ->Iterations(1)
         ->Unit(benchmark::kMicrosecond);
   }
+  benchmark::RegisterBenchmark("joint/removal/frame/10000",
+                               [](benchmark::State& state) { removal(state, 25, 44); })
+      ->UseManualTime()
+      ->Iterations(50)
+      ->Unit(benchmark::kMicrosecond);
   return true;
 }();
 
