@@ -163,6 +163,18 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   }
 }
 
+bool Component::broke_off(std::span<Member* const> leaving) const {
+  std::vector<int> joints(solver.free_bodies());
+  for (const Member* m : leaving) {
+    const Joint& j = solver.joints[m->index];
+    for (const int body : {j.a, j.b})
+      if (solver.is_free(body)) ++joints[z(body)];
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (joints[i] != 0 && joints[i] != mirrors[i].joined) return false;
+  return true;
+}
+
 void Component::remove(Member& m) {
   Joint& j = solver.joints[m.index];
   if (!solver.gaps_known) solver.record(j).gap = dynamics::locate(j, solver.places);

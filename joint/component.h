@@ -102,6 +102,9 @@ struct Component {
     return direct() && leaving < members.size() &&
            members.size() - leaving + std::max<std::size_t>(4, formed_of_ / 16) >= formed_of_;
   }
+  /// Whether these joints broke off, so that no moving body has some of them and some that stay: a body that
+  /// is disabled takes its joints out of the island, and yet they go on with it.
+  bool broke_off(std::span<Member* const> leaving) const;
   /// Between steps, or before the first call of one: the joint leaves, and nothing else is formed anew. Its
   /// bodies keep their places, in the order of elimination and in the pattern of H, as guests do.
   void remove(Member& member);

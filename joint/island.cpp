@@ -128,7 +128,7 @@ void Island::separate(Component& c) {
     if (m->is_here != stays) leaving.push_back(m);
   }
   for (Member* m : enlisted_) m->is_here = false;
-  if (!c.outlasts(leaving.size())) return;
+  if (!c.outlasts(leaving.size()) || !c.broke_off(leaving)) return;
   for (Member* m : leaving) c.remove(*m);
   c.enlisted = stays ? c.members.size() : 0;
 }
