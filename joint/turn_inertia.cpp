@@ -95,9 +95,12 @@ class Needs {
     if (system_.turns_each(j)) need = needed_by_each(system_, j, h_);
     if (!j.frame.line && j.block >= 0) {
       need.inertia[0] = needed_between_pieces(j);
-      need.mass[0] = std::min(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia);
+      const auto [lesser, greater] =
+          std::minmax(system_.bodies[z(j.a)].inertia, system_.bodies[z(j.b)].inertia);
+      need.mass[0] = lesser > 0 ? lesser : greater;  // what does not turn has none
     }
-    // What is as good as rigid will do: more, of a joint that is jammed, would be lost beside the masses.
+    // An inertia that is as good as rigid will do. Beside what a jammed joint would ask for, H would lose the
+    // masses.
     for (std::size_t i = 0; i < need.count; ++i)
       need.inertia[i] = std::min(need.inertia[i], rigid_ratio * need.mass[i]);
     return need;

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+
+#include "../../joint/turn_inertia.h"
 
 namespace ductile::dynamics {
 namespace {
@@ -171,6 +174,26 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
     EXPECT_GT(std::abs(other.solver.records[i].plastic.net[0]), 1e-3);
     EXPECT_NEAR(line.solver.records[i].plastic.net[0], other.solver.records[i].plastic.net[0], 1e-12);
     EXPECT_NEAR(line.solver.joints[i].neutral[0], other.solver.joints[i].neutral[0], 1e-12);
+  }
+}
+
+// Of what tension asks for, no more than is as good as rigid (docs/theory/turn_inertia.md): 1e9 times the
+// inertia that turns, which is the lesser of two, and that of the other where one does not turn.
+TEST(TurnInertia, IsAtMostAsGoodAsRigid) {
+  for (const auto [inertia_a, inertia_b, turns] :
+       {std::array{8.0, 4.0, 4.0}, {8.0, 0.0, 8.0}, {0.0, 4.0, 4.0}}) {
+    System s;
+    s.bodies = {{.mass = 50, .inertia = inertia_a}, {.mass = 50, .inertia = inertia_b}};
+    s.places.resize(2);
+    put(s.places[0], {0, 0, 0});
+    put(s.places[1], {1, 0, 0});
+    s.joints = {{.a = 0, .b = 1, .impulse = {1e20, 0, 0}, .block = 0, .frame = {.ax = 0.5, .bx = -0.5}}};
+    s.records.resize(1);
+    s.form(2);
+    locate_all(s);
+    EXPECT_TRUE(follow_tension(s, 1 / 60., 1 / 60.));
+    ASSERT_EQ(s.turn_inertias.size(), 1U);
+    EXPECT_DOUBLE_EQ(s.turn_inertias[0].inertia, 1e9 * turns);
   }
 }
 
