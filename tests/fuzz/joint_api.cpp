@@ -193,7 +193,8 @@ class Game : b2DestructionListener {
     }
   }
 
-  /// As braces are, its numbers are read from left to right by every compiler.
+  /// Every compiler reads the numbers in its braces from left to right; GCC reads a function's arguments from
+  /// the right.
   struct Vec {
     double x, y;
     operator b2Vec2() const { return {static_cast<float>(x), static_cast<float>(y)}; }
@@ -340,7 +341,7 @@ class Game : b2DestructionListener {
     } else {
       int count = 0;
       for (const b2Fixture* f = b->GetFixtureList(); f; f = f->GetNext()) ++count;
-      if (count == 3) return;
+      if (count >= 3) return;
       const Vec size{size_ * in_.scale(-0.5, 0.5), size_ * in_.scale(-0.5, 0.5)};
       add_fixture(b, size.x, size.y);
     }

@@ -14,8 +14,8 @@
 namespace ductile {
 namespace {
 
-/// A cantilever of 40 pieces, with a second joint beside each of them that holds nothing until it is asked
-/// to.
+/// A cantilever of 40 pieces with a second joint beside each: every other one holds nothing, and the rest are
+/// as stiff as the beam.
 struct Doubled : Beam {
   Doubled() : Beam({.pieces = 40, .youngs_modulus = 210e9, .damping_time = 0.03}) {
     for (int i = 0; i < 40; ++i) {
