@@ -219,7 +219,7 @@ void Component::hand_back(Member& m) const {
 }
 
 bool Component::fits_bodies() const {
-  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return m.guest || m.fits(); });
+  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return m.guest() || m.fits(); });
 }
 
 bool Component::is_of(const Structure::Impl& structure) const {

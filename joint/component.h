@@ -216,7 +216,7 @@ struct Component {
   std::vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
   std::vector<Pose> goal_;  // of a projection
-  std::size_t formed_of_;   // joints
+  std::size_t formed_of_;   // so many joints
   bool displaced_ = false;  // bodies were moved apart while their joint was in no island
   bool struck_ = false;     // velocities were changed between the steps
   Parts parts_;

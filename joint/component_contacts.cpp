@@ -14,15 +14,15 @@ namespace ductile::dynamics {
 bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
-  if (!knows(t.in_a, t.in_b) || is_of_another(t.in_a) || is_of_another(t.in_b)) return false;
+  if (!knows(t.in_a, t.in_b)) return false;
   t.at_seam = is_at_seam(t);
   outside_.touches.push_back(t);
   return true;
 }
 
-// Whether the component was formed for something between these bodies of it.
+// Whether these bodies are its own or guests, and it was formed for something between them.
 bool Component::knows(int a, int b) const {
-  if (a < 0 || b < 0) return false;
+  if (a < 0 || b < 0 || is_of_another(a) || is_of_another(b)) return false;
   const std::pair<int, int> pair = std::minmax(a, b);
   return !solver.is_free(pair.second) || std::binary_search(solver.pairs.begin(), solver.pairs.end(), pair);
 }
@@ -30,7 +30,7 @@ bool Component::knows(int a, int b) const {
 // Whether a guest is a piece of another component: one that was of this one, and broke off.
 bool Component::is_of_another(int body) const {
   const Mirror& m = mirrors[z(body)];
-  return m.guest && solver.is_free(body) && Structure::Impl::structure_of(*m.body) != nullptr;
+  return m.guest() && solver.is_free(body) && Structure::Impl::structure_of(*m.body) != nullptr;
 }
 
 int Component::index_of(const b2Body* body) const {
@@ -172,9 +172,9 @@ void Component::return_contacts() {
       hold_b(*t.position);
     }
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
-    const auto yields = [](const Mirror& m) { return m.guest && m.type == b2_dynamicBody; };
-    if (anchored && !a.guest && yields(b)) hold_a(*t.position);
-    if (anchored && !b.guest && yields(a)) hold_b(*t.position);
+    const auto yields = [](const Mirror& m) { return m.guest() && m.type == b2_dynamicBody; };
+    if (anchored && !a.guest() && yields(b)) hold_a(*t.position);
+    if (anchored && !b.guest() && yields(a)) hold_b(*t.position);
   }
 }
 

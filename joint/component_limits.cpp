@@ -69,7 +69,7 @@ double Component::close_ledger() {
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const Mirror& m = mirrors[i];
     solver.before[i] = {};
-    if (i >= solver.free_bodies() || m.guest) continue;
+    if (i >= solver.free_bodies() || m.guest()) continue;
     const b2Vec2 v = m.body->GetLinearVelocity();
     const float w = m.body->GetAngularVelocity();
     solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};

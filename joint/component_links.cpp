@@ -11,7 +11,7 @@ namespace ductile::dynamics {
 bool Component::tie(StockJoint t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
-  if (!knows(t.in_a, t.in_b) || is_of_another(t.in_a) || is_of_another(t.in_b)) return false;
+  if (!knows(t.in_a, t.in_b)) return false;
   outside_.ties.push_back(t);
   return true;
 }
@@ -72,9 +72,9 @@ void Component::return_ties() {
 bool Component::is_anchored() const {
   const auto anchors = [this](const StockJoint& t) {
     return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&
-           !(mirrors[z(t.in_a)].guest && mirrors[z(t.in_b)].guest) && t.joint->GetType() != e_mouseJoint;
+           !(mirrors[z(t.in_a)].guest() && mirrors[z(t.in_b)].guest()) && t.joint->GetType() != e_mouseJoint;
   };
-  const auto joined = [](const Mirror& m) { return !m.guest; };
+  const auto joined = [](const Mirror& m) { return !m.guest(); };
   return std::any_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      joined) ||
          std::any_of(outside_.ties.begin(), outside_.ties.end(), anchors);

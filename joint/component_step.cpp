@@ -15,7 +15,7 @@ bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
                      std::span<const StockJoint> stock) {
   outside_.touches.clear();
   outside_.ties.clear();
-  for (Mirror& m : mirrors) m.present = !m.guest;
+  for (Mirror& m : mirrors) m.present = !m.guest();
   const auto see = [this](const auto& all) {
     for (const auto& t : all) {
       for (const b2Body* body : {t.a(), t.b()}) {
@@ -110,7 +110,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
     m.exact = in_doubles(m.taken);
     const b2Vec2 jump = m.body->GetLinearVelocity() - m.given.v;
     const float turn = m.mass.gyration * std::abs(m.body->GetAngularVelocity() - m.given.w);
-    struck_ |= !m.guest && std::max(jump.Length(), turn) > blow_speed;
+    struck_ |= !m.guest() && std::max(jump.Length(), turn) > blow_speed;
   }
   m.given = m.taken;
 }
@@ -150,7 +150,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     const b2Position at = m.pose_in(data);
     if (m.type == b2_staticBody) m.exact = {};
-    if (m.guest && !m.stays(at)) {
+    if (m.guest() && !m.stays(at)) {
       put(solver.places[i], origin.relative(m.left = at));
     } else {
       moved |= !m.stays(at);
@@ -169,7 +169,7 @@ void Component::first_velocity(const b2SolverData& data) {
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       Mirror& m = mirrors[i];
       goal_[i] = solver.places[i].pose;
-      if (m.guest) continue;
+      if (m.guest()) continue;
       const b2Position at = m.pose_in(data);
       goal_[i] = m.stays(at) ? solver.places[i].pose : origin.relative(at);
       if (m.type == b2_staticBody) m.left = at;
@@ -337,7 +337,7 @@ void Component::position(const b2SolverData& data) {
     if (!mirrors[i].present) continue;
     b2Position& at = data.positions[mirrors[i].island_index];
     const bool kept = mirrors[i].stays(at);
-    if (mirrors[i].guest && !kept) {
+    if (mirrors[i].guest() && !kept) {
       put(solver.places[i], goal_[i] = origin.relative(mirrors[i].left = at));
       continue;
     }
@@ -383,7 +383,7 @@ void Component::advance(const b2SolverData& data) {
   const bool later = alone() && data.step.positionIterations > 0;
   for (std::size_t i = later ? solver.free_bodies() : 0; i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
-    kinematic |= !mirrors[i].guest && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
+    kinematic |= !mirrors[i].guest() && mirrors[i].type != b2_staticBody && i >= solver.free_bodies();
   }
   const bool rests = direct() && outside_.ties.empty() && unmoved && !kinematic && solver.at_rest();
   rest_ = rests ? Rest::expected : Rest::none;

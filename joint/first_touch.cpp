@@ -42,7 +42,7 @@ template <class Visit>
 void each_near(const Component& component, const Visit& visit) {
   for (std::size_t i = 0; i < component.solver.free_bodies(); ++i) {
     const Mirror& m = component.mirrors[i];
-    if (m.guest) continue;
+    if (m.guest()) continue;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& c = *e->contact;
       if (c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor()) continue;

@@ -18,7 +18,6 @@ Mirror::Mirror(b2Body& of, int joints_of_it)
       mass(of),
       type(of.GetType()),
       joined(joints_of_it),
-      guest(joined == 0),
       left{of.GetWorldCenter(), of.GetAngle()},
       given{of.GetLinearVelocity(), of.GetAngularVelocity()},
       exact(in_doubles(given)) {
@@ -28,11 +27,11 @@ Mirror::Mirror(b2Body& of, int joints_of_it)
 void Mirror::find_joints() {
   int held = 0;
   for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) ++held;
-  joints = !guest && held == joined ? body->GetJointList() : nullptr;
+  joints = !guest() && held == joined ? body->GetJointList() : nullptr;
 }
 
 void Mirror::lose_joint() {
-  guest = --joined == 0;
+  --joined;
   joints = nullptr;
   if (type == b2_dynamicBody) find_joints();  // the list of the ground may be as long as the structure
 }

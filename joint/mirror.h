@@ -31,8 +31,7 @@ struct Mirror {
   b2Body* body = nullptr;
   BodyMass mass;
   b2BodyType type = b2_staticBody;
-  int joined = 0;      // joints of the component that it has
-  bool guest = false;  // has none: it touches the structure, is tied to it, or once was of it
+  int joined = 0;                       // joints of the component that it has
   const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
 
   // Not {}: b2Vec2's own constructor leaves its numbers as they are.
@@ -54,6 +53,8 @@ struct Mirror {
 
   bool has_its_mass() const { return type != b2_dynamicBody || mass.is_of(*body); }
   bool fits() const { return body->GetType() == type && has_its_mass(); }
+  /// Has no joint of the component: it touches the structure, is tied to it, or once was of it.
+  bool guest() const { return joined == 0; }
   /// The component loses a joint of the body.
   void lose_joint();
   /// Whether nothing touches or holds the body but joints of the component. Box2D prepends new joints to a
@@ -67,7 +68,7 @@ struct Mirror {
   /// Whether nothing has pushed it from where it was left. Box2D corrects a guest's pose, and turns it by
   /// what its place is rounded by.
   bool stays(const b2Position& at) const {
-    if (!guest || !(mass.gyration > 0)) return same(at, left);
+    if (!guest() || !(mass.gyration > 0)) return same(at, left);
     const float rounding = 2.4e-7f * std::max({1.0f, std::abs(left.c.x), std::abs(left.c.y)});
     return same(at.c.x, left.c.x) && same(at.c.y, left.c.y) &&
            std::abs(at.a - left.a) <= std::max(rounding / mass.gyration, 2.4e-7f * std::abs(left.a));

@@ -220,7 +220,7 @@ class Structure::Impl::Save {
     const std::vector<b2Body*>& known = world_.all_bodies;
     for (std::size_t i = 0; c != nullptr && i < c->mirrors.size(); ++i) {
       const Mirror& m = c->mirrors[i];
-      if (!m.guest || (std::count(known.begin(), known.end(), m.body) != 0 && m.fits())) continue;
+      if (!m.guest() || (std::count(known.begin(), known.end(), m.body) != 0 && m.fits())) continue;
       const Body& b = c->solver.bodies[i];
       const bool moves = i < c->solver.free_bodies();
       guests.gone.push_back({m.body, moves ? b.mass : 0, moves ? b.inertia : 0});
