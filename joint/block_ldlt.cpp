@@ -64,12 +64,19 @@ void BlockLdlt::analyse(int n, std::span<const std::pair<int, int>> edges) {
     products += (length * length - length) / 2;
   }
   unscaled_.resize(longest);
-  targets_.clear();
-  targets_.reserve(products);
+  targets_.resize(products);
+  // The rows of a column beyond its q-th are all in the column of that one, in the same order.
+  int* target = targets_.data();  // of the column's pair p, q: at p (p − 1)/2 + q
   for (int j = 0; j < n; ++j) {
-    for (int p = column_[z(j)]; p < column_[z(j) + 1]; ++p) {
-      for (int q = column_[z(j)]; q < p; ++q) targets_.push_back(slot(row_[z(p)], row_[z(q)]));
+    const std::span<const int> rows{row_.data() + column_[z(j)], row_.data() + column_[z(j) + 1]};
+    for (std::size_t q = 0; q < rows.size(); ++q) {
+      int k = column_[z(rows[q])];
+      for (std::size_t p = q + 1; p < rows.size(); ++p) {
+        while (row_[z(k)] != rows[p]) ++k;
+        target[p * (p - 1) / 2 + q] = k;
+      }
     }
+    target += rows.size() * (rows.size() - 1) / 2;
   }
 }
 
