@@ -231,6 +231,21 @@ bool Solver::any_flows() const {
   return last_.flows && std::any_of(own.begin(), own.end(), [](const Joint& j) { return j.regime != 0; });
 }
 
+// What stiff rows ring with for good where all else has come to rest: a step rounds their gaps anew, and what
+// that makes of their impulses falls by 8 % a step (row.h), so that 1/(1 − 0.92²) = 6.5 times its square
+// remain, in the norm of M⁻¹. Twice that is more than was seen. Implicit rows do not ring.
+double Solver::rounding_of_gaps(double last_bits) const {
+  double sum = 0;
+  for (const Joint& j : own_joints()) {
+    const JointRecord& r = record(j);
+    for (const Row row : {axial, shear}) {
+      const double s = j.G[row] * j.relaxation[row] * last_bits;
+      if (!is_implicit(r, row) && r.m_eff[row] > 0) sum += s * s / r.m_eff[row];
+    }
+  }
+  return 2 * 6.5 * sum;
+}
+
 bool Solver::at_rest() {
   const auto stands_still = [this] {
     if (!(last_.speed2 <= 1e-10 * last_.impulse2)) return false;
@@ -248,7 +263,9 @@ bool Solver::at_rest() {
       for (unsigned i = 0; i < 3; ++i) s[i] *= j.G[i] * j.relaxation[i] * step();
       add_transposed(j, s, change[z(j.a)], change[z(j.b)]);
     }
-    return square(*this, change) <= rest_tolerance * rest_tolerance * last_.impulse2;
+    const double changed2 = square(*this, change), trifle2 = rest_tolerance * rest_tolerance;
+    return changed2 <= trifle2 * last_.impulse2 ||
+           (last_.speed2 <= trifle2 * last_.impulse2 && changed2 <= rounding_of_gaps(last_bits));
   };
   const bool rests = stands_still();
   if (rests) predicted_ = false;

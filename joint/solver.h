@@ -94,8 +94,8 @@ class Solver : public System {
   void sweep_positions(std::span<const Pose> at) { sweep::positions(*this, at); }
 
   /// Whether nothing flows and what the last solution still moves changes no force by more than
-  /// rest_tolerance: the next step is this one if nothing else touches the bodies. It then starts from this
-  /// solution, not from a prediction.
+  /// rest_tolerance, or than rounding of poses does where it is that slow: the next step is this one if
+  /// nothing else touches the bodies. It then starts from this solution, not from a prediction.
   bool at_rest();
   /// Whether any row of the structure's own joints was beyond its cap in the last solve.
   bool any_flows() const;
@@ -140,6 +140,7 @@ class Solver : public System {
   void settle_friction(Solution& solution, SolveReport& report);
   void carry_over(Joint& joint, const Rows& rate, const Rows& turned);
   void book(Joint& joint, const Rows& gap);
+  double rounding_of_gaps(double last_bits) const;
 
   StepLaws laws_;
   Hessian hessian_;
