@@ -471,12 +471,14 @@ class Game : b2DestructionListener {
     const JointEnergy start = structure_->energy();
     const double moving = kinetic_of_pieces();
     const auto awake = count_awake();
+    const bool was_far = far();
     world_->Step(dt, velocity, position);
     const double lost = moving - kinetic_of_pieces();
     const bool seen = velocity > 0 && count_awake() == awake;  // Box2D stops what falls asleep
     // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
     const StepReport& report = structure_->report();
-    require(report.bounds_hit == report.parted || curved_ || impossible() || far(), "solves end in time");
+    require(report.bounds_hit == report.parted || curved_ || impossible() || was_far || far(),
+            "solves end in time");
     for (const b2Body* b : bodies_) {
       require_finite({b->GetPosition().x, b->GetPosition().y, b->GetAngle(), b->GetLinearVelocity().x,
                       b->GetLinearVelocity().y, b->GetAngularVelocity()},
@@ -522,7 +524,8 @@ class Game : b2DestructionListener {
     // another length velocities are as old as half of both, and strains are not: what is too little of a
     // vibration then comes back, too. A step of no length brings them no closer.
     const bool of_one_time = dt > 0 && std::exchange(last_dt_, dt) == dt;
-    if (report.slowed == 0 && (of_one_time || !held)) budget_ = held ? std::min(budget_, now) : now;
+    if (report.slowed == 0 && (of_one_time || !held))
+      budget_ = held ? std::min(budget_, now) : std::max(budget_, now);
   }
 
   /// The angle, rad, by which a body turns in a step against the world or a body that it is joined to, times
