@@ -224,6 +224,10 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     for (std::size_t i = 0; i < system.free; ++i) poses_[i] = system.places[i].pose;
     if (holds()) return true;
   }
+  // As M ≤ H, the step is no longer than the way to the goal. Where it is, the factor is nothing but
+  // rounding: over arms of a hundred kilometres a row is 1e19 times as stiff as its bodies are heavy.
+  const bool sound = distance == 0 || size <= 4 * distance;
+  small &= sound;
   Work work{system, hessian, goal, rounding, 1e-8 * size + rounding * rounding * system.mass};
   // A small push: let go of what the pull strains, which may be all of it, and of what a step along the
   // tangent misses the gaps by, its square.
@@ -234,7 +238,7 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     small = next <= (round == 0 ? last : std::max(work.enough, 1e-3 * last));
     last = next;
   }
-  bool kept = small || push_far(work) || close_gaps(work);
+  bool kept = sound && (small || push_far(work) || close_gaps(work));
   // What is still open closes in the next step, as fast as that is short, and what strains rows that are
   // parallel stays: neither may be more than rounding, or than a trifle of how the structure moves and is
   // loaded.
