@@ -61,18 +61,10 @@ void run(benchmark::State& state, const Case& c) {
   Built ours(layout, Built::ours, c.gravity), stock(layout, Built::stock, c.stock_gravity);
   c.start(ours);
   c.start(stock);
-  const auto damp = [&](double by) {
-    for (b2Body* piece : ours.pieces) {
-      piece->SetLinearDamping(static_cast<float>(by));
-      piece->SetAngularDamping(static_cast<float>(by));
-      piece->SetGravityScale(
-          static_cast<float>(1 + by / 60));  // Box2D damps what gravity gives in the step, too
-    }
-  };
   if (c.damping > 0) {
-    damp(c.damping);
+    damp(ours, c.damping);
     ours.run(20);
-    damp(0);
+    damp(ours, 0);
   }
   for (int i = 0; i < 60 * c.settle; ++i) {
     c.before_step(ours);

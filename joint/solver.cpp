@@ -9,6 +9,25 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+// Each step rounds the gaps anew, and stiff rows ring with that for good. Their impulses lose 8 % of it a
+// step (row.h), so that 1/(1 − 0.92²) = 6.5 times the square of one rounding remains in the norm of M⁻¹; this
+// is twice that. Implicit rows do not ring.
+double rounding_of_gaps(const System& system, double last_bits) {
+  double sum = 0;
+  for (const Joint& j : system.own_joints()) {
+    const JointRecord& r = system.record(j);
+    for (const Row row : {axial, shear}) {
+      const double s = j.G[row] * j.relaxation[row] * last_bits;
+      if (!is_implicit(r, row) && r.m_eff[row] > 0) sum += s * s / r.m_eff[row];
+    }
+  }
+  return 2 * 6.5 * sum;
+}
+
+}  // namespace
+
 Solver::Solver(bool swept_in_passes) {
   motion_.swept = swept_in_passes;
   // Iterations that end before they converge would give energy to faster oscillations than ωh = 1.
@@ -231,21 +250,6 @@ bool Solver::any_flows() const {
   return last_.flows && std::any_of(own.begin(), own.end(), [](const Joint& j) { return j.regime != 0; });
 }
 
-// What stiff rows ring with for good where all else has come to rest: a step rounds their gaps anew, and what
-// that makes of their impulses falls by 8 % a step (row.h), so that 1/(1 − 0.92²) = 6.5 times its square
-// remain, in the norm of M⁻¹. Twice that is more than was seen. Implicit rows do not ring.
-double Solver::rounding_of_gaps(double last_bits) const {
-  double sum = 0;
-  for (const Joint& j : own_joints()) {
-    const JointRecord& r = record(j);
-    for (const Row row : {axial, shear}) {
-      const double s = j.G[row] * j.relaxation[row] * last_bits;
-      if (!is_implicit(r, row) && r.m_eff[row] > 0) sum += s * s / r.m_eff[row];
-    }
-  }
-  return 2 * 6.5 * sum;
-}
-
 bool Solver::at_rest() {
   const auto stands_still = [this] {
     if (!(last_.speed2 <= 1e-10 * last_.impulse2)) return false;
@@ -265,7 +269,7 @@ bool Solver::at_rest() {
     }
     const double changed2 = square(*this, change), trifle2 = rest_tolerance * rest_tolerance;
     return changed2 <= trifle2 * last_.impulse2 ||
-           (last_.speed2 <= trifle2 * last_.impulse2 && changed2 <= rounding_of_gaps(last_bits));
+           (last_.speed2 <= trifle2 * last_.impulse2 && changed2 <= rounding_of_gaps(*this, last_bits));
   };
   const bool rests = stands_still();
   if (rests) predicted_ = false;

@@ -140,7 +140,6 @@ class Solver : public System {
   void settle_friction(Solution& solution, SolveReport& report);
   void carry_over(Joint& joint, const Rows& rate, const Rows& turned);
   void book(Joint& joint, const Rows& gap);
-  double rounding_of_gaps(double last_bits) const;
 
   StepLaws laws_;
   Hessian hessian_;

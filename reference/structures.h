@@ -302,6 +302,15 @@ inline void pile_on_roof(Built& b) {
   }
 }
 
+/// Damps all pieces, 1/s, but not what gravity gives them in a step, of which Box2D would take its share.
+inline void damp(Built& b, double by) {
+  for (b2Body* piece : b.pieces) {
+    piece->SetLinearDamping(static_cast<float>(by));
+    piece->SetAngularDamping(static_cast<float>(by));
+    piece->SetGravityScale(static_cast<float>(1 + by / 60));
+  }
+}
+
 /// What the damping takes of gravity comes back as it goes, slowly, or a frame would sway for minutes.
 inline void calm(Built& b) {
   for (const float by : {3.0f, 1.0f, 0.3f, 0.1f, 0.03f, 0.0f}) {
