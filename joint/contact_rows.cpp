@@ -72,7 +72,7 @@ void read_contacts(System& system) {
   }
 }
 
-Lag lag_friction(System& system, int round) {
+Lag lag_friction(System& system, int round, bool of_open) {
   Lag lag;
   double largest = 0;
   for (const Contact& c : system.contacts) largest = std::max(largest, c.friction * c.normal);
@@ -81,6 +81,7 @@ Lag lag_friction(System& system, int round) {
     Joint& j = system.joints[system.first_contact() + k];
     JointRecord& r = system.records[system.first_contact() + k];
     const double cap = r.law.cap[1], wanted = c.friction * c.normal;
+    if (of_open && (wanted > 0 || c.tangent == 0)) continue;
     if (std::abs(wanted - cap) <= 1e-3 * std::max(wanted, cap) + 1e-5 * largest) continue;
     // What sticks within both caps is not changed by them.
     lag.again |= !(std::abs(c.tangent) < std::min(cap, wanted));

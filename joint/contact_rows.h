@@ -30,11 +30,12 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
 void read_contacts(System& system);
 
 /// After a solve: caps of friction from its normal impulses, averaged with those before where three rounds
-/// were not enough. Whether the solve is to be done again, and whether H has other rows.
+/// were not enough; or of those contacts alone that rub and do not press. Whether the solve is to be done
+/// again, and whether H has other rows.
 struct Lag {
   bool again = false, other_rows = false;
 };
-Lag lag_friction(System& system, int round);
+Lag lag_friction(System& system, int round, bool of_open);
 
 /// The cap of friction of a contact's row, N s; 0: no row.
 void set_friction(Joint& joint, JointRecord& record, double cap);

@@ -154,6 +154,40 @@ TEST(Solver, FrictionIsFoundWithWhatPresses) {
   }
 }
 
+// A part of a step whose contact opens keeps the caps of friction that it came with, and yet what does not
+// press does not rub: its block goes on as it was, beside one that stays and slides.
+TEST(Solver, WhatPressesNoMoreDoesNotRub) {
+  constexpr double h = 1.0 / 1920, g = 10, mu = 0.3, speed = 3, up = 0.01;
+  Line line(2);
+  line.solver.bodies.emplace_back();
+  put(line.solver.places.emplace_back(), {0, 0, 0});
+  line.solver.form(2);
+  line.solver.locate();
+  for (Joint& j : line.solver.own_joints()) line.solver.record(j).material.stiffness = {};
+  line.solver.laws_changed();
+  std::vector<Contact> contacts(2);
+  for (int i = 0; i < 2; ++i) {
+    const double weight = line.solver.bodies[z(i)].mass * g * h;
+    contacts[z(i)].a = 2;
+    contacts[z(i)].b = i;
+    contacts[z(i)].normal_a = contacts[z(i)].normal_b = {0, 1};
+    contacts[z(i)].friction = mu;
+    contacts[z(i)].normal = weight;
+    contacts[z(i)].tangent = mu * weight;
+    line.solver.bodies[z(i)].v_free = line.solver.bodies[z(i)].v = {speed, i == 0 ? up : -g * h, 0};
+  }
+  line.solver.begin(h);
+  line.solver.touch({}, contacts);
+  line.solver.keep_friction();
+  SolveReport report;
+  line.solver.solve(report);
+  EXPECT_EQ(line.solver.contacts[0].normal, 0);
+  EXPECT_EQ(line.solver.contacts[0].tangent, 0);
+  EXPECT_DOUBLE_EQ(line.solver.bodies[0].v.x, speed);
+  EXPECT_DOUBLE_EQ(line.solver.bodies[0].v.y, up);
+  EXPECT_NEAR(line.solver.bodies[1].v.x, speed - mu * g * h, 1e-6 * mu * g * h);
+}
+
 // The solution does not depend on how many times the step is solved.
 TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   Line line(6), other(6);
