@@ -116,6 +116,28 @@ void removal(benchmark::State& state, int storeys, int bays) {
       [&] { return seconds([&] { b.step(); }); });
 }
 
+// A step before which a joint was added, beside one before which none was. Its pieces are joined already, or
+// some pieces apart, so that the pattern of H grows.
+void addition(benchmark::State& state, int storeys, int bays, std::size_t apart) {
+  Built b(frame(storeys, bays), Built::ours, g);
+  b.run(0.5);
+  std::size_t next = 0;
+  alternate(
+      state, "quiet",
+      [&] {
+        return seconds([&] {
+          b2Joint& at = *b.joints[next += 97];
+          ElasticPlasticJointDef def;
+          def.Initialize(at.GetBodyA(), b.joints[next + apart]->GetBodyB(), at.GetAnchorA(), {1, 0});
+          def.rows[axial].stiffness = def.rows[shear].stiffness = 1e5;
+          def.rows[rotation] = RowDef::free();
+          b.structure->create_joint(def);
+          b.step();
+        });
+      },
+      [&] { return seconds([&] { b.step(); }); });
+}
+
 const bool registered = [] {
   struct Frame {
     const char* name;
@@ -127,6 +149,14 @@ const bool registered = [] {
         [f](benchmark::State& state) { collapse(state, f.storeys, f.bays, f.steps); })
         ->UseManualTime()
         ->Iterations(1)
+        ->Unit(benchmark::kMicrosecond);
+  }
+  for (const std::size_t apart : {0U, 5U}) {
+    benchmark::RegisterBenchmark(
+        apart == 0 ? "joint/addition/frame/10000" : "joint/addition/frame/10000/apart",
+        [apart](benchmark::State& state) { addition(state, 25, 44, apart); })
+        ->UseManualTime()
+        ->Iterations(20)
         ->Unit(benchmark::kMicrosecond);
   }
   benchmark::RegisterBenchmark("joint/removal/frame/10000",

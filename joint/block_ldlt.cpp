@@ -85,6 +85,11 @@ int BlockLdlt::slot(int i, int j) const {
   return static_cast<int>(std::lower_bound(first, last, i) - row_.begin());
 }
 
+bool BlockLdlt::has(int i, int j) const {
+  const int k = slot(i, j);
+  return k < column_[z(j + 1)] && row_[z(k)] == i;
+}
+
 void BlockLdlt::clear() {
   std::fill(lower_.begin(), lower_.end(), Block{});
   std::fill(diagonal_.begin(), diagonal_.end(), Block{});

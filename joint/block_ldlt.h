@@ -86,6 +86,8 @@ class BlockLdlt {
 
   /// Where the block of row i and column j (i > j) is stored; it must be in the pattern.
   int slot(int i, int j) const;
+  /// Whether it is in the pattern.
+  bool has(int i, int j) const;
 
   /// Assembly: everything zero, then add to diagonal(i) (its lower triangle counts) and to block(slot).
   void clear();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "frames.h"
+#include "structure.h"
 
 namespace ductile::dynamics {
 
@@ -29,13 +30,8 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   }
   std::sort(by_address_.begin(), by_address_.end());
   by_address_.erase(std::unique(by_address_.begin(), by_address_.end()), by_address_.end());
-  const auto place = [this](const b2Body* body) {
-    return std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
-  };
-  const auto number = [&](const b2Body* body) -> int& { return place(body)->second; };
-  std::vector<int> degrees(by_address_.size());
-  const auto degree = [&](const b2Body* body) -> int& {
-    return degrees[static_cast<std::size_t>(place(body) - by_address_.begin())];
+  const auto number = [this](const b2Body* body) -> int& {
+    return std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0})->second;
   };
 
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
@@ -47,12 +43,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     number(body) = static_cast<int>(where.size());
     where.push_back(body);
   };
-  for (const Member* m : members) {
-    for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
-      ++degree(body);
-      count_in(body);
-    }
-  }
+  for (const Member* m : members) count_in(m->joint->GetBodyA()), count_in(m->joint->GetBodyB());
   for (const BodyPair& pair : met) count_in(pair.a), count_in(pair.b);
   const std::size_t free_bodies = bodies.size();
   if (ordered.empty()) {
@@ -73,53 +64,81 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
 
   const b2Vec2 near = ordered.front()->GetWorldCenter();
   origin = {std::round(near.x), std::round(near.y)};
-  mirrors.reserve(ordered.size());
-  solver.bodies.resize(ordered.size());
-  solver.places.resize(ordered.size());
-  goal_.resize(ordered.size());
-  account.began.assign(ordered.size(), {{0, 0}, 0});  // b2Vec2 does not make itself 0
-  account.lost = account.began;
-  parts_.bodies.resize(free_bodies);
+  make_room(free_bodies, ordered.size() - free_bodies);
   for (std::size_t i = 0; i < ordered.size(); ++i) {
-    b2Body* body = ordered[i];
-    number(body) = static_cast<int>(i);
-    const Mirror& mirror = mirrors.emplace_back(*body, degree(body));
-    const BodyMass& m = mirror.mass;
-    const double offset = m.center.LengthSquared();
-    solver.bodies[i].mass = m.mass;
-    solver.bodies[i].inertia = body->IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
-    put(solver.places[i], origin.relative(mirror.left));
+    number(ordered[i]) = static_cast<int>(i);
+    enter(i, *ordered[i]);
   }
-
-  bool held_anew = false;
-  const auto remember = [&](std::size_t i, const KnownPose& known) {
-    held_anew |= freedom(i, free_bodies) < known.freedom;
-    Pose at = known.pose;
-    // Fixtures came or went.
-    const double x = double{mirrors[i].mass.center.x} - known.local_center.x;
-    const double y = double{mirrors[i].mass.center.y} - known.local_center.y;
-    const Turn turn = turn_of(at.angle);
-    at.x += turn.c * x - turn.s * y;
-    at.y += turn.s * x + turn.c * y;
-    const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
-    if (!same(left, mirrors[i].left)) return;
-    put(solver.places[i], {at.x - origin.x, at.y - origin.y, at.angle});
-  };
-  const std::size_t rows = members.size() + 2 * met.size();  // a contact has two points at most
+  // A contact has two points at most, and some joints may come.
+  const std::size_t rows = members.size() + 2 * met.size() + most_changes(16);
   solver.joints.reserve(rows);
   solver.records.reserve(rows);
-  for (std::size_t i = 0; i < members.size(); ++i) {
+  for (const BodyPair& pair : met) add_pair(pair, free_bodies);
+  admit(0, free_bodies);
+}
+
+// Room for so many free bodies before all others, and for so many that are not free after them.
+void Component::make_room(std::size_t first, std::size_t last) {
+  solver.insert_bodies(first, last);
+  const auto insert = [&](auto& of_bodies, const auto& nothing) {
+    of_bodies.insert(of_bodies.begin(), first, nothing);
+    of_bodies.resize(solver.bodies.size(), nothing);
+  };
+  insert(mirrors, Mirror{});
+  insert(goal_, Pose{});
+  insert(account.began, b2Velocity{{0, 0}, 0});  // b2Vec2 does not make itself 0
+  insert(account.lost, b2Velocity{{0, 0}, 0});
+  parts_.bodies.insert(parts_.bodies.begin(), first, {});
+}
+
+// A body as Box2D has it, without a joint of the component.
+void Component::enter(std::size_t i, b2Body& body) {
+  const Mirror& mirror = mirrors[i] = Mirror(body);
+  const BodyMass& m = mirror.mass;
+  const double offset = m.center.LengthSquared();
+  solver.bodies[i] = {};
+  solver.bodies[i].mass = m.mass;
+  solver.bodies[i].inertia = body.IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
+  put(solver.places[i], origin.relative(mirror.left));
+}
+
+// What its joints knew of a body, if that is still where they left it.
+void Component::remember(std::size_t i, const KnownPose& known) {
+  Pose at = known.pose;
+  // Fixtures came or went.
+  const double x = double{mirrors[i].mass.center.x} - known.local_center.x;
+  const double y = double{mirrors[i].mass.center.y} - known.local_center.y;
+  const Turn turn = turn_of(at.angle);
+  at.x += turn.c * x - turn.s * y;
+  at.y += turn.s * x + turn.c * y;
+  const b2Position left{{static_cast<float>(at.x), static_cast<float>(at.y)}, static_cast<float>(at.angle)};
+  if (!same(left, mirrors[i].left)) return;
+  put(solver.places[i], {at.x - origin.x, at.y - origin.y, at.angle});
+}
+
+void Component::add_pair(const BodyPair& pair, std::size_t free_bodies) {
+  const std::pair<int, int> in_order = std::minmax(index_of(pair.a), index_of(pair.b));
+  if (z(in_order.second) < free_bodies) solver.pairs.push_back(in_order);
+}
+
+// Members from this one on join the others; those bodies that had no joint before are where Box2D has them,
+// or where the joints knew them.
+void Component::admit(std::size_t first, std::size_t free_bodies) {
+  bool held_anew = false;
+  for (std::size_t i = first; i < members.size(); ++i) {
     Member& m = *members[i];
     Joint& j = solver.joints.emplace_back(m.own.joint);
     solver.records.push_back(m.own.record);
     solver.drift_time() = std::max(solver.drift_time(), m.own.drift_time);
     m.belong_to(this);
     m.index = i;
-    j.a = number(m.joint->GetBodyA());
-    j.b = number(m.joint->GetBodyB());
-    if (!m.own.fresh) {
-      remember(z(j.a), m.own.known[0]);
-      remember(z(j.b), m.own.known[1]);
+    j.a = index_of(m.joint->GetBodyA());
+    j.b = index_of(m.joint->GetBodyB());
+    for (unsigned side = 0; side < 2 && !m.own.fresh; ++side) {
+      const std::size_t body = z(side == 0 ? j.a : j.b);
+      const KnownPose& known = m.own.known[side];
+      held_anew |= freedom(body, free_bodies) < known.freedom;
+      if (mirrors[body].guest()) remember(body, known);
     }
     // In doubles: what floats round of it changes when the centre of mass does, and would strain rigid rows.
     const b2Vec2 a = m.joint->GetLocalAnchorA(), from_a = m.joint->GetBodyA()->GetLocalCenter();
@@ -127,22 +146,23 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     j.frame.ax = double{a.x} - from_a.x, j.frame.ay = double{a.y} - from_a.y;
     j.frame.bx = double{b.x} - from_b.x, j.frame.by = double{b.y} - from_b.y;
   }
-  for (const BodyPair& pair : met) {
-    const int a = number(pair.a), b = number(pair.b);
-    if (z(a) < free_bodies && z(b) < free_bodies) solver.pairs.emplace_back(std::min(a, b), std::max(a, b));
+  for (std::size_t i = first; i < members.size(); ++i) {
+    for (const int body : {solver.joints[i].a, solver.joints[i].b}) mirrors[z(body)].gain_joints(1);
   }
   std::sort(solver.pairs.begin(), solver.pairs.end());
   solver.pairs.erase(std::unique(solver.pairs.begin(), solver.pairs.end()), solver.pairs.end());
-  solver.form(free_bodies);
+  const auto was_solved = [](const Member* m) { return !m->own.fresh; };
+  const auto joining = members.begin() + static_cast<std::ptrdiff_t>(first);
+  const bool adapts = std::any_of(joining, members.end(), was_solved);  // its impulses, to the step
+  solver.form(free_bodies, adapts ? 0 : first);
   solver.locate();
   // A new joint, or a body that may not move any more, holds bodies where they are. If beside it an old joint
   // closed the gaps that turning has opened, they would strain each other.
-  const bool hold =
-      held_anew || std::any_of(members.begin(), members.end(), [](const Member* m) { return m->own.fresh; });
-  for (std::size_t i = 0; i < members.size(); ++i) {
+  const bool hold = held_anew || !std::all_of(joining, members.end(), was_solved);
+  for (std::size_t i = hold ? 0 : first; i < members.size(); ++i) {
     Joint& j = solver.joints[i];
     Rows& gap = solver.records[i].gap;
-    if (std::exchange(members[i]->own.fresh, false)) {
+    if (i >= first && std::exchange(members[i]->own.fresh, false)) {
       struck_ |= parts(j);
       for (unsigned row = 0; row < 3; ++row) j.neutral[row] += gap[row];
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
@@ -150,7 +170,7 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
     }
     // Bodies that were moved meanwhile return to the gap that the joint last saw. What rounding to
     // floats has moved stays, and strains nothing: rigid rows that are parallel would make much of it.
-    const Rows& seen = members[i]->own.record.gap;
+    const Rows& seen = i >= first ? members[i]->own.record.gap : gap;
     bool moved = false;
     for (unsigned row = 0; row < 3; ++row) moved |= std::abs(gap[row] - seen[row]) > 1e-9;
     for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += gap[row] - seen[row];
@@ -161,6 +181,57 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
         j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
     }
   }
+}
+
+// Bodies that it does not know come before all others in the order of elimination, the last of them first: so
+// they fill what they hang on, and nothing else.
+void Component::join(std::span<Member* const> joining, std::span<const BodyPair> touching) {
+  const std::size_t known = mirrors.size();
+  std::vector<b2Body*> entering;
+  const auto see = [&](b2Body* body) {
+    const std::pair<const b2Body*, int> as_new{body, static_cast<int>(known + entering.size())};
+    const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{as_new.first, 0});
+    if (at != by_address_.end() && at->first == body) return;
+    by_address_.insert(at, as_new);
+    entering.push_back(body);
+  };
+  for (const Member* m : joining) see(m->joint->GetBodyA()), see(m->joint->GetBodyB());
+  for (const BodyPair& pair : touching) see(pair.a), see(pair.b);
+
+  const auto first = static_cast<std::size_t>(std::count_if(entering.begin(), entering.end(), is_free));
+  make_room(first, entering.size() - first);
+  std::size_t next_free = first, next_other = known + first;
+  std::vector<std::size_t> places(entering.size());
+  for (std::size_t i = 0; i < entering.size(); ++i) {
+    places[i] = is_free(entering[i]) ? --next_free : next_other++;
+    enter(places[i], *entering[i]);
+  }
+  for (auto& [body, number] : by_address_)
+    number = static_cast<int>(z(number) < known ? z(number) + first : places[z(number) - known]);
+
+  // What was a guest was elsewhere, maybe.
+  for (Member* m : joining) {
+    for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
+      const std::size_t i = z(index_of(body));
+      if (mirrors[i].guest()) enter(i, *body);
+    }
+    members.push_back(m);
+    if (!is_of(*m->structure)) take_in(*m->structure);
+  }
+  const std::size_t free_bodies = solver.free_bodies() + first, before = members.size() - joining.size();
+  for (const BodyPair& pair : touching) {
+    met.push_back(pair);
+    add_pair(pair, free_bodies);
+  }
+  admit(before, free_bodies);
+  came_ += joining.size();
+  touched_ += touching.size();
+  rest_ = Rest::none;
+}
+
+void Component::take_in(Structure::Impl& structure) {
+  structures.push_back(&structure);
+  solver.keeps_ledger |= structure.def.keep_ledger && direct();
 }
 
 bool Component::broke_off(std::span<Member* const> leaving) const {
@@ -181,7 +252,8 @@ void Component::remove(Member& m) {
   hand_back(m);
   m.belong_to(nullptr);
   met.push_back({m.joint->GetBodyA(), m.joint->GetBodyB()});
-  for (const int body : {j.a, j.b}) mirrors[z(body)].lose_joint();
+  ++left_;
+  for (const int body : {j.a, j.b}) mirrors[z(body)].gain_joints(-1);
   solver.remove(m.index);
   members[m.index] = members.back();
   members[m.index]->index = m.index;
@@ -228,7 +300,7 @@ bool Component::is_of(const Structure::Impl& structure) const {
 
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
-  tape(origin, formed_of_, displaced_, struck_, rests, mirrors, parts_, solver);
+  tape(origin, formed_of_, left_, came_, touched_, displaced_, struck_, rests, mirrors, parts_, solver);
   rest_ = rests ? Rest::expected : Rest::none;
 }
 

@@ -95,12 +95,12 @@ struct Component {
   /// of their bodies.
   Component(std::vector<Member*> enlisted, SolverKind kind, std::vector<BodyPair> touching,
             std::vector<b2Body*> order = {});
-  /// Whether it may go on when so many joints leave it. It drags along what they left: rows of bodies that it
-  /// has no more, and an order of elimination for what they held together. One that is swept has its rows in
-  /// the order in which they were made.
-  bool outlasts(std::size_t leaving) const {
-    return direct() && leaving < members.size() &&
-           members.size() - leaving + std::max<std::size_t>(4, formed_of_ / 16) >= formed_of_;
+  /// Whether it may go on when so many joints leave it, or join it, and so many pairs of bodies touch that it
+  /// does not know. It drags along what was left, bodies that it has no more, and an order of elimination for
+  /// what held together once. One that is swept has its rows in the order in which they were made.
+  bool outlasts(std::size_t leaving, std::size_t joining = 0, std::size_t touching = 0) const {
+    return direct() && leaving < members.size() && left_ + leaving + came_ + joining <= most_changes(16) &&
+           touched_ + touching <= most_changes(4);
   }
   /// Whether these joints broke off, so that no moving body has some of them and some that stay: a body that
   /// is disabled takes its joints out of the island, and yet they go on with it.
@@ -108,12 +108,30 @@ struct Component {
   /// Between steps, or before the first call of one: the joint leaves, and nothing else is formed anew. Its
   /// bodies keep their places, in the order of elimination and in the pattern of H, as guests do.
   void remove(Member& member);
-  /// Whether joints have left it since it was formed.
-  bool is_worn() const { return members.size() < formed_of_; }
+  /// Between steps, or before the first call of one: joints of no component become its own, and pairs of
+  /// bodies part of the pattern of H. Bodies that it knows are what they were, free or not.
+  void join(std::span<Member* const> joining, std::span<const BodyPair> touching);
+  /// Reports to this structure, too.
+  void take_in(Structure::Impl& structure);
+  /// Whether it has changed since it was formed.
+  bool is_worn() const { return left_ + came_ + touched_ > 0; }
 
-  /// Before a step: where the island has the bodies, and whether they are still what the component was formed
-  /// for. Takes their velocities, but where the step may be the last one again.
-  bool look(const b2SolverData& data, const IslandContacts& contacts, std::span<const StockJoint> stock);
+  /// Before a step, after touch() and tie(): where the island has the bodies, and whether they are still what
+  /// the component was formed for. Takes their velocities, but where the step may be the last one again.
+  bool look(const b2SolverData& data);
+  /// Before a step's first touch() and tie().
+  void clear_outside();
+  /// Calls visit(body) for the guests that touch it or are tied to it in this step, once for each row.
+  template <class Visit>
+  void each_guest(const Visit& visit) const {
+    const auto see = [&](const auto& all) {
+      for (const auto& t : all)
+        for (const int body : {t.in_a, t.in_b})
+          if (mirrors[z(body)].guest()) visit(body);
+    };
+    see(outside_.touches);
+    see(outside_.ties);
+  }
   /// The contact is a row of this step; false where the component was not formed for its bodies.
   bool touch(Touch touch);
   /// Likewise, of a stock joint.
@@ -142,6 +160,12 @@ struct Component {
   /// Whether the bodies of its joints are still what the component was formed for.
   bool fits_bodies() const;
   bool is_of(const Structure::Impl& structure) const;
+  /// Where a body is in the solver, -1 where it does not know it.
+  int index_of(const b2Body* body) const;
+  /// Whether a body is of its own, or a guest and no other component's.
+  bool has(const b2Body& body) const;
+  /// Whether these bodies are its own or guests, and something between them may be a row.
+  bool knows(int a, int b) const;
   template <class Count>
   void report(const Count& count) const;
   void keep(Tape& tape);
@@ -159,15 +183,19 @@ struct Component {
 
  private:
   bool direct() const { return !solver.swept(); }
+  std::size_t most_changes(std::size_t share) const { return std::max<std::size_t>(4, formed_of_ / share); }
   bool alone() const { return coupling_ == Coupling::none; }
   bool as_before(const b2SolverData& data) const;
   bool touched_as_before();
   float slack() const;
   bool is_whole() const;
+  void make_room(std::size_t first, std::size_t last);
+  void enter(std::size_t i, b2Body& body);
+  void remember(std::size_t i, const KnownPose& known);
+  void add_pair(const BodyPair& pair, std::size_t free_bodies);
+  void admit(std::size_t first, std::size_t free_bodies);
   int freedom(std::size_t body, std::size_t free_bodies) const;
-  int index_of(const b2Body* body) const;
   bool is_of_another(int body) const;
-  bool knows(int a, int b) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
   double closing() const;
@@ -215,8 +243,9 @@ struct Component {
 
   std::vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
-  std::vector<Pose> goal_;  // of a projection
-  std::size_t formed_of_;   // so many joints
+  std::vector<Pose> goal_;                         // of a projection
+  std::size_t formed_of_;                          // so many joints
+  std::size_t left_ = 0, came_ = 0, touched_ = 0;  // since then: joints, and pairs of bodies
   bool displaced_ = false;  // bodies were moved apart while their joint was in no island
   bool struck_ = false;     // velocities were changed between the steps
   Parts parts_;

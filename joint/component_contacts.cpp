@@ -20,11 +20,15 @@ bool Component::touch(Touch t) {
   return true;
 }
 
-// Whether these bodies are its own or guests, and it was formed for something between them.
 bool Component::knows(int a, int b) const {
   if (a < 0 || b < 0 || is_of_another(a) || is_of_another(b)) return false;
   const std::pair<int, int> pair = std::minmax(a, b);
   return !solver.is_free(pair.second) || std::binary_search(solver.pairs.begin(), solver.pairs.end(), pair);
+}
+
+bool Component::has(const b2Body& body) const {
+  const int i = index_of(&body);
+  return i >= 0 && !is_of_another(i);
 }
 
 // Whether a guest is a piece of another component: one that was of this one, and broke off.

@@ -11,20 +11,14 @@
 
 namespace ductile::dynamics {
 
-bool Component::look(const b2SolverData& data, const IslandContacts& contacts,
-                     std::span<const StockJoint> stock) {
+void Component::clear_outside() {
   outside_.touches.clear();
   outside_.ties.clear();
+}
+
+bool Component::look(const b2SolverData& data) {
   for (Mirror& m : mirrors) m.present = !m.guest();
-  const auto see = [this](const auto& all) {
-    for (const auto& t : all) {
-      for (const b2Body* body : {t.a(), t.b()}) {
-        if (const int i = index_of(body); i >= 0) mirrors[z(i)].present = !is_of_another(i);
-      }
-    }
-  };
-  see(contacts.touches());
-  see(stock);
+  each_guest([this](int body) { mirrors[z(body)].present = true; });
   bool masses = true;
   bool alone = direct();
   for (std::size_t i = 0; i < mirrors.size(); ++i) {

@@ -48,7 +48,11 @@ void Hessian::analyse(System& system) {
     if (system.is_free(j.a) && system.is_free(j.b)) edges.emplace_back(j.a, j.b);
   }
   edges.insert(edges.end(), system.pairs.begin(), system.pairs.end());
-  ldlt_.analyse(static_cast<int>(system.free), edges);
+  const auto has = [this](const auto& edge) {
+    return ldlt_.has(std::max(edge.first, edge.second), std::min(edge.first, edge.second));
+  };
+  if (z(ldlt_.size()) != system.free || !std::all_of(edges.begin(), edges.end(), has))
+    ldlt_.analyse(static_cast<int>(system.free), edges);
   for (Joint& j : system.joints) {
     j.block =
         system.is_free(j.a) && system.is_free(j.b) ? ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b)) : -1;

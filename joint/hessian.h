@@ -22,7 +22,8 @@ enum class Factored {
 
 class Hessian {
  public:
-  /// Finds the pattern, and each joint's block in it. Allocates.
+  /// Finds the pattern, where it is not that of as many bodies before and has all that joins these now, and
+  /// each joint's block in it. Allocates.
   void analyse(System& system);
   /// The block of two free bodies in the pattern.
   int block(int a, int b) const { return ldlt_.slot(std::max(a, b), std::min(a, b)); }

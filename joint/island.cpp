@@ -83,18 +83,15 @@ void Island::velocity(const b2SolverData& data) {
       if (c->enlisted < c->members.size()) separate(*c);
     }
     std::erase_if(active_, [](const Component* c) { return c->enlisted == 0; });
-    std::size_t known = 0;
-    bool fits = true;
+    bool fits = (is_known() && distribute()) || (grow() && distribute());
     for (Component* c : active_) {
       const std::size_t enlisted = std::exchange(c->enlisted, 0);
-      known += enlisted;
-      fits = fits && enlisted == c->members.size() && c->look(data, contacts_, stock_);
+      fits = fits && enlisted == c->members.size() && c->look(data);
     }
-    fits = fits && known == enlisted_.size();
-    if (!fits || !distribute()) {
+    if (!fits) {
       form();
-      for (Component* c : active_) c->look(data, contacts_, stock_);
       distribute();
+      for (Component* c : active_) c->look(data);
     }
     hold_bullets();
     for (Component* c : active_) c->first_velocity(data);
@@ -131,6 +128,117 @@ void Island::separate(Component& c) {
   if (!c.outlasts(leaving.size()) || !c.broke_off(leaving)) return;
   for (Member* m : leaving) c.remove(*m);
   c.enlisted = stays ? c.members.size() : 0;
+}
+
+// Whether all of its joints are in components.
+bool Island::is_known() const {
+  std::size_t known = 0;
+  for (const Component* c : active_) known += c->enlisted;
+  return known == enlisted_.size();
+}
+
+// The component of the island that a body is a piece of, or else a guest.
+Component* Island::component_of(const b2Body& body) const {
+  if (!is_free(&body)) return nullptr;
+  Component* found = nullptr;
+  for (Component* c : active_) {
+    const int i = c->index_of(&body);
+    if (i < 0 || !c->has(body)) continue;
+    if (!c->mirrors[z(i)].guest()) return c;
+    found = c;
+  }
+  return found;
+}
+
+// Whether a guest of the island's components is no more, or another stands at its address.
+bool Island::misses_guests() const {
+  std::vector<std::pair<const b2Body*, const Mirror*>> guests;
+  for (const Component* c : active_) {
+    for (const Mirror& m : c->mirrors)
+      if (m.guest()) guests.emplace_back(m.body, &m);
+  }
+  if (guests.empty()) return false;
+  std::sort(guests.begin(), guests.end());
+  std::size_t there = 0;
+  for (const b2Body* body = world().GetBodyList(); body != nullptr; body = body->GetNext()) {
+    auto at =
+        std::lower_bound(guests.begin(), guests.end(), std::pair{body, static_cast<const Mirror*>(nullptr)});
+    for (; at != guests.end() && at->first == body; ++at) there += at->second->fits() ? 1 : 0;
+  }
+  return there < guests.size();
+}
+
+// Joints that are new, and what touches or is tied for the first time, join the component that they hang on:
+// it costs what comes, not what is there. False where anything hangs on two, or on none, or a component does
+// not outlast what would join it.
+bool Island::grow() {
+  struct Share {
+    std::vector<Member*> joining;
+    std::vector<BodyPair> touching;
+  };
+  std::vector<Share> shares(active_.size());
+  std::vector<std::pair<const b2Body*, Component*>> entering;
+  const auto component_of = [&](const b2Body* body) {
+    const auto at =
+        std::find_if(entering.begin(), entering.end(), [&](const auto& e) { return e.first == body; });
+    return at != entering.end() ? at->second : this->component_of(*body);
+  };
+  bool fits = direct() && !misses_guests();
+  const auto belongs = [&](b2Body* a, b2Body* b) -> Component* {
+    Component *of_a = component_of(a), *of_b = component_of(b);
+    if (of_a != nullptr && of_b != nullptr && of_a != of_b) fits = false;
+    Component* const one = of_a != nullptr ? of_a : of_b;
+    if (one == nullptr || !fits) return nullptr;
+    for (const b2Body* body : {a, b}) {
+      const int i = one->index_of(body);
+      if (i < 0 && is_free(body)) entering.emplace_back(body, one);
+      fits &= i < 0 || one->solver.is_free(i) == is_free(body);
+    }
+    return one;
+  };
+  const auto share_of = [&](const Component* c) -> Share& {
+    return shares[static_cast<std::size_t>(std::find(active_.begin(), active_.end(), c) - active_.begin())];
+  };
+
+  std::vector<Member*> joints;
+  for (Member* m : enlisted_) {
+    if (m->component == nullptr) joints.push_back(m);
+  }
+  std::sort(joints.begin(), joints.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
+  std::vector<BodyPair> pairs;
+  const auto add_unknown = [&](b2Body* a, b2Body* b) {
+    const bool known = std::any_of(active_.begin(), active_.end(), [&](const Component* c) {
+      return c->knows(c->index_of(a), c->index_of(b));
+    });
+    if (!known && (is_free(a) || is_free(b))) pairs.push_back({a, b});
+  };
+  for (const StockJoint& t : stock_) add_unknown(t.a(), t.b());
+  for (const Touch& t : contacts_.touches()) add_unknown(t.a(), t.b());
+  for (bool again = true; std::exchange(again, false) && fits;) {
+    std::erase_if(joints, [&](Member* m) {
+      Component* c = belongs(m->joint->GetBodyA(), m->joint->GetBodyB());
+      if (c != nullptr) share_of(c).joining.push_back(m);
+      again |= c != nullptr;
+      return c != nullptr;
+    });
+    std::erase_if(pairs, [&](const BodyPair& pair) {
+      Component* c = belongs(pair.a, pair.b);
+      if (c != nullptr) share_of(c).touching.push_back(pair);
+      again |= c != nullptr;
+      return c != nullptr;
+    });
+  }
+  if (!fits || !joints.empty() || !pairs.empty()) return false;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!active_[i]->outlasts(0, shares[i].joining.size(), shares[i].touching.size())) return false;
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const auto& [joining, touching] = shares[i];
+    if (joining.empty() && touching.empty()) continue;
+    active_[i]->join(joining, touching);
+    active_[i]->enlisted += joining.size();
+  }
+  return true;
 }
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
@@ -222,9 +330,7 @@ Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touchi
   Component& c = *components.emplace_back(
       std::make_unique<Component>(std::move(group), solver, std::move(touching), std::move(order)));
   for (const Member* m : c.members) {
-    if (c.is_of(*m->structure)) continue;
-    c.structures.push_back(m->structure);
-    c.solver.keeps_ledger |= m->structure->def.keep_ledger && solver == SolverKind::direct;
+    if (!c.is_of(*m->structure)) c.take_in(*m->structure);
   }
   return c;
 }

@@ -63,6 +63,10 @@ class Island {
   void hand_back(Component& component);
   void forget_last();
   void separate(Component& component);
+  bool is_known() const;
+  Component* component_of(const b2Body& body) const;
+  bool misses_guests() const;
+  bool grow();
   void form();
   // reach.cpp
   void choose_contacts(const b2SolverData& data);
@@ -76,7 +80,8 @@ class Island {
 
   std::vector<Structure::Impl*> structures_;
   std::vector<Member*> enlisted_;
-  std::vector<Component*> active_;  // of the enlisted joints
+  std::vector<Component*> active_;                                  // of the enlisted joints
+  std::vector<std::pair<const b2Body*, const Component*>> guests_;  // free ones
   int velocity_calls_ = 0;
   IslandContacts contacts_;
   std::vector<StockJoint> stock_;  // that hold its pieces, and what touches these

@@ -13,16 +13,13 @@ BodyMass::BodyMass(const b2Body& body)
       gyration(mass > 0 ? std::sqrt(inertia / mass) : 0),
       center(body.GetLocalCenter()) {}
 
-Mirror::Mirror(b2Body& of, int joints_of_it)
+Mirror::Mirror(b2Body& of)
     : body(&of),
       mass(of),
       type(of.GetType()),
-      joined(joints_of_it),
       left{of.GetWorldCenter(), of.GetAngle()},
       given{of.GetLinearVelocity(), of.GetAngularVelocity()},
-      exact(in_doubles(given)) {
-  find_joints();
-}
+      exact(in_doubles(given)) {}
 
 void Mirror::find_joints() {
   int held = 0;
@@ -30,8 +27,8 @@ void Mirror::find_joints() {
   joints = !guest() && held == joined ? body->GetJointList() : nullptr;
 }
 
-void Mirror::lose_joint() {
-  --joined;
+void Mirror::gain_joints(int count) {
+  joined += count;
   joints = nullptr;
   if (type == b2_dynamicBody) find_joints();  // the list of the ground may be as long as the structure
 }

@@ -48,17 +48,17 @@ struct Mirror {
   bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
 
   Mirror() = default;
-  /// Of a body that has so many joints of the component.
-  Mirror(b2Body& of, int joined);
+  /// Of a body that has no joint of the component yet.
+  explicit Mirror(b2Body& of);
 
   bool has_its_mass() const { return type != b2_dynamicBody || mass.is_of(*body); }
   bool fits() const { return body->GetType() == type && has_its_mass(); }
   /// Has no joint of the component: it touches the structure, is tied to it, or once was of it.
   bool guest() const { return joined == 0; }
-  /// The component loses a joint of the body.
-  void lose_joint();
+  /// The component gains so many joints of the body, or loses them.
+  void gain_joints(int count);
   /// Whether nothing touches or holds the body but joints of the component. Box2D prepends new joints to a
-  /// body's list, and of one of ours that goes lose_joint() knows.
+  /// body's list, and of ours that come and go gain_joints() knows.
   bool only_ours() const { return body->GetContactList() == nullptr && body->GetJointList() == joints; }
   /// Its pose and velocity at the start of a step.
   b2Position pose_in(const b2SolverData& data) const {

@@ -25,6 +25,7 @@ void Newton::form(const System& system) {
   for (auto* v : {&g_, &d_, &z_}) v->assign(system.bodies.size(), {});
   interior_point.form(system);
   pushed_.assign(system.free, 0);
+  forget();
 }
 
 // ∇f = M (v − v*) + …, and v is where the last evaluation was.

@@ -111,14 +111,28 @@ void Island::follow(b2Body& body) {
   }
 }
 
+// Whether each is in one component, and no guest in two: one that went to another island and came back may be
+// known to both.
 bool Island::distribute() {
   const auto taken = [this](const auto& all, const auto& take) {
     return std::all_of(all.begin(), all.end(), [&](const auto& t) {
       return std::any_of(active_.begin(), active_.end(), [&](Component* c) { return take(*c, t); });
     });
   };
-  return taken(contacts_.touches(), [](Component& c, const Touch& t) { return c.touch(t); }) &&
-         taken(stock_, [](Component& c, const StockJoint& t) { return c.tie(t); });
+  for (Component* c : active_) c->clear_outside();
+  if (!taken(contacts_.touches(), [](Component& c, const Touch& t) { return c.touch(t); }) ||
+      !taken(stock_, [](Component& c, const StockJoint& t) { return c.tie(t); }))
+    return false;
+  guests_.clear();
+  for (Component* c : active_) {
+    c->each_guest([&](int body) {
+      if (c->solver.is_free(body)) guests_.emplace_back(c->mirrors[z(body)].body, c);
+    });
+  }
+  std::sort(guests_.begin(), guests_.end());
+  return std::adjacent_find(guests_.begin(), guests_.end(), [](const auto& g, const auto& h) {
+           return g.first == h.first && g.second != h.second;
+         }) == guests_.end();
 }
 
 }  // namespace ductile::dynamics

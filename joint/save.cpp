@@ -18,7 +18,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 7;    // changes with what the solver carries from step to step
+constexpr int past = 8;    // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -209,7 +209,7 @@ class Structure::Impl::Save {
   struct Guests {
     std::vector<Gone> gone;
     std::vector<BodyPair> met;  // of them and of the world's bodies
-    /// In the order of elimination: of a component that joints have left since it was formed.
+    /// In the order of elimination: of a component that has changed since it was formed.
     std::vector<b2Body*> order;
   };
 

@@ -34,8 +34,8 @@ Solver::Solver(bool swept_in_passes) {
   if (swept_in_passes) laws_.elastic_ratio = laws_.least_delta = 1;
 }
 
-void Solver::form(std::size_t free_bodies) {
-  System::form(free_bodies);
+void Solver::form(std::size_t free_bodies, std::size_t first) {
+  System::form(free_bodies, first);
   hessian_.analyse(*this);
   newton_.form(*this);
   projection_.form(*this);
@@ -48,7 +48,11 @@ void Solver::form(std::size_t free_bodies) {
   prediction_.form(masses);
   driven.reserve(joints.size());
   rated.reserve(joints.size());
-  laws_changed();
+  predicted_ = false;
+  last_ = {};
+  if (first == 0) return laws_changed();
+  for (std::size_t k = first; k < joints.size(); ++k) laws_.set_law(joints[k], records[k]);
+  list_special(*this);
 }
 
 void Solver::remove(std::size_t joint) {

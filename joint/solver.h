@@ -46,7 +46,9 @@ class Solver : public System {
 
   explicit Solver(bool swept_in_passes = false);
 
-  void form(std::size_t free_bodies);
+  /// Where joints before `first` were there before, with these bodies or with some more in front of them,
+  /// they keep their laws.
+  void form(std::size_t free_bodies, std::size_t first = 0);
   /// See System::remove(). Nothing is predicted of the step that follows.
   void remove(std::size_t joint);
   std::size_t free_bodies() const { return free; }

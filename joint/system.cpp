@@ -9,11 +9,11 @@
 
 namespace ductile::dynamics {
 
-void System::form(std::size_t free_bodies) {
+void System::form(std::size_t free_bodies, std::size_t first) {
   free = free_bodies;
   turn_inertias.clear();
-  std::size_t inertias = 0;
-  for (const Joint& j : joints) inertias += turns_each(j) ? 3 : 1;
+  std::size_t inertias = first == 0 ? 0 : turn_inertias.capacity();
+  for (std::size_t k = first; k < joints.size(); ++k) inertias += turns_each(joints[k]) ? 3 : 1;
   turn_inertias.reserve(inertias);
   clumps.assign(free_bodies, {});
   for (JointRecord& r : records) r.turn_inertia = -1;
@@ -24,7 +24,8 @@ void System::form(std::size_t free_bodies) {
     b.inverse_mass = 1 / b.mass;
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
   }
-  for (const Joint& j : joints) {
+  for (std::size_t k = first; k < joints.size(); ++k) {
+    const Joint& j = joints[k];
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
     const auto inverse_mass = [&](int body) { return is_free(body) ? bodies[z(body)].inverse_mass : 0; };
     const auto inverse_inertia = [&](int body) {
@@ -64,6 +65,21 @@ void System::remove(std::size_t joint) {
   joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(last));
   records.erase(records.begin() + static_cast<std::ptrdiff_t>(last));
   if (!driven.empty() || !rated.empty()) list_special(*this);
+}
+
+void System::insert_bodies(std::size_t first, std::size_t last) {
+  const std::size_t joined = own();
+  contacts.clear();
+  links.clear();
+  joints.resize(joined);
+  records.resize(joined);
+  bodies.insert(bodies.begin(), first, {});
+  places.insert(places.begin(), first, {});
+  bodies.resize(bodies.size() + last);
+  places.resize(bodies.size());
+  const int by = static_cast<int>(first);
+  for (Joint& j : joints) j.a += by, j.b += by;
+  for (auto& [a, b] : pairs) a += by, b += by;
 }
 
 bool System::turns_each(const Joint& j) const {

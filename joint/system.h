@@ -193,11 +193,14 @@ struct System {
 
   /// After form(), of the same bodies and joints.
   void keep(Tape& tape);
-  /// Inverse masses, m_eff and the total mass, of so many free bodies.
-  void form(std::size_t free_bodies);
+  /// Inverse masses and the total mass, of so many free bodies, and m_eff of the joints from `first` on.
+  void form(std::size_t free_bodies, std::size_t first = 0);
   /// A joint of the structure goes, and the last of these takes its index. In the pattern of H its bodies
   /// stay a pair.
   void remove(std::size_t joint);
+  /// Before form(): so many free bodies come before all others, and so many that are not free after them.
+  /// What else holds or touches the bodies goes.
+  void insert_bodies(std::size_t first, std::size_t last);
 
  private:
   bool keep_others(Tape& tape);

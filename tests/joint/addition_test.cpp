@@ -1,0 +1,120 @@
+// Joints, pieces and guests that come join what is there: nothing else is formed anew, and what is solved is
+// the same.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "allocations.h"
+#include "beam.h"
+#include "bodies.h"
+#include "ductile/save.h"
+#include "eventful.h"
+
+namespace ductile {
+namespace {
+
+/// A cantilever of 40 pieces that gets second joints beside those that it has.
+struct Growing : Beam {
+  Growing() : Beam({.pieces = 40, .youngs_modulus = 210e9, .damping_time = 0.03}) {}
+  void add(int at, bool holds) {
+    ElasticPlasticJointDef def;
+    def.Initialize(at == 0 ? wall : piece(at - 1), piece(at), point(0.5 * at), {1, 0});
+    if (holds) {
+      set_rows(def, 0.5);
+    } else {
+      for (RowDef& row : def.rows) row = RowDef::free();
+    }
+    structure.create_joint(def);
+  }
+  b2Body* piece(int i) { return pieces[static_cast<std::size_t>(i)]; }
+};
+
+// More joints than a component outlasts come to the second beam: it is formed anew, and moves alike, as these
+// hold nothing. What differs is the order of elimination.
+TEST(Addition, LeavesWhatAComponentFormedAnewWouldSolve) {
+  Growing in_place, anew;
+  for (Growing* beam : {&in_place, &anew}) beam->run(0.25);
+  for (int i = 1; i < 40; i += 4) anew.add(i, false);
+  for (Growing* beam : {&in_place, &anew}) {
+    beam->add(0, true);
+    beam->add(20, true);
+    beam->run(0.25);
+    beam->add(31, true);
+    beam->run(1);
+  }
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_NEAR(in_place.pieces[i]->GetPosition().y, anew.pieces[i]->GetPosition().y, 1e-6) << i;
+    EXPECT_NEAR(in_place.joints[i]->force(rotation), anew.joints[i]->force(rotation),
+                1e-9 * std::abs(in_place.root_moment()))
+        << i;
+  }
+  const double balance = in_place.structure.energy().numerical - anew.structure.energy().numerical;
+  EXPECT_NEAR(balance, 0, 1e-6 * in_place.mass() * 10 * 20);
+}
+
+// Two pieces are hung on the tip of a cantilever, one after the other, and a block is laid on the first: the
+// support bears all of it, at its lever.
+TEST(Addition, OfPiecesAndOfWhatTouchesThemIsBorne) {
+  eventful::Scene s;
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 12, unlimited, unlimited, 0);
+  for (ElasticPlasticJoint* j : s.structure.joints()) j->set_stiffness(rotation, 1e9, 20);
+  s.run(60);
+  for (const double x : {12.5, 13.5}) {
+    b2Body* piece = add_box(s.world, {.x = x, .group = 0});
+    ElasticPlasticJointDef def;
+    def.Initialize(s.structure.joints().back()->GetBodyB(), piece, vec(x - 0.5, 0), {1, 0});
+    def.rows[rotation] = {.stiffness = 1e9, .damping_ratio = 20};
+    s.structure.create_joint(def);
+    s.run(60);
+  }
+  add_box(s.world, {.x = 12.5, .y = 1.01, .group = 0});
+  s.run(1200);
+  ElasticPlasticJoint& root = *s.structure.joints().front();
+  const double one = root.GetBodyB()->GetMass() * 10.0;
+  EXPECT_NEAR(std::abs(root.force(shear)), 15 * one, 1e-5 * 15 * one);
+  EXPECT_NEAR(std::abs(root.force(rotation)), (14 * 7 + 12.5) * one, 1e-4 * 110 * one);
+  EXPECT_EQ(s.structure.report().bounds_hit, 0);
+}
+
+// Saved after each that came, worlds run on to the bit.
+TEST(Addition, IsSaved) {
+  eventful::Scene s;
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 64, unlimited, unlimited, 0);
+  eventful::add_floor(s, -30);
+  s.run(30);
+  std::mt19937 random(1);
+  for (int round = 0; round < 18; ++round) {
+    const auto joints = s.structure.joints();
+    b2Body* piece = joints[random() % joints.size()]->GetBodyB();
+    const b2Vec2 at = piece->GetPosition();
+    ElasticPlasticJointDef def;
+    switch (round % 3) {
+      case 0:
+        def.Initialize(joints[random() % joints.size()]->GetBodyA(), piece, at, {1, 0});
+        if (def.bodyA != piece) s.structure.create_joint(def);
+        break;
+      case 1:
+        def.Initialize(piece, add_box(s.world, {.x = at.x, .y = at.y - 1.1, .group = 0}),
+                       vec(at.x, at.y - 0.55), {0, 1});
+        s.structure.create_joint(def);
+        break;
+      default:
+        add_box(s.world, {.x = at.x, .y = at.y + 1.1, .mass = 50, .group = 0});
+    }
+    if (round % 4 == 3) s.world.DestroyJoint(s.structure.joints().back());
+    s.run(1 + round % 5);
+    eventful::Scene loaded;
+    load_bytes(loaded.structure, save_bytes(s.structure));
+    eventful::Scene again;
+    load_json(again.structure, save_json(loaded.structure));
+    const std::uint64_t ran_on = s.run(20);
+    ASSERT_EQ(loaded.run(20), ran_on) << round;
+    ASSERT_EQ(again.run(20), ran_on) << round;
+  }
+}
+
+}  // namespace
+}  // namespace ductile
