@@ -3,6 +3,9 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -11,8 +14,37 @@
 
 namespace ductile::dynamics {
 
-std::vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>> edges) {
-  std::vector<Eigen::Triplet<double>> entries;
+namespace {
+
+constexpr int few = 64;  // bodies, one bit each
+
+// That of which eliminating fills least comes first: of few bodies it is found from their neighbours' bits,
+// in no memory.
+Vector<int> order_of_few(int n, std::span<const std::pair<int, int>> edges) {
+  std::array<std::uint64_t, few> neighbours{};
+  const auto bit = [](int i) { return std::uint64_t{1} << i; };
+  for (const auto& [i, j] : edges) neighbours[z(i)] |= bit(j), neighbours[z(j)] |= bit(i);
+  Vector<int> order(z(n));
+  std::iota(order.begin(), order.end(), 0);
+  for (auto next = order.begin(); next != order.end(); ++next) {
+    std::iter_swap(next, std::min_element(next, order.end(), [&](int i, int j) {
+                     return std::pair{std::popcount(neighbours[z(i)]), i} <
+                            std::pair{std::popcount(neighbours[z(j)]), j};
+                   }));
+    const std::uint64_t clique = neighbours[z(*next)];
+    for (std::uint64_t left = clique; left != 0; left &= left - 1) {
+      const int j = std::countr_zero(left);
+      neighbours[z(j)] = (neighbours[z(j)] | clique) & ~bit(j) & ~bit(*next);
+    }
+  }
+  return order;
+}
+
+}  // namespace
+
+Vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>> edges) {
+  if (n <= few) return order_of_few(n, edges);
+  Vector<Eigen::Triplet<double>> entries;
   entries.reserve(z(n) + 2 * edges.size());
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
   for (const auto& [i, j] : edges) {
@@ -28,16 +60,16 @@ std::vector<int> BlockLdlt::order_for(int n, std::span<const std::pair<int, int>
 
 void BlockLdlt::analyse(int n, std::span<const std::pair<int, int>> edges) {
   // Edges by their lower end, one list after the other.
-  std::vector<int> first(z(n) + 1), above(edges.size());
+  Vector<int> first(z(n) + 1), above(edges.size());
   for (const auto& [i, j] : edges) ++first[z(std::min(i, j)) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<int> next(first.begin(), first.end() - 1);
+  Vector<int> next(first.begin(), first.end() - 1);
   for (const auto& [i, j] : edges) above[z(next[z(std::min(i, j))]++)] = std::max(i, j);
 
   // Symbolic elimination: the pattern of column j is its own, and that of all its children in the elimination
   // tree, which are lists, too: the youngest child, and the next older sibling of each column.
   constexpr int none = -1;
-  std::vector<int> youngest(z(n), none), older(z(n), none), seen(z(n), none);
+  Vector<int> youngest(z(n), none), older(z(n), none), seen(z(n), none);
   column_.assign(z(n) + 1, 0);
   row_.clear();
   row_.reserve(4 * edges.size());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "block_product.h"
+#include "pool.h"
 #include "vec3.h"
 
 namespace ductile::dynamics {
@@ -79,7 +80,7 @@ inline const int* eliminate(Block& diagonal, std::span<Block> column, std::span<
 class BlockLdlt {
  public:
   /// Elimination order of n bodies joined by `edges`: result[k] is the body to eliminate as number k.
-  static std::vector<int> order_for(int n, std::span<const std::pair<int, int>> edges);
+  static Vector<int> order_for(int n, std::span<const std::pair<int, int>> edges);
 
   /// Prepares for n bodies in elimination order; edges (i, j), i ≠ j, may repeat. Allocates.
   void analyse(int n, std::span<const std::pair<int, int>> edges);
@@ -118,12 +119,12 @@ class BlockLdlt {
   friend class BlockLu;  // of the same pattern
 
   // Column j holds the blocks lower_[column_[j]] … lower_[column_[j + 1]) in rows row_[…], ascending.
-  std::vector<int> column_, row_;
-  std::vector<Block> lower_;
-  std::vector<Block> diagonal_;  // after factor(): L₃ and 1/D₃ of the block's own scalar L D Lᵀ
+  Vector<int> column_, row_;
+  Vector<Block> lower_;
+  Vector<Block> diagonal_;  // after factor(): L₃ and 1/D₃ of the block's own scalar L D Lᵀ
   // For each column and each pair p > q of its blocks, where in lower_ L_p D L_qᵀ is subtracted.
-  std::vector<int> targets_;
-  std::vector<Right> unscaled_;  // the current column before its division by D, transposed
+  Vector<int> targets_;
+  Vector<Right> unscaled_;  // the current column before its division by D, transposed
 };
 
 }  // namespace ductile::dynamics

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "block_ldlt.h"
+#include "pool.h"
 
 namespace ductile::dynamics {
 
@@ -36,19 +37,19 @@ class BlockLu {
 
  private:
   // Columns in which L and U differ: of such bodies, and of those that these are eliminated into.
-  std::vector<char> skew_;
+  Vector<char> skew_;
   // After factor() as BlockLdlt's; of skew columns the block's own P D = L U, with the pivots' reciprocals.
-  std::vector<Block> diagonal_;
-  std::vector<std::array<unsigned char, 3>> rows_;  // P
+  Vector<Block> diagonal_;
+  Vector<std::array<unsigned char, 3>> rows_;  // P
   // L; in skew columns A U⁻¹ and (L⁻¹ P A)ᵀ with that L and U. Until its turn comes, an upper block is what
   // its transpose is more than the lower one.
-  std::vector<Block> lower_, upper_;
+  Vector<Block> lower_, upper_;
   struct Factors {
     Left left, upper_left;
     Right right, upper_right;
   };
-  std::vector<Factors> column_;  // the current one, of L and of Uᵀ
-  std::vector<Right> unscaled_;
+  Vector<Factors> column_;  // the current one, of L and of Uᵀ
+  Vector<Right> unscaled_;
 };
 
 }  // namespace ductile::dynamics

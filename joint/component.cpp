@@ -12,11 +12,11 @@
 
 namespace ductile::dynamics {
 
-Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_kind,
-                     std::vector<BodyPair> touching, std::vector<b2Body*> ordered)
+Component::Component(std::span<Member* const> enlisted_members, SolverKind solver_kind,
+                     std::span<const BodyPair> touching, std::span<b2Body* const> order)
     : solver(solver_kind == SolverKind::iterative),
-      members(std::move(enlisted_members)),
-      met(std::move(touching)),
+      members(enlisted_members.begin(), enlisted_members.end()),
+      met(touching.begin(), touching.end()),
       formed_of_(members.size()) {
   constexpr int unnumbered = std::numeric_limits<int>::max();
   by_address_.reserve(2 * (members.size() + met.size()));
@@ -35,19 +35,20 @@ Component::Component(std::vector<Member*> enlisted_members, SolverKind solver_ki
   };
 
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
-  std::vector<b2Body*> bodies, others;
+  Vector<b2Body*> bodies, others;
   bodies.reserve(by_address_.size());
   const auto count_in = [&](b2Body* body) {
     if (number(body) != unnumbered) return;
-    std::vector<b2Body*>& where = is_free(body) ? bodies : others;
+    Vector<b2Body*>& where = is_free(body) ? bodies : others;
     number(body) = static_cast<int>(where.size());
     where.push_back(body);
   };
   for (const Member* m : members) count_in(m->joint->GetBodyA()), count_in(m->joint->GetBodyB());
   for (const BodyPair& pair : met) count_in(pair.a), count_in(pair.b);
   const std::size_t free_bodies = bodies.size();
+  Vector<b2Body*> ordered(order.begin(), order.end());
   if (ordered.empty()) {
-    std::vector<std::pair<int, int>> edges;
+    Vector<std::pair<int, int>> edges;
     edges.reserve(members.size() + met.size());
     for (const Member* m : members) {
       b2Body *a = m->joint->GetBodyA(), *b = m->joint->GetBodyB();
@@ -187,7 +188,7 @@ void Component::admit(std::size_t first, std::size_t free_bodies) {
 // they fill what they hang on, and nothing else.
 void Component::join(std::span<Member* const> joining, std::span<const BodyPair> touching) {
   const std::size_t known = mirrors.size();
-  std::vector<b2Body*> entering;
+  Vector<b2Body*> entering;
   const auto see = [&](b2Body* body) {
     const std::pair<const b2Body*, int> as_new{body, static_cast<int>(known + entering.size())};
     const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{as_new.first, 0});
@@ -201,7 +202,7 @@ void Component::join(std::span<Member* const> joining, std::span<const BodyPair>
   const auto first = static_cast<std::size_t>(std::count_if(entering.begin(), entering.end(), is_free));
   make_room(first, entering.size() - first);
   std::size_t next_free = first, next_other = known + first;
-  std::vector<std::size_t> places(entering.size());
+  Vector<std::size_t> places(entering.size());
   for (std::size_t i = 0; i < entering.size(); ++i) {
     places[i] = is_free(entering[i]) ? --next_free : next_other++;
     enter(places[i], *entering[i]);
@@ -235,7 +236,7 @@ void Component::take_in(Structure::Impl& structure) {
 }
 
 bool Component::broke_off(std::span<Member* const> leaving) const {
-  std::vector<int> joints(solver.free_bodies());
+  Vector<int> joints(solver.free_bodies());
   for (const Member* m : leaving) {
     const Joint& j = solver.joints[m->index];
     for (const int body : {j.a, j.b})

@@ -16,6 +16,7 @@
 #include "ductile/joint.h"
 #include "member.h"
 #include "mirror.h"
+#include "pool.h"
 #include "solver.h"
 
 namespace ductile {
@@ -43,10 +44,10 @@ struct BodyPair {
 struct Component {
   /// What else touches or holds the bodies in this step: as Box2D has it, and as rows.
   struct Outside {
-    std::vector<Touch> touches;
-    std::vector<Contact> contacts;  // rows of the touches' points
-    std::vector<StockJoint> ties;
-    std::vector<Link> links;  // rows of the ties
+    Vector<Touch> touches;
+    Vector<Contact> contacts;  // rows of the touches' points
+    Vector<StockJoint> ties;
+    Vector<Link> links;  // rows of the ties
   };
   /// How much of what changes the bodies' velocities the solver solves with them.
   enum class Coupling : char {
@@ -71,13 +72,13 @@ struct Component {
       Vec3 sum;           // of the means of all parts
       double energy = 0;  // that a blow gives it, J
     };
-    std::vector<OfBody> bodies;
+    Vector<OfBody> bodies;
     struct OfContact {
       double normal = 0, tangent = 0;  // N s
       double work = 0;                 // on the bodies, J
       double gap = 0;                  // m, since the step's start
     };
-    std::vector<OfContact> sums;
+    Vector<OfContact> sums;
 
     void keep(Tape& tape) {
       tape(count, since_blow);
@@ -86,15 +87,15 @@ struct Component {
   };
   /// What the ledger needs of a step, when one is kept. Velocities are those of the bodies.
   struct Account {
-    bool open = false;              // until close_ledger()
-    std::vector<b2Velocity> began;  // before gravity
-    std::vector<b2Velocity> lost;   // what limit_speed() took since
+    bool open = false;         // until close_ledger()
+    Vector<b2Velocity> began;  // before gravity
+    Vector<b2Velocity> lost;   // what limit_speed() took since
   };
 
   /// Of these joints, and of what touches their bodies. Where the order of elimination is given, it has all
   /// of their bodies.
-  Component(std::vector<Member*> enlisted, SolverKind kind, std::vector<BodyPair> touching,
-            std::vector<b2Body*> order = {});
+  Component(std::span<Member* const> enlisted, SolverKind kind, std::span<const BodyPair> touching,
+            std::span<b2Body* const> order = {});
   /// Whether it may go on when so many joints leave it, or join it, and so many pairs of bodies touch that it
   /// does not know. It drags along what was left, bodies that it has no more, and an order of elimination for
   /// what held together once. One that is swept has its rows in the order in which they were made.
@@ -172,14 +173,14 @@ struct Component {
   b2Position box2d_pose(std::size_t body) const { return origin.in_world(solver.places[body].pose); }
 
   Solver solver;
-  std::vector<Member*> members;  // as solver.joints
+  Vector<Member*> members;  // as solver.joints
   /// What touched when the component was formed, or was joined since: guests may be no more.
-  std::vector<BodyPair> met;
-  std::vector<Mirror> mirrors;  // as solver.bodies
-  Origin origin;                // of the solver's poses
+  Vector<BodyPair> met;
+  Vector<Mirror> mirrors;  // as solver.bodies
+  Origin origin;           // of the solver's poses
   Account account;
-  std::vector<Structure::Impl*> structures;  // of its members; the first reports its energies
-  std::size_t enlisted = 0;                  // joints of it that the island has, while these are enlisted
+  Vector<Structure::Impl*> structures;  // of its members; the first reports its energies
+  std::size_t enlisted = 0;             // joints of it that the island has, while these are enlisted
 
  private:
   bool direct() const { return !solver.swept(); }
@@ -241,9 +242,9 @@ struct Component {
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 
-  std::vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
+  Vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
-  std::vector<Pose> goal_;                         // of a projection
+  Vector<Pose> goal_;                              // of a projection
   std::size_t formed_of_;                          // so many joints
   std::size_t left_ = 0, came_ = 0, touched_ = 0;  // since then: joints, and pairs of bodies
   bool displaced_ = false;  // bodies were moved apart while their joint was in no island

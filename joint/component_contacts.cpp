@@ -105,7 +105,7 @@ bool Component::touched_as_before() {
            now.friction == before.friction && now.normal == static_cast<float>(before.normal) &&
            now.tangent == static_cast<float>(before.tangent);
   };
-  const std::vector<Contact>& rows = outside_.contacts;
+  const Vector<Contact>& rows = outside_.contacts;
   return std::equal(rows.begin(), rows.end(), solver.contacts.begin(), solver.contacts.end(), is_same);
 }
 

@@ -42,7 +42,7 @@ JacobianRows of_body(JacobianRows rows, const Body& body) {
 }  // namespace
 
 void Hessian::analyse(System& system) {
-  std::vector<std::pair<int, int>> edges;
+  Vector<std::pair<int, int>> edges;
   edges.reserve(system.joints.size() + system.pairs.size());
   for (const Joint& j : system.joints) {
     if (system.is_free(j.a) && system.is_free(j.b)) edges.emplace_back(j.a, j.b);

@@ -15,6 +15,7 @@
 #include "interior_caps.h"
 #include "interior_surface.h"
 #include "objective.h"
+#include "pool.h"
 
 namespace ductile::dynamics {
 
@@ -95,24 +96,24 @@ class InteriorPoint {
     }
   }
 
-  std::vector<CappedRows> caps_;  // of all joints
-  std::vector<int> surface_of_;   // a joint's, instead of its caps; or -1
-  std::vector<SurfaceRows> surfaces_;
-  std::vector<SurfaceRows::Bound> bounds_;  // of the surfaces
-  std::vector<Rows> impulses_;              // of the joints
-  std::vector<Rows> best_;  // from start_from() on where to start, from then on the best so far
+  Vector<CappedRows> caps_;  // of all joints
+  Vector<int> surface_of_;   // a joint's, instead of its caps; or -1
+  Vector<SurfaceRows> surfaces_;
+  Vector<SurfaceRows::Bound> bounds_;  // of the surfaces
+  Vector<Rows> impulses_;              // of the joints
+  Vector<Rows> best_;                  // from start_from() on where to start, from then on the best so far
   /// Of an inertia against changes of relative turn: a row without caps, of G = C, that is rigidly at rest at
   /// the rate w.
   struct TurnRow {
     double s = 0, ds = 0, lack = 0;  // N m s, N m s, rad/s
     double best = 0;
   };
-  std::vector<TurnRow> turns_;  // of the system's turn inertias
+  Vector<TurnRow> turns_;  // of the system's turn inertias
   bool start_known_ = false, follows_friction_ = true;
-  std::vector<double> follows_;  // of the contacts: CappedRows::follows()
-  std::vector<Vec3> d_;
-  std::vector<Row4> rows_;
-  std::vector<std::size_t> order_;
+  Vector<double> follows_;  // of the contacts: CappedRows::follows()
+  Vector<Vec3> d_;
+  Vector<Row4> rows_;
+  Vector<std::size_t> order_;
 };
 
 }  // namespace ductile::dynamics

@@ -118,9 +118,10 @@ void Island::position(const b2SolverData& data) {
 
 // What broke off has come into an island of its own: the lesser part leaves, and is formed anew.
 void Island::separate(Component& c) {
+  const Pool::Use use(pool_);
   for (Member* m : enlisted_) m->is_here = true;
   const bool stays = 2 * c.enlisted >= c.members.size();
-  std::vector<Member*> leaving;
+  Vector<Member*> leaving;
   for (Member* m : c.members) {
     if (m->is_here != stays) leaving.push_back(m);
   }
@@ -152,7 +153,7 @@ Component* Island::component_of(const b2Body& body) const {
 
 // Whether a guest of the island's components is no more, or another stands at its address.
 bool Island::misses_guests() const {
-  std::vector<std::pair<const b2Body*, const Mirror*>> guests;
+  Vector<std::pair<const b2Body*, const Mirror*>> guests;
   for (const Component* c : active_) {
     for (const Mirror& m : c->mirrors)
       if (m.guest()) guests.emplace_back(m.body, &m);
@@ -172,12 +173,13 @@ bool Island::misses_guests() const {
 // it costs what comes, not what is there. False where anything hangs on two, or on none, or a component does
 // not outlast what would join it.
 bool Island::grow() {
+  const Pool::Use use(pool_);
   struct Share {
-    std::vector<Member*> joining;
-    std::vector<BodyPair> touching;
+    Vector<Member*> joining;
+    Vector<BodyPair> touching;
   };
-  std::vector<Share> shares(active_.size());
-  std::vector<std::pair<const b2Body*, Component*>> entering;
+  Vector<Share> shares(active_.size());
+  Vector<std::pair<const b2Body*, Component*>> entering;
   const auto component_of = [&](const b2Body* body) {
     const auto at =
         std::find_if(entering.begin(), entering.end(), [&](const auto& e) { return e.first == body; });
@@ -200,12 +202,12 @@ bool Island::grow() {
     return shares[static_cast<std::size_t>(std::find(active_.begin(), active_.end(), c) - active_.begin())];
   };
 
-  std::vector<Member*> joints;
+  Vector<Member*> joints;
   for (Member* m : enlisted_) {
     if (m->component == nullptr) joints.push_back(m);
   }
   std::sort(joints.begin(), joints.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
-  std::vector<BodyPair> pairs;
+  Vector<BodyPair> pairs;
   const auto add_unknown = [&](b2Body* a, b2Body* b) {
     const bool known = std::any_of(active_.begin(), active_.end(), [&](const Component* c) {
       return c->knows(c->index_of(a), c->index_of(b));
@@ -243,6 +245,7 @@ bool Island::grow() {
 
 // Forms components of the joints of this island, keeping what is known of their bodies and strains.
 void Island::form() {
+  const Pool::Use use(pool_);
   for (Component* c : active_) hand_back(*c);
   std::erase_if(components, [&](const auto& c) {
     return std::find(active_.begin(), active_.end(), c.get()) != active_.end();
@@ -250,17 +253,17 @@ void Island::form() {
   active_.clear();
 
   // Contacts change the order of joints between steps; elimination must not depend on it.
-  std::vector<Member*> all = enlisted_;
+  Vector<Member*> all(enlisted_.begin(), enlisted_.end());
   std::sort(all.begin(), all.end(), [](const Member* a, const Member* b) { return a->id < b->id; });
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> first_joint(static_cast<std::size_t>(world().GetBodyCount()), none);
-  std::vector<const b2Body*> seen(first_joint.size());  // others have places in other islands, or none
+  Vector<std::size_t> first_joint(static_cast<std::size_t>(world().GetBodyCount()), none);
+  Vector<const b2Body*> seen(first_joint.size());  // others have places in other islands, or none
   const auto first = [&](const b2Body& body) -> std::size_t& {
     const std::size_t place = IslandContacts::place_of(body);
     seen[place] = &body;
     return first_joint[place];
   };
-  std::vector<std::size_t> root(all.size());
+  Vector<std::size_t> root(all.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&](std::size_t i) {
     while (root[i] != i) i = root[i] = root[root[i]];
@@ -275,7 +278,7 @@ void Island::form() {
     }
   }
   // What touches or is tied hangs together, too. Of bodies without joints, by way of those that they touch.
-  std::vector<BodyPair> pairs;
+  Vector<BodyPair> pairs;
   for (const StockJoint& t : stock_) pairs.push_back({t.a(), t.b()});
   for (const Touch& t : contacts_.touches()) pairs.push_back({t.a(), t.b()});
   for (bool again = true; std::exchange(again, false);) {
@@ -292,8 +295,8 @@ void Island::form() {
       }
     }
   }
-  std::vector<std::vector<Member*>> groups(all.size());
-  std::vector<std::vector<BodyPair>> touched(all.size());
+  Vector<Vector<Member*>> groups(all.size());
+  Vector<Vector<BodyPair>> touched(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) groups[find(i)].push_back(all[i]);
   for (const BodyPair& pair : pairs) {
     if (!is_free(pair.a) && !is_free(pair.b)) continue;
@@ -301,7 +304,7 @@ void Island::form() {
     if (joint != none) touched[find(joint)].push_back(pair);
   }
   // What is near may touch in the next step: known by then, it need not be formed anew.
-  std::vector<char> looked_at(first_joint.size());
+  Vector<char> looked_at(first_joint.size());
   for (const BodyPair& pair : pairs) {
     for (b2Body* body : {pair.a, pair.b}) {
       if (!is_free(body) || first(*body) == none) continue;
@@ -317,18 +320,15 @@ void Island::form() {
     }
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    auto& group = groups[k];
-    if (group.empty()) continue;
-    Component& c = form(std::move(group), std::move(touched[k]));
-    active_.push_back(&c);
+    if (!groups[k].empty()) active_.push_back(&form(groups[k], touched[k]));
   }
 }
 
-Component& Island::form(std::vector<Member*> group, std::vector<BodyPair> touching,
-                        std::vector<b2Body*> order) {
+Component& Island::form(std::span<Member* const> group, std::span<const BodyPair> touching,
+                        std::span<b2Body* const> order) {
+  const Pool::Use use(pool_);
   const SolverKind solver = group.front()->structure->def.solver;
-  Component& c = *components.emplace_back(
-      std::make_unique<Component>(std::move(group), solver, std::move(touching), std::move(order)));
+  Component& c = *components.emplace_back(pool_.make<Component>(group, solver, touching, order));
   for (const Member* m : c.members) {
     if (!c.is_of(*m->structure)) c.take_in(*m->structure);
   }
@@ -366,7 +366,7 @@ void Island::restore(const State& s) {
   forget_last();
   components.clear();
   for (const State::Formed& saved : s.components) {
-    Component& c = *components.emplace_back(std::make_unique<Component>(saved.component));
+    Component& c = *components.emplace_back(pool_.make<Component>(saved.component));
     for (std::size_t i = 0; i < saved.members.size(); ++i) {
       const auto& [structure, id] = saved.members[i];
       c.members[i] = structure->find(id);

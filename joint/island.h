@@ -6,7 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,7 +15,11 @@
 namespace ductile::dynamics {
 
 class Island {
+  Pool pool_;  // of its components
+
  public:
+  explicit Island(const MemorySource& memory) : pool_(memory) {}
+
   // The phases of an island in b2World::Step, called by its joints.
   bool enlist(Member* member, Component* component);  // whether it is the first
   void velocity(const b2SolverData& data);
@@ -29,8 +33,8 @@ class Island {
   /// The joint is no more. Its component goes on without it; where it does not outlast that, its joints carry
   /// on with what they were, and the next step finds them in no component and forms anew.
   void remove(Member& member);
-  Component& form(std::vector<Member*> group, std::vector<BodyPair> touching,
-                  std::vector<b2Body*> order = {});
+  Component& form(std::span<Member* const> group, std::span<const BodyPair> touching,
+                  std::span<b2Body* const> order = {});
 
   // After a step (first_touch.cpp).
   void meet_guests(b2World& in);
@@ -53,7 +57,7 @@ class Island {
 
   /// Of the next joint: structures count together, so that the order of unknowns and rows is that of making.
   std::uint32_t next_id = 0;
-  std::vector<std::unique_ptr<Component>> components;
+  std::vector<Pool::Owned<Component>> components;
 
  private:
   b2World& world() const;

@@ -59,7 +59,7 @@ Rows effective_masses(const System& system, const Joint& j);
 
 /// Writes J of the bodies' places; returns the gap.
 Rows locate(Joint& joint, const Place& a, const Place& b);
-inline Rows locate(Joint& j, const std::vector<Place>& places) {
+inline Rows locate(Joint& j, const Vector<Place>& places) {
   return locate(j, places[z(j.a)], places[z(j.b)]);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "flow.h"
+#include "pool.h"
 
 namespace ductile::dynamics {
 
@@ -39,11 +40,11 @@ class Ledger {
   void close(std::span<const Vec3> change);
 
  private:
-  std::vector<Joint> joints_;  // of the step that is open: J and impulses
-  std::vector<Turn> turns_;    // of its bodies' frames
-  std::vector<Rows> taken_;    // s·J v̄, J
-  std::vector<Rows> moved_;    // h J v, m or rad
-  std::vector<TurnInertia> turn_inertias_;
+  Vector<Joint> joints_;  // of the step that is open: J and impulses
+  Vector<Turn> turns_;    // of its bodies' frames
+  Vector<Rows> taken_;    // s·J v̄, J
+  Vector<Rows> moved_;    // h J v, m or rad
+  Vector<TurnInertia> turn_inertias_;
 };
 
 }  // namespace ductile::dynamics

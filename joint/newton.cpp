@@ -91,7 +91,7 @@ void Newton::preconditioned_gradient(const System& system, const Hessian& hessia
   const std::size_t free = system.free;
   double turned = 0;  // gᵀ H⁻¹ of the last g
   if (round.conjugate) {
-    const std::vector<Vec3>& last = round.beta == 0 ? d_ : z_;
+    const Vector<Vec3>& last = round.beta == 0 ? d_ : z_;
     for (std::size_t i = 0; i < free; ++i) turned -= dot(g_[i], last[i]);
   }
   if (round.number == 0 && round.pushed_only && at.gradient2 > 1e4 * left2_) {

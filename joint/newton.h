@@ -12,6 +12,7 @@
 #include "hessian.h"
 #include "interior_point.h"
 #include "objective.h"
+#include "pool.h"
 #include "warm_start.h"
 
 namespace ductile::dynamics {
@@ -85,10 +86,10 @@ class Newton {
   void start_from_lower(System& system, Evaluation& at);
   Evaluation solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report);
 
-  std::vector<Vec3> g_;      // ∇f at the bodies' v, from a solve to the pushes after it
-  std::vector<Vec3> d_, z_;  // 0 for bodies whose velocities are prescribed
+  Vector<Vec3> g_;      // ∇f at the bodies' v, from a solve to the pushes after it
+  Vector<Vec3> d_, z_;  // 0 for bodies whose velocities are prescribed
   // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
-  std::vector<std::size_t> pushed_;
+  Vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;
   bool gradient_known_ = false;
   bool stands_ = false;  // as of the last step

@@ -12,6 +12,7 @@
 
 #include "hessian.h"
 #include "objective.h"
+#include "pool.h"
 
 namespace ductile::dynamics {
 
@@ -43,10 +44,10 @@ class Projection {
   void displace_all(System& system, double t) const;
   void take_neutral(System& system, bool kept, double trifle, double rounding) const;
 
-  std::vector<Vec3> g_, d_, z_;
-  std::vector<Pose> poses_;  // where a step begins
-  std::vector<Pose> start_;
-  std::vector<Rows> kept_;  // gaps
+  Vector<Vec3> g_, d_, z_;
+  Vector<Pose> poses_;  // where a step begins
+  Vector<Pose> start_;
+  Vector<Rows> kept_;  // gaps
 };
 
 }  // namespace ductile::dynamics

@@ -192,7 +192,7 @@ class Structure::Impl::Save {
     }
     a_.list("components", all.size(), [&](Archive& a, std::size_t i) {
       std::vector<std::uint32_t> ids;
-      for (const Member* m : a.reads() ? std::vector<Member*>{} : all[i]->members) ids.push_back(m->id);
+      for (const Member* m : a.reads() ? Vector<Member*>{} : all[i]->members) ids.push_back(m->id);
       a("joints", ids);
       Guests guests = touching(a, a.reads() ? nullptr : all[i]);
       Component& c = a.reads() ? form(a, ids, guests) : *all[i];
@@ -248,7 +248,7 @@ class Structure::Impl::Save {
     std::vector<std::uint32_t> met, order;
     if (c != nullptr) {
       for (const BodyPair& pair : c->met) met.push_back(number_of(pair.a)), met.push_back(number_of(pair.b));
-      for (const Mirror& m : c->is_worn() ? c->mirrors : std::vector<Mirror>{})
+      for (const Mirror& m : c->is_worn() ? c->mirrors : Vector<Mirror>{})
         order.push_back(number_of(m.body));
     }
     a("met", met);
@@ -296,7 +296,7 @@ class Structure::Impl::Save {
       if (ordered != bodies || !std::is_partitioned(guests.order.begin(), guests.order.end(), is_free))
         a.refuse("order", "must be of the component's bodies, those first that joints move");
     }
-    return s_.island->form(std::move(members), guests.met, guests.order);
+    return s_.island->form(members, guests.met, guests.order);
   }
 
   Impl& s_;

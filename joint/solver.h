@@ -32,6 +32,7 @@
 #include "ledger.h"
 #include "link_rows.h"
 #include "newton.h"
+#include "pool.h"
 #include "projection.h"
 #include "sweep.h"
 #include "system.h"
@@ -118,7 +119,7 @@ class Solver : public System {
 
   /// Asks for a ledger: then `before` are the velocities at the step's very start, in own frames.
   bool keeps_ledger = false;
-  std::vector<Vec3> before;
+  Vector<Vec3> before;
   const Energies& energies() const { return ledger_.energies; }
   /// Work of contacts and of weight in the parts of a step, beyond what the whole step's impulses do with the
   /// mean of its velocities, J.
@@ -149,15 +150,15 @@ class Solver : public System {
   LinearPrediction prediction_;
   Projection projection_;
   Ledger ledger_;
-  std::vector<Rows> before_blow_;  // impulses of the joints before the step that is struck
-  std::vector<Vec3> turned_;       // the last velocities, in the frames where poses have turned to
-  Evaluation last_;                // of the last solve
-  Motion motion_;                  // of the present step
-  bool predicted_ = false;         // the next solve starts where prediction_ says
-  bool struck_ = false;            // the present step is that of a blow
-  double closing_ = 0;             // whose fastest contact closes so fast, m/s
-  LeftOut left_out_;               // of the last step
-  bool keeps_friction_ = false;    // in the present step
+  Vector<Rows> before_blow_;     // impulses of the joints before the step that is struck
+  Vector<Vec3> turned_;          // the last velocities, in the frames where poses have turned to
+  Evaluation last_;              // of the last solve
+  Motion motion_;                // of the present step
+  bool predicted_ = false;       // the next solve starts where prediction_ says
+  bool struck_ = false;          // the present step is that of a blow
+  double closing_ = 0;           // whose fastest contact closes so fast, m/s
+  LeftOut left_out_;             // of the last step
+  bool keeps_friction_ = false;  // in the present step
 };
 
 }  // namespace ductile::dynamics

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "pool.h"
 #include "system.h"
 
 namespace ductile::dynamics {
@@ -52,7 +53,7 @@ class StepLaws {
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
   double delta_for(const System& system, double h);
 
-  std::vector<Vec3> change_;  // of the bodies
+  Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
   bool known_ = false;   // the laws are those of h_, caps and stiffness
   double delta_ = 1;     // of the laws

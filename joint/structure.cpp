@@ -21,7 +21,7 @@ void Structure::Impl::enter_world() {
   for (const Impl* other : structures_in(*world)) {
     if (other->def.solver == def.solver) island = other->island;
   }
-  if (island == nullptr) island = std::make_shared<Island>();
+  if (island == nullptr) island = std::make_shared<Island>(def.memory);
   island->enter(*this);
   watch = watch_world(*world, *this);
 }

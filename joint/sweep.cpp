@@ -103,7 +103,7 @@ void warm_start(System& system, double h, Evaluation& at) {
 
 void velocities(System& system, double h, Evaluation& at) {
   at.flows = false;
-  std::vector<Body>& bodies = system.bodies;
+  Vector<Body>& bodies = system.bodies;
   for (Joint& j : system.joints) {
     const EffectiveMass m = effective_mass(system, j);
     const RowLaw& law = system.record(j).law;
@@ -144,7 +144,7 @@ void velocities(System& system, double h, Evaluation& at) {
 }
 
 void positions(System& system, std::span<const Pose> at) {
-  std::vector<Place>& places = system.places;
+  Vector<Place>& places = system.places;
   for (std::size_t i = 0; i < system.free; ++i) put(places[i], at[i]);
   for (Joint& j : system.joints) {
     const Rows gap = locate(j, places);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "pool.h"
 #include "pose.h"
 #include "row.h"
 
@@ -164,20 +165,20 @@ struct Link {
 /// Free bodies come first, numbered in elimination order (BlockLdlt::order_for); the velocities of the others
 /// (static and kinematic bodies) are prescribed.
 struct System {
-  std::vector<Body> bodies;
-  std::vector<Place> places;               // of the bodies
-  std::vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
-  std::vector<JointRecord> records;        // of the joints
-  std::vector<TurnInertia> turn_inertias;  // of some of them: one each, or three
-  std::vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
-  std::vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
-  std::vector<Link> links;                 // whose rows follow the structure's own joints
-  std::vector<Contact> contacts;           // whose rows follow those
-  std::vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H
-  std::size_t free = 0;                    // bodies
-  double mass = 0;                         // of all free bodies, kg
-  bool gaps_known = false;                 // no pose was moved since they were found
-  bool biases_known = false;               // the joints' are those of an equal step from the present poses
+  Vector<Body> bodies;
+  Vector<Place> places;               // of the bodies
+  Vector<Joint> joints;               // the structure's own, then rows of links, then those of contacts
+  Vector<JointRecord> records;        // of the joints
+  Vector<TurnInertia> turn_inertias;  // of some of them: one each, or three
+  Vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
+  Vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
+  Vector<Link> links;                 // whose rows follow the structure's own joints
+  Vector<Contact> contacts;           // whose rows follow those
+  Vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H
+  std::size_t free = 0;               // bodies
+  double mass = 0;                    // of all free bodies, kg
+  bool gaps_known = false;            // no pose was moved since they were found
+  bool biases_known = false;          // the joints' are those of an equal step from the present poses
 
   const JointRecord& record(const Joint& joint) const { return records[index(joint)]; }
   JointRecord& record(const Joint& joint) { return records[index(joint)]; }

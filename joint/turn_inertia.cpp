@@ -13,7 +13,7 @@ constexpr double safety = 2;         // s
 constexpr double each_safety = 1.1;  // s of what turns each by itself
 constexpr double kept_time = 0.5;    // s that inertia is kept beyond its need
 
-int root_of(std::vector<Clump>& clumps, int i) {
+int root_of(Vector<Clump>& clumps, int i) {
   while (clumps[z(i)].part_of != i) i = clumps[z(i)].part_of = clumps[z(clumps[z(i)].part_of)].part_of;
   return i;
 }

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "pool.h"
 #include "vec3.h"
 
 namespace ductile::dynamics {
@@ -48,11 +49,11 @@ class LinearPrediction {
 
   bool solve(int n, double (&a)[terms]) const;
 
-  std::array<std::vector<Vec3>, terms> past_;  // a ring
-  std::array<double, terms> share_{};          // of each in what comes next
+  std::array<Vector<Vec3>, terms> past_;  // a ring
+  std::array<double, terms> share_{};     // of each in what comes next
   int newest_ = 0;
   int known_ = 0;  // solutions since the last forget(), as far as it matters
-  std::vector<Sample> samples_;
+  Vector<Sample> samples_;
   double gram_[terms][terms + 1] = {};  // the normal equations; the column after them is their right side
 };
 

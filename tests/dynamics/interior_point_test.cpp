@@ -248,7 +248,7 @@ Problem random_structure(unsigned seed, Laws laws) {
     const int a = static_cast<int>(random() % z(n)), b = static_cast<int>(random() % z(n));
     if (a != b) pairs.emplace_back(a, b);
   }
-  const std::vector<int> order = BlockLdlt::order_for(n, pairs);
+  const Vector<int> order = BlockLdlt::order_for(n, pairs);
   std::vector<int> number(z(n) + 1, ground);
   for (int k = 0; k < n; ++k) number[z(order[z(k)])] = k;
   if (!one_in(4)) {
@@ -640,7 +640,7 @@ TEST(InteriorPoint, KnowsTurnInertias) {
     Problem rows = random_structure(seed, static_cast<Laws>(seed % 3));
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    const std::vector<Joint> joints = turns.system.joints;
+    const Vector<Joint> joints = turns.system.joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const Joint& j = joints[k];
       const std::size_t of = random() % 2 == 0 ? 1 : 2;

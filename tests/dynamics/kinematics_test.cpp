@@ -19,7 +19,7 @@ TEST(Kinematics, JacobianIsTheDerivativeOfTheGap) {
           constexpr double step = 1e-5;
           const auto gap = [&](double by) {
             Joint moved = j;
-            std::vector<Place> places = system.places;
+            Vector<Place> places = system.places;
             Vec3 d;
             entry(d, i) = by;
             displace(places[z(body)], d);

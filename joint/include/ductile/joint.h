@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "ductile/joint_law.h"
+#include "ductile/memory.h"
 
 namespace ductile {
 
@@ -223,6 +224,8 @@ struct StructureDef {
   /// each time its plastic work has doubled.
   double flow_share = 0.1;
   bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
+  /// Of all structures of a world that are solved alike the first one's counts.
+  MemorySource memory{};
 };
 
 /// The energy of a structure's joints, J. Each term is integrated on its own, row by row. What they take from
