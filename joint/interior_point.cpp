@@ -259,17 +259,24 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
       impulses_[k] = caps_[k].impulse();
     });
   }
-  double scale = balance(system), work = 0, moving = 0;
+  // Impulses to start from may know nothing of what is asked for: of bodies at rest, by one whose velocity is
+  // prescribed.
+  double scale = balance(system), work = 0, moving = 0, asked = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
-    const Rows x = x_of(system, system.joints[k]);
-    for (unsigned i = 0; i < 3; ++i) work += std::abs(impulses_[k][i] * x[i]);
+    const Joint& j = system.joints[k];
+    const Rows x = x_of(system, j), &m_eff = system.records[k].m_eff;
+    for (unsigned i = 0; i < 3; ++i) {
+      work += std::abs(impulses_[k][i] * x[i]);
+      asked += std::min(j.G[i], m_eff[i]) * x[i] * x[i];
+    }
   }
   for (std::size_t i = 0; i < system.free; ++i) moving += energy_of(system.bodies[i], system.bodies[i].v);
   const bool alone = system.contacts.empty();
   std::size_t bounds = 0;
   each([&](std::size_t, auto& rows) { bounds += rows.count(); });
   const double count = static_cast<double>(std::max<std::size_t>(1, bounds));
-  const double mu = (alone ? tunables.start : tunables.contact_start) * std::max(work, moving) / count;
+  const double mu =
+      (alone ? tunables.start : tunables.contact_start) * std::max({work, moving, 1e-3 * asked}) / count;
   each([&](std::size_t, auto& rows) { rows.centre(mu); });
 
   outcome.gap = infinity;
