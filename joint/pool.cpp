@@ -3,10 +3,28 @@
 #include <algorithm>
 #include <new>
 
+// The address sanitizer sees what is done beyond a piece, or to one that was given back.
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(memory, bytes) (static_cast<void>(memory), static_cast<void>(bytes))
+#define ASAN_UNPOISON_MEMORY_REGION(memory, bytes) (static_cast<void>(memory), static_cast<void>(bytes))
+#endif
+
 namespace ductile::dynamics {
 
+namespace {
+
+// Where operator new does not align for any type by itself, as in 32 bits.
+constexpr std::align_val_t alignment{Pool::least};
+constexpr bool is_aligned = Pool::least <= __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+}  // namespace
+
 void* Pool::ask(std::size_t bytes) {
-  void* const memory = source_.take != nullptr ? source_.take(bytes, source_.user) : ::operator new(bytes);
+  void* const memory = source_.take != nullptr ? source_.take(bytes, source_.user)
+                       : is_aligned            ? ::operator new(bytes)
+                                               : ::operator new(bytes, alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -14,14 +32,17 @@ void* Pool::ask(std::size_t bytes) {
 void Pool::release(void* memory, std::size_t bytes) noexcept {
   if (source_.take != nullptr) {
     source_.give(memory, bytes, source_.user);
-  } else {
+  } else if (is_aligned) {
     ::operator delete(memory);
+  } else {
+    ::operator delete(memory, alignment);
   }
 }
 
 Pool::~Pool() {
   while (blocks_ != nullptr) {
     Block* const block = std::exchange(blocks_, blocks_->next);
+    ASAN_UNPOISON_MEMORY_REGION(block, block->bytes);
     release(block, block->bytes);
   }
 }
@@ -29,27 +50,35 @@ Pool::~Pool() {
 void* Pool::take(std::size_t bytes) {
   if (bytes > largest) return ask(bytes);
   const std::size_t k = size_class(std::max(bytes, least)), size = least << k;
-  if (Piece* const piece = free_[k]; piece != nullptr) {
-    free_[k] = piece->next;
-    return piece;
+  void* piece = free_[k];
+  if (piece != nullptr) {
+    free_[k] = free_[k]->next;
+  } else {
+    if (left_ < size) begin_block(2 * size);
+    piece = next_;
+    next_ += size;
+    left_ -= size;
   }
-  if (left_ < size) {
-    const std::size_t all = std::max(blocks_ != nullptr ? 2 * blocks_->bytes : first_block, 2 * size);
-    auto* const block = static_cast<std::byte*>(ask(all));
-    blocks_ = new (block) Block{blocks_, all};
-    static_assert(sizeof(Block) <= least);
-    next_ = block + least;
-    left_ = all - least;
-  }
-  void* const piece = next_;
-  next_ += size;
-  left_ -= size;
+  ASAN_UNPOISON_MEMORY_REGION(piece, bytes);
   return piece;
+}
+
+// Of so many bytes at least. What is left of the last one is lost.
+void Pool::begin_block(std::size_t bytes) {
+  static_assert(sizeof(Block) <= least);
+  const std::size_t all = std::max(blocks_ != nullptr ? 2 * blocks_->bytes : first_block, bytes);
+  auto* const block = static_cast<std::byte*>(ask(all));
+  blocks_ = new (block) Block{blocks_, all};
+  next_ = block + least;
+  left_ = all - least;
+  ASAN_POISON_MEMORY_REGION(next_, left_);
 }
 
 void Pool::give(void* piece, std::size_t bytes) noexcept {
   if (bytes > largest) return release(piece, bytes);
   const std::size_t k = size_class(std::max(bytes, least));
+  ASAN_POISON_MEMORY_REGION(piece, least << k);
+  ASAN_UNPOISON_MEMORY_REGION(piece, sizeof(Piece));
   free_[k] = new (piece) Piece{free_[k]};
 }
 

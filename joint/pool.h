@@ -16,6 +16,8 @@ namespace ductile::dynamics {
 
 class Pool {
  public:
+  static constexpr std::size_t least = 16;  // bytes of a piece, and its alignment
+
   explicit Pool(const MemorySource& source) : source_(source) {}
   ~Pool();
   Pool(const Pool&) = delete;
@@ -63,7 +65,7 @@ class Pool {
   }
 
  private:
-  static constexpr std::size_t least = 16, largest = 1 << 20, first_block = 1 << 14;
+  static constexpr std::size_t largest = 1 << 20, first_block = 1 << 14;
   struct Piece {
     Piece* next;
   };
@@ -74,6 +76,7 @@ class Pool {
   static std::size_t size_class(std::size_t bytes) {
     return static_cast<std::size_t>(std::bit_width((bytes - 1) / least));
   }
+  void begin_block(std::size_t bytes);
   void* ask(std::size_t bytes);
   void release(void* memory, std::size_t bytes) noexcept;
 
@@ -93,6 +96,7 @@ struct PoolAllocator {
   PoolAllocator(const PoolAllocator<U>& other) : pool(other.pool) {}  // NOLINT: as allocators are converted
 
   T* allocate(std::size_t count) {
+    static_assert(alignof(T) <= Pool::least);
     return pool != nullptr ? static_cast<T*>(pool->take(count * sizeof(T)))
                            : std::allocator<T>().allocate(count);
   }

@@ -522,8 +522,10 @@ class Game : b2DestructionListener {
             "no energy from nowhere");
     // While the speed limit keeps a gap from closing, what it takes comes back with the gap. After a step of
     // another length velocities are as old as half of both, and strains are not: what is too little of a
-    // vibration then comes back, too. A step of no length brings them no closer.
-    const bool of_one_time = dt > 0 && std::exchange(last_dt_, dt) == dt;
+    // vibration then comes back, too, as less than nothing that the method takes. A step of no length brings
+    // them no closer.
+    const bool of_one_time =
+        dt > 0 && std::exchange(last_dt_, dt) == dt && e.numerical >= start.numerical;
     if (report.slowed == 0 && (of_one_time || !held))
       budget_ = held ? std::min(budget_, now) : std::max(budget_, now);
   }
