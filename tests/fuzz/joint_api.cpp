@@ -1,6 +1,7 @@
 // A game that does as it likes: the input is a program of operations on a world and its structure. Whatever
 // it is, nothing becomes NaN, no solve ends at its bound, and where nobody puts energy in, none appears.
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -29,6 +30,31 @@ class Bytes {
 
  private:
   const std::uint8_t *data_, *end_;
+};
+
+/// The energy that there may be, as steps of some length see it: velocities are means of a step, and a long
+/// one sees less of a fast vibration. What it saw is no bound for a shorter one.
+class Budget {
+ public:
+  void add(double energy) {
+    for (double& most : most_) most += energy;
+  }
+  void set(double energy) { most_.fill(energy); }
+  void lower(float dt, double to) {
+    double& most = most_[place(dt)];
+    most = std::min(most, to);
+  }
+  void raise(double to) {
+    for (double& most : most_) most = std::max(most, to);
+  }
+  double in(float dt) const { return *std::min_element(most_.begin(), most_.begin() + place(dt) + 1); }
+
+ private:
+  static std::ptrdiff_t place(float dt) {
+    return std::lower_bound(lengths.begin(), lengths.end() - 1, dt) - lengths.begin();
+  }
+  static constexpr std::array<float, 5> lengths{1.0f / 5000, 1.0f / 1000, 1.0f / 240, 1.0f / 60, 1.0f / 15};
+  std::array<double, 5> most_{};
 };
 
 class Game : b2DestructionListener {
@@ -181,7 +207,7 @@ class Game : b2DestructionListener {
         break;
     }
     if (judged_) stop_drives();
-    budget_ += std::max(0.0, kinetic() - before);
+    budget_.add(std::max(0.0, kinetic() - before));
   }
 
   /// What moves and cannot be slowed down would drive what hangs on it.
@@ -504,7 +530,8 @@ class Game : b2DestructionListener {
     for (const b2Body* b : bodies_) mass += b->GetMass();
     heaviest_ = std::max(heaviest_, mass);
     if (dt > 0) shortest_ = std::min(shortest_, static_cast<double>(dt));
-    most_ = std::max(most_, budget_);
+    const double budget = budget_.in(dt);
+    most_ = std::max(most_, budget);
     const double left = 3e-7 * size_ / shortest_, rounding = 1e-7 * most_ + heaviest_ * left * left;
 
     const double booked = (e.elastic - start.elastic) + (e.dissipated - start.dissipated) +
@@ -518,16 +545,14 @@ class Game : b2DestructionListener {
     const double now = kinetic() + e.elastic;
     // Velocities are those of the step's middle, strains those of its end, where turning has stretched them
     // to second order: kinetic energy alone is held to what there was.
-    require(turn_ > 0.3 || !held || kinetic() <= budget_ * (1 + 1e-4 + 20 * turn_ * turn_) + rounding,
+    require(turn_ > 0.3 || !held || kinetic() <= budget * (1 + 1e-4 + 20 * turn_ * turn_) + rounding,
             "no energy from nowhere");
     // While the speed limit keeps a gap from closing, what it takes comes back with the gap. After a step of
     // another length velocities are as old as half of both, and strains are not: what is too little of a
     // vibration then comes back, too, as less than nothing that the method takes. A step of no length brings
     // them no closer.
-    const bool of_one_time =
-        dt > 0 && std::exchange(last_dt_, dt) == dt && e.numerical >= start.numerical;
-    if (report.slowed == 0 && (of_one_time || !held))
-      budget_ = held ? std::min(budget_, now) : std::max(budget_, now);
+    const bool of_one_time = dt > 0 && std::exchange(last_dt_, dt) == dt && e.numerical >= start.numerical;
+    if (report.slowed == 0 && (of_one_time || !held)) held ? budget_.lower(dt, now) : budget_.raise(now);
   }
 
   /// The angle, rad, by which a body turns in a step against the world or a body that it is joined to, times
@@ -553,7 +578,7 @@ class Game : b2DestructionListener {
     stock_.clear();
     for (b2Joint* j = world_->GetJointList(); j; j = j->GetNext()) stock_.push_back(j);
     drop_stock_joints([this](b2Joint&) { return judged_; });
-    if (judged_) budget_ = kinetic();
+    if (judged_) budget_.set(kinetic());
   }
 
   template <class Which>
@@ -644,15 +669,17 @@ class Game : b2DestructionListener {
   bool moved_ = false;   // a body that holds others, by hand
   int mischief_ = 0, steps_ = 0;
   double size_ = 1, place_ = 0;
-  double budget_ = 0, most_ = 0;  // J that there may be at most, and ever
-  double shortest_ = 1;           // s, of all steps
-  double heaviest_ = 0;           // kg, all bodies together, ever
-  double turn_ = 0;               // rad, the most of a step
+  Budget budget_;
+  double most_ = 0;      // J that there ever might be
+  double shortest_ = 1;  // s, of all steps
+  double heaviest_ = 0;  // kg, all bodies together, ever
+  double turn_ = 0;      // rad, the most of a step
   Snapshot snapshot_;
   struct {
     std::vector<b2Body*> bodies;
     std::vector<b2Joint*> stock;
-    double budget = 0, most = 0, turn = 0;
+    Budget budget;
+    double most = 0, turn = 0;
     bool unheld = false;
     float last_dt = 0;
   } saved_;
