@@ -248,8 +248,7 @@ class Structure::Impl::Save {
     std::vector<std::uint32_t> met, order;
     if (c != nullptr) {
       for (const BodyPair& pair : c->met) met.push_back(number_of(pair.a)), met.push_back(number_of(pair.b));
-      for (const Mirror& m : c->is_worn() ? c->mirrors : Vector<Mirror>{})
-        order.push_back(number_of(m.body));
+      for (const Mirror& m : c->is_worn() ? c->mirrors : Vector<Mirror>{}) order.push_back(number_of(m.body));
     }
     a("met", met);
     a("order", order);
