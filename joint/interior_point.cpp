@@ -259,8 +259,6 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
       impulses_[k] = caps_[k].impulse();
     });
   }
-  // Impulses to start from may know nothing of what is asked for: of bodies at rest, by one whose velocity is
-  // prescribed.
   double scale = balance(system), work = 0, moving = 0, asked = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
@@ -275,8 +273,12 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
   std::size_t bounds = 0;
   each([&](std::size_t, auto& rows) { bounds += rows.count(); });
   const double count = static_cast<double>(std::max<std::size_t>(1, bounds));
-  const double mu =
-      (alone ? tunables.start : tunables.contact_start) * std::max({work, moving, 1e-3 * asked}) / count;
+  // Impulses to start from and velocities may be nothing beside what is asked for: of bodies at rest, by one
+  // whose velocity is prescribed.
+  constexpr double last_bit = std::numeric_limits<double>::epsilon();
+  const double known = std::max(work, moving),
+               size = known > last_bit * last_bit * asked ? known : 1e-3 * asked;
+  const double mu = (alone ? tunables.start : tunables.contact_start) * size / count;
   each([&](std::size_t, auto& rows) { rows.centre(mu); });
 
   outcome.gap = infinity;

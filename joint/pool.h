@@ -95,6 +95,7 @@ struct PoolAllocator {
   template <class U>
   PoolAllocator(const PoolAllocator<U>& other) : pool(other.pool) {}  // NOLINT: as allocators are converted
 
+  // NOLINTBEGIN(bugprone-sizeof-expression): of pointers, too
   T* allocate(std::size_t count) {
     static_assert(alignof(T) <= Pool::least);
     return pool != nullptr ? static_cast<T*>(pool->take(count * sizeof(T)))
@@ -103,6 +104,7 @@ struct PoolAllocator {
   void deallocate(T* memory, std::size_t count) noexcept {
     pool != nullptr ? pool->give(memory, count * sizeof(T)) : std::allocator<T>().deallocate(memory, count);
   }
+  // NOLINTEND(bugprone-sizeof-expression)
   /// Copies are snapshots, which may outlive the pool.
   PoolAllocator select_on_container_copy_construction() const { return {}; }
   friend bool operator==(const PoolAllocator& a, const PoolAllocator& b) { return a.pool == b.pool; }
