@@ -205,7 +205,9 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
   for (std::size_t k = 0; k < system.own(); ++k) kept_[k] = system.records[k].gap;
   for (std::size_t i = system.free; i < system.bodies.size(); ++i) put(system.places[i], goal[i]);
   for (std::size_t i = 0; i < system.free; ++i) start_[i] = poses_[i] = system.places[i].pose;
-  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach_of(system);
+  double reach = reach_of(system);
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * reach;
+  for (const Pose& p : goal) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   bool small = true;
   if (try_goal) {
     // Where all of it was moved alike, the goal itself is the better start. Otherwise, from where nothing is
@@ -249,8 +251,13 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     displace_all(system, 1);
     for (double next; last > trifle && (next = let_go(work)) < 0.1 * last; last = next)
       displace_all(system, 1);
-    kept = std::all_of(system.places.begin(), system.places.end(),
-                       [](const Place& p) { return std::isfinite(p.pose.x + p.pose.y + p.pose.angle); });
+    // Nothing that is held goes farther than from one end of all there is to the other, nor around and
+    // around.
+    for (std::size_t i = 0; i < system.free && kept; ++i) {
+      const Pose& p = system.places[i].pose;
+      kept = std::abs(p.x) <= 4 * reach && std::abs(p.y) <= 4 * reach &&
+             std::abs(p.angle - goal[i].angle) <= 100;
+    }
   }
   if (!kept) place_all(system, goal);
   locate_all(system);
