@@ -17,23 +17,6 @@ namespace {
 
 constexpr double g = 10;
 
-// As heavy as 30 times steel: its caps are a thirtieth of what they were to its weight.
-Layout heavy_frame(int storeys, int bays) {
-  Layout layout = frame(storeys, bays);
-  for (Layout::Piece& piece : layout.pieces) piece.density *= 30;
-  return layout;
-}
-
-void take_ground_floor(Built& b, const Layout& layout) {
-  b2PolygonShape floor;
-  floor.SetAsBox(1000, 1, {0, -1.05f}, 0);
-  b.ground->CreateFixture(&floor, 0);
-  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
-    const Layout::Piece& piece = layout.pieces[i];
-    if (piece.angle != 0 && piece.y < 2.5) b.world.DestroyBody(b.pieces[i]);
-  }
-}
-
 // Stock welds know no strength: they are cut by hand.
 int cut_overloaded(b2World& world) {
   const double N = 0.1 * Steel::fy, M = 0.1 * N / 4;
@@ -74,7 +57,7 @@ Times come_down(Built& b, int steps, int& broken) {
 }
 
 void collapse(benchmark::State& state, int storeys, int bays, int steps) {
-  const Layout layout = heavy_frame(storeys, bays);
+  const Layout layout = heavy_frame(storeys, bays, 30);
   for (auto _ : state) {
     Built ours(layout, Built::ours, g), stock(layout, Built::stock, g);
     ours.run(0.5);
@@ -99,43 +82,40 @@ void collapse(benchmark::State& state, int storeys, int bays, int steps) {
   }
 }
 
-// A step before which a joint was destroyed, beside one before which none was. It is every 97th joint: the
-// frame stays in one piece.
-void removal(benchmark::State& state, int storeys, int bays) {
-  Built b(frame(storeys, bays), Built::ours, g);
+// A step of a frame of 10,000 joints before which something is done to every 97th joint, one in each step,
+// beside a step before which nothing is.
+template <class Change>
+void beside_quiet(benchmark::State& state, const Change& change) {
+  Built b(frame(25, 44), Built::ours, g);
   b.run(0.5);
   std::size_t next = 0;
+  const auto quiet = [&] { return seconds([&] { b.step(); }); };
   alternate(
       state, "quiet",
       [&] {
         return seconds([&] {
-          b.world.DestroyJoint(b.joints[next += 97]);
+          change(b, next += 97);
           b.step();
         });
       },
-      [&] { return seconds([&] { b.step(); }); });
+      quiet);
 }
 
-// A step before which a joint was added, beside one before which none was. Its pieces are joined already, or
-// some pieces apart, so that the pattern of H grows.
-void addition(benchmark::State& state, int storeys, int bays, std::size_t apart) {
-  Built b(frame(storeys, bays), Built::ours, g);
-  b.run(0.5);
-  std::size_t next = 0;
-  alternate(
-      state, "quiet",
-      [&] {
-        return seconds([&] {
-          b2Joint& at = *b.joints[next += 97];
-          ElasticPlasticJointDef def;
-          def.Initialize(at.GetBodyA(), b.joints[next + apart]->GetBodyB(), at.GetAnchorA(), {1, 0});
-          def.rows[axial].stiffness = def.rows[shear].stiffness = 1e5;
-          def.rows[rotation] = RowDef::free();
-          b.structure->create_joint(def);
-          b.step();
-        });
-      },
-      [&] { return seconds([&] { b.step(); }); });
+// The frame stays in one piece.
+void removal(benchmark::State& state) {
+  beside_quiet(state, [](Built& b, std::size_t joint) { b.world.DestroyJoint(b.joints[joint]); });
+}
+
+// The pieces of the new joint are joined already, or some pieces apart, so that the pattern of H grows.
+void addition(benchmark::State& state, std::size_t apart) {
+  beside_quiet(state, [apart](Built& b, std::size_t joint) {
+    b2Joint& at = *b.joints[joint];
+    ElasticPlasticJointDef def;
+    def.Initialize(at.GetBodyA(), b.joints[joint + apart]->GetBodyB(), at.GetAnchorA(), {1, 0});
+    def.rows[axial].stiffness = def.rows[shear].stiffness = 1e5;
+    def.rows[rotation] = RowDef::free();
+    b.structure->create_joint(def);
+  });
 }
 
 const bool registered = [] {
@@ -154,13 +134,12 @@ const bool registered = [] {
   for (const std::size_t apart : {0U, 5U}) {
     benchmark::RegisterBenchmark(
         apart == 0 ? "joint/addition/frame/10000" : "joint/addition/frame/10000/apart",
-        [apart](benchmark::State& state) { addition(state, 25, 44, apart); })
+        [apart](benchmark::State& state) { addition(state, apart); })
         ->UseManualTime()
         ->Iterations(20)
         ->Unit(benchmark::kMicrosecond);
   }
-  benchmark::RegisterBenchmark("joint/removal/frame/10000",
-                               [](benchmark::State& state) { removal(state, 25, 44); })
+  benchmark::RegisterBenchmark("joint/removal/frame/10000", removal)
       ->UseManualTime()
       ->Iterations(50)
       ->Unit(benchmark::kMicrosecond);

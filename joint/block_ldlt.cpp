@@ -18,8 +18,8 @@ namespace {
 
 constexpr int few = 64;  // bodies, one bit each
 
-// That of which eliminating fills least comes first: of few bodies it is found from their neighbours' bits,
-// in no memory.
+// Minimum degree: the body with the fewest neighbours is eliminated first. Few bodies have their neighbours
+// as bits of a number, where Eigen's ordering would ask for memory a dozen times.
 Vector<int> order_of_few(int n, std::span<const std::pair<int, int>> edges) {
   std::array<std::uint64_t, few> neighbours{};
   const auto bit = [](int i) { return std::uint64_t{1} << i; };

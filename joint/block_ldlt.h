@@ -9,7 +9,6 @@
 #include <cstring>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "block_product.h"
 #include "pool.h"

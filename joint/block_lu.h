@@ -7,10 +7,8 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "block_ldlt.h"
-#include "pool.h"
 
 namespace ductile::dynamics {
 

@@ -12,6 +12,16 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+// Where a body stands, or would stand, in a list by address.
+template <class List>
+auto place_of(List& by_address, const b2Body* body) {
+  return std::lower_bound(by_address.begin(), by_address.end(), std::pair{body, 0});
+}
+
+}  // namespace
+
 Component::Component(std::span<Member* const> enlisted_members, SolverKind solver_kind,
                      std::span<const BodyPair> touching, std::span<b2Body* const> order)
     : solver(solver_kind == SolverKind::iterative),
@@ -30,9 +40,7 @@ Component::Component(std::span<Member* const> enlisted_members, SolverKind solve
   }
   std::sort(by_address_.begin(), by_address_.end());
   by_address_.erase(std::unique(by_address_.begin(), by_address_.end()), by_address_.end());
-  const auto number = [this](const b2Body* body) -> int& {
-    return std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0})->second;
-  };
+  const auto number = [this](const b2Body* body) -> int& { return place_of(by_address_, body)->second; };
 
   // Free bodies first, in the order of their first joint: elimination order is found from that numbering.
   Vector<b2Body*> bodies, others;
@@ -76,6 +84,11 @@ Component::Component(std::span<Member* const> enlisted_members, SolverKind solve
   solver.records.reserve(rows);
   for (const BodyPair& pair : met) add_pair(pair, free_bodies);
   admit(0, free_bodies);
+}
+
+int Component::index_of(const b2Body* body) const {
+  const auto at = place_of(by_address_, body);
+  return at != by_address_.end() && at->first == body ? at->second : -1;
 }
 
 // Room for so many free bodies before all others, and for so many that are not free after them.
@@ -190,10 +203,9 @@ void Component::join(std::span<Member* const> joining, std::span<const BodyPair>
   const std::size_t known = mirrors.size();
   Vector<b2Body*> entering;
   const auto see = [&](b2Body* body) {
-    const std::pair<const b2Body*, int> as_new{body, static_cast<int>(known + entering.size())};
-    const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{as_new.first, 0});
+    const auto at = place_of(by_address_, body);
     if (at != by_address_.end() && at->first == body) return;
-    by_address_.insert(at, as_new);
+    by_address_.insert(at, {body, static_cast<int>(known + entering.size())});
     entering.push_back(body);
   };
   for (const Member* m : joining) see(m->joint->GetBodyA()), see(m->joint->GetBodyB());
@@ -225,7 +237,7 @@ void Component::join(std::span<Member* const> joining, std::span<const BodyPair>
     add_pair(pair, free_bodies);
   }
   admit(before, free_bodies);
-  came_ += joining.size();
+  changed_ += joining.size();
   touched_ += touching.size();
   rest_ = Rest::none;
 }
@@ -253,7 +265,7 @@ void Component::remove(Member& m) {
   hand_back(m);
   m.belong_to(nullptr);
   met.push_back({m.joint->GetBodyA(), m.joint->GetBodyB()});
-  ++left_;
+  ++changed_;
   for (const int body : {j.a, j.b}) mirrors[z(body)].gain_joints(-1);
   solver.remove(m.index);
   members[m.index] = members.back();
@@ -301,7 +313,7 @@ bool Component::is_of(const Structure::Impl& structure) const {
 
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
-  tape(origin, formed_of_, left_, came_, touched_, displaced_, struck_, rests, mirrors, parts_, solver);
+  tape(origin, formed_of_, changed_, touched_, displaced_, struck_, rests, mirrors, parts_, solver);
   rest_ = rests ? Rest::expected : Rest::none;
 }
 

@@ -100,7 +100,7 @@ struct Component {
   /// does not know. It drags along what was left, bodies that it has no more, and an order of elimination for
   /// what held together once. One that is swept has its rows in the order in which they were made.
   bool outlasts(std::size_t leaving, std::size_t joining = 0, std::size_t touching = 0) const {
-    return direct() && leaving < members.size() && left_ + leaving + came_ + joining <= most_changes(16) &&
+    return direct() && leaving < members.size() && changed_ + leaving + joining <= most_changes(16) &&
            touched_ + touching <= most_changes(4);
   }
   /// Whether these joints broke off, so that no moving body has some of them and some that stay: a body that
@@ -115,7 +115,7 @@ struct Component {
   /// Reports to this structure, too.
   void take_in(Structure::Impl& structure);
   /// Whether it has changed since it was formed.
-  bool is_worn() const { return left_ + came_ + touched_ > 0; }
+  bool is_worn() const { return changed_ + touched_ > 0; }
 
   /// Before a step, after touch() and tie(): where the island has the bodies, and whether they are still what
   /// the component was formed for. Takes their velocities, but where the step may be the last one again.
@@ -163,8 +163,8 @@ struct Component {
   bool is_of(const Structure::Impl& structure) const;
   /// Where a body is in the solver, -1 where it does not know it.
   int index_of(const b2Body* body) const;
-  /// Whether a body is of its own, or a guest and no other component's.
-  bool has(const b2Body& body) const;
+  /// Whether a guest is a piece of another component: one that was of this one, and broke off.
+  bool is_of_another(int body) const;
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
   template <class Count>
@@ -196,7 +196,6 @@ struct Component {
   void add_pair(const BodyPair& pair, std::size_t free_bodies);
   void admit(std::size_t first, std::size_t free_bodies);
   int freedom(std::size_t body, std::size_t free_bodies) const;
-  bool is_of_another(int body) const;
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
   double closing() const;
@@ -244,11 +243,11 @@ struct Component {
 
   Vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
-  Vector<Pose> goal_;                              // of a projection
-  std::size_t formed_of_;                          // so many joints
-  std::size_t left_ = 0, came_ = 0, touched_ = 0;  // since then: joints, and pairs of bodies
-  bool displaced_ = false;  // bodies were moved apart while their joint was in no island
-  bool struck_ = false;     // velocities were changed between the steps
+  Vector<Pose> goal_;                      // of a projection
+  std::size_t formed_of_;                  // so many joints
+  std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came
+  bool displaced_ = false;                 // bodies were moved apart while their joint was in no island
+  bool struck_ = false;                    // velocities were changed between the steps
   Parts parts_;
   Coupling coupling_ = Coupling::partly;
   Rest rest_ = Rest::none;

@@ -26,20 +26,9 @@ bool Component::knows(int a, int b) const {
   return !solver.is_free(pair.second) || std::binary_search(solver.pairs.begin(), solver.pairs.end(), pair);
 }
 
-bool Component::has(const b2Body& body) const {
-  const int i = index_of(&body);
-  return i >= 0 && !is_of_another(i);
-}
-
-// Whether a guest is a piece of another component: one that was of this one, and broke off.
 bool Component::is_of_another(int body) const {
   const Mirror& m = mirrors[z(body)];
   return m.guest() && solver.is_free(body) && Structure::Impl::structure_of(*m.body) != nullptr;
-}
-
-int Component::index_of(const b2Body* body) const {
-  const auto at = std::lower_bound(by_address_.begin(), by_address_.end(), std::pair{body, 0});
-  return at != by_address_.end() && at->first == body ? at->second : -1;
 }
 
 // Velocities as they were before the contacts' stored impulses went into them. The floats are those of

@@ -54,8 +54,7 @@ void Hessian::analyse(System& system) {
   if (z(ldlt_.size()) != system.free || !std::all_of(edges.begin(), edges.end(), has))
     ldlt_.analyse(static_cast<int>(system.free), edges);
   for (Joint& j : system.joints) {
-    j.block =
-        system.is_free(j.a) && system.is_free(j.b) ? ldlt_.slot(std::max(j.a, j.b), std::min(j.a, j.b)) : -1;
+    j.block = system.is_free(j.a) && system.is_free(j.b) ? block(j.a, j.b) : -1;
   }
   forget();
 }

@@ -9,8 +9,6 @@
 // that N and M may take, and q = s_Q / hQ_max. docs/theory/interior_point.md derives the rounds.
 #pragma once
 
-#include <vector>
-
 #include "hessian.h"
 #include "interior_caps.h"
 #include "interior_surface.h"
@@ -36,8 +34,8 @@ struct InteriorPointTunables {
   /// Likewise with contacts: with less, those that open let the first rounds go but small steps, one after
   /// the other.
   double contact_start = 5;
-  /// A solve takes 9 to 25 rounds; of 1e5 random structures none takes more than 63. What was made inside
-  /// each other, and jams between rigid joints, may take twice as many.
+  /// A solve takes 9 to 25 rounds; of 1e5 random structures none takes more than 63. The bound
+  /// leaves room for bodies that overlap and jam between rigid joints.
   int round_bound = 200;
 };
 

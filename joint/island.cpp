@@ -144,7 +144,7 @@ Component* Island::component_of(const b2Body& body) const {
   Component* found = nullptr;
   for (Component* c : active_) {
     const int i = c->index_of(&body);
-    if (i < 0 || !c->has(body)) continue;
+    if (i < 0 || c->is_of_another(i)) continue;
     if (!c->mirrors[z(i)].guest()) return c;
     found = c;
   }

@@ -24,7 +24,6 @@
 
 #include <cmath>
 #include <span>
-#include <vector>
 
 #include "blow.h"
 #include "contact_rows.h"
@@ -47,8 +46,7 @@ class Solver : public System {
 
   explicit Solver(bool swept_in_passes = false);
 
-  /// Where joints before `first` were there before, with these bodies or with some more in front of them,
-  /// they keep their laws.
+  /// Joints before `first` were formed already and keep their laws; new bodies may stand before theirs.
   void form(std::size_t free_bodies, std::size_t first = 0);
   /// See System::remove(). Nothing is predicted of the step that follows.
   void remove(std::size_t joint);

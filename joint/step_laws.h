@@ -7,8 +7,6 @@
 // that those of parallel joints agree.
 #pragma once
 
-#include <vector>
-
 #include "pool.h"
 #include "system.h"
 

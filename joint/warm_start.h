@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "pool.h"
 #include "vec3.h"

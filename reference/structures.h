@@ -302,6 +302,24 @@ inline void pile_on_roof(Built& b) {
   }
 }
 
+/// A frame of steel that is so many times as heavy: against its weight, its caps are so many times less.
+inline Layout heavy_frame(int storeys, int bays, double by) {
+  Layout layout = frame(storeys, bays);
+  for (Layout::Piece& piece : layout.pieces) piece.density *= by;
+  return layout;
+}
+
+/// Destroys the columns of a frame's ground floor, and lays a floor under the rest.
+inline void take_ground_floor(Built& b, const Layout& layout) {
+  b2PolygonShape floor;
+  floor.SetAsBox(1000, 1, {0, -1.05f}, 0);
+  b.ground->CreateFixture(&floor, 0);
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+    const Layout::Piece& piece = layout.pieces[i];
+    if (piece.angle != 0 && piece.y < 2.5) b.world.DestroyBody(b.pieces[i]);
+  }
+}
+
 /// Damps all pieces, 1/s, but not what gravity gives them in a step, of which Box2D would take its share.
 inline void damp(Built& b, double by) {
   for (b2Body* piece : b.pieces) {

@@ -1,6 +1,8 @@
 // A steel beam of n pieces, welded by elastic-plastic joints to a static block at its left end.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -104,5 +106,16 @@ struct Beam {
   std::vector<ElasticPlasticJoint*> joints;
   int rounds = 0, factorisations = 0, bounds_hit = 0;
 };
+
+/// Both have moved alike, and bear the same: to what another order of elimination rounds.
+inline void expect_alike(const Beam& a, const Beam& b) {
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    EXPECT_NEAR(a.pieces[i]->GetPosition().y, b.pieces[i]->GetPosition().y, 1e-6) << i;
+    EXPECT_NEAR(a.joints[i]->force(rotation), b.joints[i]->force(rotation), 1e-9 * std::abs(a.root_moment()))
+        << i;
+  }
+  const double balance = a.structure.energy().numerical - b.structure.energy().numerical;
+  EXPECT_NEAR(balance, 0, 1e-6 * a.mass() * a.def.gravity * a.def.length);
+}
 
 }  // namespace ductile

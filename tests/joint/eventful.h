@@ -1,6 +1,8 @@
 // Scenes that swing, yield, break, rest, fall asleep and are struck, and a hash of all that they do.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <bit>
 #include <cstdint>
 #include <functional>
@@ -9,6 +11,7 @@
 
 #include "bodies.h"
 #include "ductile/joint.h"
+#include "ductile/save.h"
 
 namespace ductile::eventful {
 
@@ -64,6 +67,16 @@ struct Scene {
   std::function<void(int)> before_step;
   int step = 0;
 };
+
+/// Written in both forms and read, the scene runs on to the bit.
+inline void expect_saved(Scene& scene, int steps) {
+  Scene of_bytes, of_json;
+  load_bytes(of_bytes.structure, save_bytes(scene.structure));
+  load_json(of_json.structure, save_json(of_bytes.structure));
+  const std::uint64_t ran_on = scene.run(steps);
+  ASSERT_EQ(of_bytes.run(steps), ran_on);
+  ASSERT_EQ(of_json.run(steps), ran_on);
+}
 
 struct Kind {
   std::string name;

@@ -15,17 +15,10 @@ namespace {
 // A frame of 36 bays, a hundred times as heavy as steel for its strength, loses the columns of its ground
 // floor. Once the ruins lie, their memory is there.
 TEST(MemoryOfComponents, OfACollapseIsTakenLessThanOnceForEachJointThatBreaks) {
-  bench::Layout layout = bench::frame(6, 6);
-  for (bench::Layout::Piece& piece : layout.pieces) piece.density *= 100;
+  const bench::Layout layout = bench::heavy_frame(6, 6, 100);
   bench::Built frame(layout, bench::Built::ours, 10);
-  b2PolygonShape floor;
-  floor.SetAsBox(1000, 1, {0, -1.05f}, 0);
-  frame.ground->CreateFixture(&floor, 0);
   frame.run(0.5);
-  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
-    const bench::Layout::Piece& piece = layout.pieces[i];
-    if (piece.angle != 0 && piece.y < 2.5) frame.world.DestroyBody(frame.pieces[i]);
-  }
+  bench::take_ground_floor(frame, layout);
   const std::size_t joints = frame.structure->joints().size();
   const long before = allocations();
   frame.run(4);

@@ -275,7 +275,7 @@ TEST(Save, OfAnotherVersionOfTheSolver) {
   for (ElasticPlasticJoint* j : s.structure.joints()) j->set_stiffness(rotation, 1e7, 0.5);
   s.run(600);
   std::string json = save_json(s.structure);
-  json.replace(json.find("\"past\":8,"), 9, "\"past\":0,");
+  json.replace(json.find("\"past\":9,"), 9, "\"past\":0,");
   Scene loaded;
   load_json(loaded.structure, json);
   loaded.run(1);

@@ -224,7 +224,7 @@ struct StructureDef {
   /// each time its plastic work has doubled.
   double flow_share = 0.1;
   bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
-  /// Of all structures of a world that are solved alike the first one's counts.
+  /// Structures of a world that have the same solver share the memory of the first.
   MemorySource memory{};
 };
 

@@ -1,21 +1,20 @@
-// Where the memory comes from in which structures are solved.
+// The source of the memory in which structures are solved.
 #pragma once
 
 #include <cstddef>
 
 namespace ductile {
 
-/// Where structures have the memory from in which they are solved: what a step needs as joints come, or as
-/// something breaks. They ask for blocks, each twice as large as the last, keep what is left of parts that
-/// are no more for the next, and give all back when the last structure of the world is gone. As it stands, it
-/// is operator new.
+/// The source of the memory in which structures are solved, such as a step needs where joints come or break.
+/// Structures ask for blocks, each twice as large as the last; memory of parts that are gone serves the next
+/// parts. All of it is given back when the last structure of the world is gone. The default is operator new.
 struct MemorySource {
-  /// So many bytes, aligned for any type. nullptr says that there are none: then std::bad_alloc is thrown, be
-  /// it out of b2World::Step.
+  /// Returns so many bytes, aligned for any type, or nullptr where there are none: then std::bad_alloc is
+  /// thrown, out of b2World::Step, too.
   void* (*take)(std::size_t bytes, void* user) = nullptr;
-  /// Back, as many bytes as were taken there; needed where `take` is.
+  /// Takes back memory of so many bytes that `take` returned; needed where `take` is.
   void (*give)(void* memory, std::size_t bytes, void* user) = nullptr;
-  void* user = nullptr;  ///< what both are told
+  void* user = nullptr;  ///< is passed to both
 };
 
 }  // namespace ductile
