@@ -342,6 +342,14 @@ void Island::remove(Member& m) {
   std::erase_if(components, [&](const auto& c) { return c.get() == &component; });
 }
 
+void Island::discard() {
+  forget_last();
+  for (const auto& c : components) {
+    for (Member* m : c->members) m->belong_to(nullptr);
+  }
+  components.clear();
+}
+
 void Island::hand_back(Component& component) {
   add(component.structures.front()->gone, component.solver.energies());
   component.solver.find_gaps();

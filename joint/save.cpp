@@ -307,6 +307,7 @@ class Structure::Impl::Save {
 };
 
 void Structure::Impl::clear() {
+  island->discard();  // what a refused save left half read fits together nowhere
   for (std::uint32_t i = 0; i < members.size(); ++i) members[i]->id = i;  // some may stand in no order
   WorldArchive::clear(*world);
   nodes.orphans.clear();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -314,7 +316,24 @@ TEST(Save, IsRefusedWhereItCannotBe) {
   }
 }
 
-// Whatever stands in the document: it is loaded and can be stepped, or refused, and then nothing is left.
+// Whatever stands in a document, it is loaded and can be stepped, or refused, and then nothing is left.
+// Whether it was loaded.
+bool loads_or_leaves_nothing(const std::function<void(Scene&)>& load) {
+  Scene loaded;
+  bool refused = false;
+  try {
+    load(loaded);
+  } catch (const std::invalid_argument&) {
+    refused = true;
+    EXPECT_EQ(loaded.world.GetBodyCount(), 1);
+    EXPECT_EQ(loaded.world.GetJointCount(), 0);
+    EXPECT_TRUE(loaded.structure.joints().empty());
+    loaded.add_row(nullptr, 0, 0, 1, 0, 3);
+  }
+  loaded.run(2);
+  return !refused;
+}
+
 TEST(Save, OfNonsenseIsRefusedWhole) {
   Scene s;
   kinds.back().build(s);
@@ -323,19 +342,7 @@ TEST(Save, OfNonsenseIsRefusedWhole) {
   const std::vector<std::uint8_t> bytes = save_bytes(s.structure);
   std::mt19937 random(7);
   int refused = 0;
-  const auto attempt = [&](const auto& load) {
-    Scene loaded;
-    try {
-      load(loaded);
-    } catch (const std::invalid_argument&) {
-      ++refused;
-      EXPECT_EQ(loaded.world.GetBodyCount(), 1);
-      EXPECT_EQ(loaded.world.GetJointCount(), 0);
-      EXPECT_TRUE(loaded.structure.joints().empty());
-      loaded.add_row(nullptr, 0, 0, 1, 0, 3);
-    }
-    loaded.run(2);
-  };
+  const auto attempt = [&refused](const auto& load) { refused += loads_or_leaves_nothing(load) ? 0 : 1; };
   for (int i = 0; i < 120; ++i) {
     std::string text = json;
     const std::size_t at = random() % text.size();
@@ -359,6 +366,35 @@ TEST(Save, OfNonsenseIsRefusedWhole) {
     attempt([&](Scene& into) { load_bytes(into.structure, mutated); });
   }
   EXPECT_GT(refused, 60);
+}
+
+// The solver's own numbers: a component that was read half, or whose joints claim the same of them, fits
+// together nowhere.
+TEST(Save, OfAPastThatIsCutOrChangedIsRefusedWhole) {
+  Scene s;
+  kinds.back().build(s);
+  s.run(kinds.back().until_save);
+  const auto document = nlohmann::json::parse(save_json(s.structure));
+  int refused = 0, tried = 0;
+  for (std::size_t c = 0; c < document["components"].size(); ++c) {
+    const std::size_t numbers = document["components"][c]["past"].size();
+    ASSERT_GT(numbers, 100u);
+    for (std::size_t at = 0; at < numbers; ++at) {
+      auto other = document;
+      other["components"][c]["past"][at] = static_cast<int>(at % 5) - 1;
+      refused +=
+          loads_or_leaves_nothing([&](Scene& into) { load_json(into.structure, other.dump()); }) ? 0 : 1;
+      ++tried;
+    }
+    for (std::size_t at = 0; at < numbers; at += 20) {
+      auto other = document;
+      auto& past = other["components"][c]["past"];
+      past.erase(past.begin() + static_cast<std::ptrdiff_t>(at), past.end());
+      EXPECT_FALSE(loads_or_leaves_nothing([&](Scene& into) { load_json(into.structure, other.dump()); }));
+    }
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, tried);
 }
 
 // A joint's own state: what a game keeps of a bent bar, and what it sets to repair it.
