@@ -33,7 +33,7 @@ class Island {
   /// The joint is no more. Its component goes on without it; where it does not outlast that, its joints carry
   /// on with what they were, and the next step finds them in no component and forms anew.
   void remove(Member& member);
-  /// All components are no more, and nothing of them goes back to their joints.
+  /// Ends all components. Their joints are in none, and carry on with what they were when these were formed.
   void discard();
   Component& form(std::span<Member* const> group, std::span<const BodyPair> touching,
                   std::span<b2Body* const> order = {});

@@ -307,7 +307,8 @@ class Structure::Impl::Save {
 };
 
 void Structure::Impl::clear() {
-  island->discard();  // what a refused save left half read fits together nowhere
+  // Components that were read half have lists that do not fit each other: no joint can be taken out of one.
+  island->discard();
   for (std::uint32_t i = 0; i < members.size(); ++i) members[i]->id = i;  // some may stand in no order
   WorldArchive::clear(*world);
   nodes.orphans.clear();

@@ -111,7 +111,7 @@ void System::keep(Tape& tape) {
     if (z(r.turn_inertia) + count > turn_inertias.size() || (j.block < 0 && count == 1)) return tape.refuse();
     for (std::size_t i = 0; i < count; ++i) {
       TurnInertia& t = turn_inertias[z(r.turn_inertia) + i];
-      if (tape.reads() && t.a != t.b) return tape.refuse();  // is of a joint before
+      if (tape.reads() && t.a != t.b) return tape.refuse();  // an earlier joint has it
       t.a = j.a, t.b = j.b, t.block = j.block;
     }
   }
