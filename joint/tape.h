@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,8 +61,9 @@ class Tape {
       auto number = static_cast<double>(value);
       one(number);
       using Limits = std::numeric_limits<T>;
+      // A whole number's greatest value may be none that doubles have, but a power of 2 follows it.
       const bool holds = std::is_floating_point_v<T> || (number >= static_cast<double>(Limits::lowest()) &&
-                                                         number <= static_cast<double>(Limits::max()));
+                                                         number < std::ldexp(1.0, Limits::digits));
       if (holds) {
         value = static_cast<T>(number);
       } else {

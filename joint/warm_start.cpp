@@ -34,7 +34,7 @@ void LinearPrediction::form(std::span<const Vec3> masses) {
 
 std::span<Vec3> LinearPrediction::newest() {
   newest_ = (newest_ + terms - 1) % terms;
-  known_ = std::min(known_ + 1, terms + 2);
+  known_ = std::min(known_ + 1, most_known);
   return past_[z(newest_)];
 }
 

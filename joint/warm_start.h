@@ -32,12 +32,14 @@ class LinearPrediction {
   std::size_t bytes() const;
   void keep(Tape& tape) {
     tape(newest_, known_, past_, share_, samples_, gram_);
-    if (newest_ < 0 || newest_ >= terms || known_ < 0) tape.refuse(), newest_ = known_ = 0;
+    if (newest_ < 0 || newest_ >= terms || known_ < 0 || known_ > most_known)
+      tape.refuse(), newest_ = known_ = 0;
   }
 
  private:
   /// With 5, a step of a swaying frame of 2000 joints costs a fifth more.
   static constexpr int terms = 7;
+  static constexpr int most_known = terms + 2;
   static constexpr std::size_t sampled = 4;  // bodies, or a tenth of them, determine the few a_k as all would
   struct Sample {
     std::size_t body;

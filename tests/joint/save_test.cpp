@@ -388,6 +388,17 @@ TEST(Save, OfAPastThatIsCutOrChangedIsRefusedWhole) {
       refused += refuses(other);
       ++tried;
     }
+    for (std::size_t at = 0; at < numbers; ++at) {  // counts
+      auto other = document;
+      auto& number = other["components"][c]["past"][at];
+      const double value = number.is_number() ? number.get<double>() : 0;  // "inf" is text
+      if (value < 1 || value > 1000 || value != std::floor(value)) continue;
+      for (const double most : {0x1p31 - 1, 0x1p64}) {
+        number = most;
+        refused += refuses(other);
+        ++tried;
+      }
+    }
     for (std::size_t at = 0; at < numbers; at += 20) {
       auto other = document;
       auto& past = other["components"][c]["past"];
