@@ -101,7 +101,7 @@ void Component::make_room(std::size_t first, std::size_t last) {
   insert(mirrors, Mirror{});
   insert(goal_, Pose{});
   insert(account.began, b2Velocity{{0, 0}, 0});  // b2Vec2 does not make itself 0
-  insert(account.lost, b2Velocity{{0, 0}, 0});
+  insert(account.lost, Vec3{});
   parts_.bodies.insert(parts_.bodies.begin(), first, {});
 }
 

@@ -89,7 +89,7 @@ struct Component {
   struct Account {
     bool open = false;         // until close_ledger()
     Vector<b2Velocity> began;  // before gravity
-    Vector<b2Velocity> lost;   // what limit_speed() took since
+    Vector<Vec3> lost;         // what limit_speed() took since: may be far more than what is left
   };
 
   /// Of these joints, and of what touches their bodies. Where the order of elimination is given, it has all

@@ -46,9 +46,7 @@ void Component::limit_speed(const b2SolverData& data) {
           together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
       const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
-      const b2Velocity lost = in_floats(into_world(solver.places[i].turn, less));
-      account.lost[i].v += lost.v;
-      account.lost[i].w += lost.w;
+      account.lost[i] += into_world(solver.places[i].turn, less);
       if (together) continue;
       b.v_free -= less;
       b.v -= less;
@@ -70,15 +68,16 @@ double Component::close_ledger() {
     const Mirror& m = mirrors[i];
     solver.before[i] = {};
     if (i >= solver.free_bodies() || m.guest()) continue;
-    const b2Vec2 v = m.body->GetLinearVelocity();
-    const float w = m.body->GetAngularVelocity();
-    solver.before[i] = {double{v.x} - m.given.v.x, double{v.y} - m.given.v.y, double{w} - m.given.w};
+    const Vec3 v = in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
+    const Vec3 left = v - in_doubles(m.given);
+    solver.before[i] = left;
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.
-    b2Velocity lost = account.lost[i];
-    if (h * m.given.v.Length() > b2_maxTranslation) lost.v += m.given.v - v;
-    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w += m.given.w - w;
-    clamped += double{m.mass.mass} * b2Dot(lost.v, 0.5f * (account.began[i].v + v)) +
-               solver.bodies[i].inertia * lost.w * (account.began[i].w + w) / 2;
+    Vec3 lost = account.lost[i];
+    if (h * m.given.v.Length() > b2_maxTranslation) lost -= {left.x, left.y, 0};
+    if (h * std::abs(m.given.w) > b2_maxRotation) lost.w -= left.w;
+    const Vec3 mean = 0.5 * (in_doubles(account.began[i]) + v);
+    clamped += double{m.mass.mass} * (lost.x * mean.x + lost.y * mean.y) +
+               solver.bodies[i].inertia * lost.w * mean.w;
   }
   solver.close_ledger(solver.before);
   return clamped;

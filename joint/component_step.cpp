@@ -187,7 +187,7 @@ void Component::first_velocity(const b2SolverData& data) {
       const b2Velocity v =
           account.began[i] = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
       solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
-      account.lost[i] = {{0, 0}, 0};
+      account.lost[i] = {};
     }
     account.open = true;
   }

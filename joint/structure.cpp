@@ -205,7 +205,8 @@ std::size_t Structure::Impl::bytes() const {
   for (const auto& c : island->components) {
     if (c->structures.front() != this) continue;
     sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
-           c->mirrors.capacity() * sizeof(Mirror) + 2 * c->account.began.capacity() * sizeof(b2Velocity);
+           c->mirrors.capacity() * sizeof(Mirror) + c->account.began.capacity() * sizeof(b2Velocity) +
+           c->account.lost.capacity() * sizeof(Vec3);
   }
   return sum;
 }
