@@ -3,10 +3,9 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <cstring>
+#include <functional>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,25 +15,52 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr int few = 64;  // bodies, one bit each
+constexpr int few = 2048;  // bodies
 
-// Minimum degree: the body with the fewest neighbours is eliminated first. Few bodies have their neighbours
-// as bits of a number, where Eigen's ordering would ask for memory a dozen times.
+// Minimum degree: the body with the fewest neighbours is eliminated first, which makes these neighbours of
+// each other. It has its memory from the pool, where Eigen's approximate ordering asks for some a dozen
+// times; of many bodies that one takes less time, and fills less.
 Vector<int> order_of_few(int n, std::span<const std::pair<int, int>> edges) {
-  std::array<std::uint64_t, few> neighbours{};
-  const auto bit = [](int i) { return std::uint64_t{1} << i; };
-  for (const auto& [i, j] : edges) neighbours[z(i)] |= bit(j), neighbours[z(j)] |= bit(i);
-  Vector<int> order(z(n));
-  std::iota(order.begin(), order.end(), 0);
-  for (auto next = order.begin(); next != order.end(); ++next) {
-    std::iter_swap(next, std::min_element(next, order.end(), [&](int i, int j) {
-                     return std::pair{std::popcount(neighbours[z(i)]), i} <
-                            std::pair{std::popcount(neighbours[z(j)]), j};
-                   }));
-    const std::uint64_t clique = neighbours[z(*next)];
-    for (std::uint64_t left = clique; left != 0; left &= left - 1) {
-      const int j = std::countr_zero(left);
-      neighbours[z(j)] = (neighbours[z(j)] | clique) & ~bit(j) & ~bit(*next);
+  Vector<Vector<int>> neighbours(z(n));
+  for (const auto& [i, j] : edges) {
+    neighbours[z(i)].push_back(j);
+    neighbours[z(j)].push_back(i);
+  }
+  constexpr std::size_t eliminated = std::numeric_limits<std::size_t>::max();
+  Vector<std::size_t> degree(z(n)), seen(z(n));
+  std::size_t look = 0;
+  using Candidate = std::pair<std::size_t, int>;  // degree when it was pushed, body
+  constexpr std::greater<> fewest_first;
+  Vector<Candidate> heap;
+  heap.reserve(2 * z(n));
+  for (int i = 0; i < n; ++i) {
+    ++look;
+    std::erase_if(neighbours[z(i)], [&](int j) { return std::exchange(seen[z(j)], look) == look; });
+    degree[z(i)] = neighbours[z(i)].size();
+    heap.emplace_back(degree[z(i)], i);
+  }
+  std::make_heap(heap.begin(), heap.end(), fewest_first);
+
+  Vector<int> order, clique;
+  order.reserve(z(n));
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), fewest_first);
+    const auto [pushed, next] = heap.back();
+    heap.pop_back();
+    if (degree[z(next)] != pushed) continue;
+    degree[z(next)] = eliminated;
+    order.push_back(next);
+    clique.swap(neighbours[z(next)]);
+    for (const int i : clique) {
+      Vector<int>& mine = neighbours[z(i)];
+      std::erase(mine, next);
+      seen[z(i)] = ++look;
+      for (const int j : mine) seen[z(j)] = look;
+      std::copy_if(clique.begin(), clique.end(), std::back_inserter(mine),
+                   [&](int j) { return seen[z(j)] != look; });
+      if (std::exchange(degree[z(i)], mine.size()) == mine.size()) continue;
+      heap.emplace_back(mine.size(), i);
+      std::push_heap(heap.begin(), heap.end(), fewest_first);
     }
   }
   return order;

@@ -2,8 +2,8 @@
 // touch".
 //
 // The pattern is analysed once per topology; afterwards factor() and solve() neither allocate nor search.
-// Rows and columns are numbered in the order of elimination, which order_for() finds (approximate minimum
-// degree: a chain or a tree eliminates without fill).
+// Rows and columns are numbered in the order of elimination, which order_for() finds (minimum degree: a chain
+// or a tree eliminates without fill; of many bodies approximate minimum degree).
 #pragma once
 
 #include <cstring>

@@ -77,6 +77,12 @@ class IslandContacts {
   bool is_followed(const b2Body& body) const;
   std::span<const Touch> touches() const { return touches_; }
   void clear() { touches_.clear(); }
+  /// Of so many contacts nothing is allocated in a step.
+  void make_room(std::size_t contacts) {
+    touches_.reserve(contacts);
+    chosen_.reserve(contacts);
+    taken_.reserve(contacts);
+  }
 
  private:
   static constexpr std::size_t few = 40;  // points

@@ -52,6 +52,8 @@ void Island::make_room() {
   for (const Structure::Impl* s : structures_) room += s->members.capacity();
   enlisted_.reserve(room);
   active_.reserve(room);
+  components.reserve(room);
+  contacts_.make_room(room);
 }
 
 void Island::forget_last() {

@@ -28,7 +28,7 @@ class Island {
   // From the making of a structure to its end, or that of its world.
   void enter(Structure::Impl& structure);
   void leave(Structure::Impl& structure);
-  /// As many joints may be enlisted as the structures have; allocates.
+  /// As many joints may be enlisted as the structures have, and about as many contacts be rows; allocates.
   void make_room();
   /// The joint is no more. Its component goes on without it; where it does not outlast that, its joints carry
   /// on with what they were, and the next step finds them in no component and forms anew.

@@ -50,6 +50,7 @@ Pool::~Pool() {
 void* Pool::take(std::size_t bytes) {
   if (bytes > largest) return ask(bytes);
   const std::size_t k = size_class(std::max(bytes, least)), size = least << k;
+  if (free_[k] == nullptr && left_ < size) split(k);
   void* piece = free_[k];
   if (piece != nullptr) {
     free_[k] = free_[k]->next;
@@ -63,9 +64,27 @@ void* Pool::take(std::size_t bytes) {
   return piece;
 }
 
-// Of so many bytes at least. What is left of the last one is lost.
+// The smallest of the larger pieces that are free, if there is one, becomes two of that size class, and one
+// of each between.
+void Pool::split(std::size_t into) {
+  std::size_t from = into + 1;
+  while (from < free_.size() && free_[from] == nullptr) ++from;
+  if (from >= free_.size()) return;
+  auto* const piece = reinterpret_cast<std::byte*>(free_[from]);
+  free_[from] = free_[from]->next;
+  while (from-- > into) give(piece + (least << from), least << from);
+  give(piece, least << into);
+}
+
+// Of so many bytes at least. What is left of the last one becomes free pieces.
 void Pool::begin_block(std::size_t bytes) {
   static_assert(sizeof(Block) <= least);
+  while (left_ > 0) {
+    const std::size_t size = std::min(std::bit_floor(left_), largest);
+    give(next_, size);
+    next_ += size;
+    left_ -= size;
+  }
   const std::size_t all = std::max(blocks_ != nullptr ? 2 * blocks_->bytes : first_block, bytes);
   auto* const block = static_cast<std::byte*>(ask(all));
   blocks_ = new (block) Block{blocks_, all};

@@ -1,6 +1,6 @@
-// Memory of components, which come and go while a structure breaks: what one leaves, the next takes. Pieces
-// are powers of two, cut from blocks that double; those above `largest` are asked for one by one. Not for
-// several threads at once, as a world is not.
+// Memory of components, which come and go while a structure breaks: what one leaves, the next takes, and what
+// a large one leaves, several smaller ones. Pieces are powers of two, cut from blocks that double; those
+// above `largest` are asked for one by one. Not for several threads at once, as a world is not.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ class Pool {
   }
 
  private:
-  static constexpr std::size_t largest = 1 << 20, first_block = 1 << 14;
+  static constexpr std::size_t largest = 1 << 24, first_block = 1 << 14;
   struct Piece {
     Piece* next;
   };
@@ -77,12 +77,13 @@ class Pool {
     return static_cast<std::size_t>(std::bit_width((bytes - 1) / least));
   }
   void begin_block(std::size_t bytes);
+  void split(std::size_t into);
   void* ask(std::size_t bytes);
   void release(void* memory, std::size_t bytes) noexcept;
 
   static inline thread_local Pool* in_use_ = nullptr;
   MemorySource source_;
-  std::array<Piece*, 17> free_{};  // of least · 2ᵏ bytes
+  std::array<Piece*, 21> free_{};  // of least · 2ᵏ bytes
   Block* blocks_ = nullptr;        // the last comes first
   std::byte* next_ = nullptr;      // in the last block
   std::size_t left_ = 0;

@@ -54,12 +54,26 @@ TEST(Pool, GivesAgainWhatWasGivenBack) {
     std::size_t held = 0;
     for (const auto& [memory, bytes] : source.out) held += bytes;
     EXPECT_LT(held, 2 * 2 * 2 * all);  // pieces, blocks and what is left of them: twice each, at most
-    void* const large = pool.take(5'000'000);
-    EXPECT_EQ(source.out.at(large), 5'000'000U);
-    pool.give(large, 5'000'000);
+    void* const large = pool.take(50'000'000);
+    EXPECT_EQ(source.out.at(large), 50'000'000U);
+    pool.give(large, 50'000'000);
     EXPECT_FALSE(source.out.contains(large));
   }
   EXPECT_TRUE(source.out.empty());
+}
+
+TEST(Pool, DividesWhatALargePieceLeaves) {
+  Source source;
+  Pool pool(source.source());
+  pool.give(pool.take(1 << 20), 1 << 20);
+  while (source.taken == 1) std::memset(pool.take(1 << 18), 1, 1 << 18);  // all of the first block
+  std::size_t held = 0;
+  for (const auto& [memory, bytes] : source.out) held += bytes;
+  EXPECT_EQ(held, 3U << 21);  // a second block, twice as large
+  const int before = source.taken;
+  std::size_t small = 0;
+  for (; source.taken == before; small += 1 << 10) std::memset(pool.take(1 << 10), 1, 1 << 10);
+  EXPECT_GE(small, (1U << 22) - (1U << 19));
 }
 
 TEST(Pool, ThrowsWhereThereIsNone) {
@@ -67,7 +81,7 @@ TEST(Pool, ThrowsWhereThereIsNone) {
   source.empty = true;
   Pool pool(source.source());
   EXPECT_THROW(pool.take(10), std::bad_alloc);
-  EXPECT_THROW(pool.take(5'000'000), std::bad_alloc);
+  EXPECT_THROW(pool.take(50'000'000), std::bad_alloc);
   source.empty = false;
   EXPECT_NO_THROW(pool.take(10));
 }

@@ -13,20 +13,20 @@ namespace ductile {
 namespace {
 
 // A frame of 36 bays, a hundred times as heavy as steel for its strength, loses the columns of its ground
-// floor. Once the ruins lie, their memory is there.
-TEST(MemoryOfComponents, OfACollapseIsTakenLessThanOnceForEachJointThatBreaks) {
+// floor. Within a second it hits the ground; what breaks off then has its memory from what it was a part of.
+TEST(MemoryOfComponents, OfACollapseIsTakenInItsFirstSecond) {
   const bench::Layout layout = bench::heavy_frame(6, 6, 100);
   bench::Built frame(layout, bench::Built::ours, 10);
   frame.run(0.5);
   bench::take_ground_floor(frame, layout);
   const std::size_t joints = frame.structure->joints().size();
   const long before = allocations();
-  frame.run(4);
+  frame.run(1);
+  const long then = allocations();
+  frame.run(5);
   const std::size_t broken = joints - frame.structure->joints().size();
   EXPECT_GT(broken, 100U);
-  EXPECT_LE(allocations() - before, static_cast<long>(broken));
-  const long then = allocations();
-  frame.run(2);
+  EXPECT_LE(then - before, static_cast<long>(broken));
   EXPECT_EQ(allocations() - then, 0);
 }
 
