@@ -82,10 +82,11 @@ double StepLaws::deferred_share(System& system, double h) {
 }
 
 // In a longer step the spring of a rigid row is softer by its square, and stores as much more by the same
-// force. Of what a load strains that is next to nothing. Rows that press against each other would have so
-// much energy from nowhere: this is how many times as large, at most, their force times the step may become
-// for it to stay what it was, or what a load may strain.
-double StepLaws::most_growth(System& system) {
+// force. Of what a load strains that is next to nothing. Rows that press against each other, or fling bodies
+// apart, would have so much energy from nowhere: this is how many times as large, at most, their force times
+// the step may become for it to stay what it was, or what a load may strain: one that rows bear, and that
+// bodies are given in this step.
+double StepLaws::most_growth(System& system, double last_h) {
   change_.assign(system.bodies.size(), {});
   double stored = 0;
   for (const Joint& j : system.own_joints()) {
@@ -100,7 +101,15 @@ double StepLaws::most_growth(System& system) {
     add_transposed(j, s, change_[z(j.a)], change_[z(j.b)]);
   }
   if (!(stored > 0)) return unlimited;
-  return std::max(1.0, std::sqrt(strain_of_loads * square(system, change_) / stored));
+  const double borne = square(system, change_);
+  double given = 0;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    const Turn back = turn_of(-last_h * b.v.w);
+    const Vec3 was{back.c * b.v.x - back.s * b.v.y, back.s * b.v.x + back.c * b.v.y, b.v.w};
+    given += square(b, momentum(b, b.v_free - was));
+  }
+  return std::max(1.0, std::sqrt(strain_of_loads * std::min(borne, given) / stored));
 }
 
 // A rigid row's spring goes with the step, and keeps its force, within most_growth(). Where a spring was
@@ -177,7 +186,7 @@ bool StepLaws::begin(System& system, double h) {
   const double delta = delta_for(system, h);
   const bool changed = h != h_ || delta != delta_ || !known_;
   known_ = true;
-  h_ = h;
+  const double last_h = std::exchange(h_, h);
   delta_ = delta;
   const bool drifts = h < drift_time;
   const double deferred = deferred_share(system, h);
@@ -191,7 +200,7 @@ bool StepLaws::begin(System& system, double h) {
     return false;
   }
   find_gaps(system);
-  const double growth = changed ? most_growth(system) : 1;
+  const double growth = changed ? most_growth(system, last_h) : 1;
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);

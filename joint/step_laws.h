@@ -47,7 +47,7 @@ class StepLaws {
  private:
   double deferred_share(System& system, double h);
   void rescale(System& system, double by);
-  double most_growth(System& system);
+  double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
   double delta_for(const System& system, double h);
 

@@ -279,6 +279,36 @@ TEST(Ledger, SpinThatBeginsAfterALongStep) {
   }
 }
 
+// A block of 1000 t at 0.1 m/s is stopped by rigid joints over a light piece, in short steps with 1e8 N. In a
+// step that is 333 times as long that is no load that they bear.
+TEST(Ledger, FlungApartInStepsOfChangingLength) {
+  for (const double light : {0.001, 0.006, 0.1}) {
+    for (const int stopping : {1, 2, 5}) {
+      b2World world({0, 0});
+      Structure structure(world, {.keep_ledger = true});
+      b2Body* wall = add_box(world, {.x = -0.5, .type = b2_staticBody, .group = -1});
+      b2Body* piece = add_box(world, {.x = 0.5, .mass = light, .group = -1});
+      b2Body* block = add_box(world, {.x = 1.5, .mass = 1e6, .group = -1});
+      ElasticPlasticJointDef def;
+      def.Initialize(wall, piece, vec(0, 0), {1, 0});
+      structure.create_joint(def);
+      def.Initialize(piece, block, vec(1, 0), {1, 0});
+      structure.create_joint(def);
+      block->SetLinearVelocity({-0.1f, 0});
+      const std::vector<b2Body*> moving{piece, block};
+      const auto energy = [&] { return kinetic_energy(moving) + structure.energy().elastic; };
+      for (int i = 0; i < stopping; ++i) {
+        world.Step(1 / 5000.0f, 8, 3);
+        structure.update();
+      }
+      const double stopped = energy();
+      world.Step(1 / 15.0f, 8, 3);
+      structure.update();
+      EXPECT_LE(energy(), stopped * (1 + 1e-4)) << light << " kg, " << stopping << " steps";
+    }
+  }
+}
+
 TEST(Ledger, StepsOfChangingLength) {
   Beam beam({.pieces = 5});
   Balance balance(beam);
