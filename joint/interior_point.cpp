@@ -386,6 +386,11 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
     }
     j.regime = static_cast<std::uint8_t>(rows.regime());
     j.factored_flow = static_cast<std::uint8_t>(flowing(j.regime));
+    // What is left to a cap of 0 is no force: a row that goes slack has none.
+    for (unsigned i = 0; i < 3 && r.material.slackens != 0; ++i) {
+      const double cap = (j.regime >> i & 1u) != 0 ? r.law.cap[i] : r.law.cap_reverse[i];
+      if (r.material.may_slacken(i) && flows(j.regime, i) && cap == 0) j.impulse[i] = 0;
+    }
     at.flows |= j.regime != 0;
     at.curved |= j.regime == on_surface;
   });

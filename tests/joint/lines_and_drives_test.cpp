@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "beam.h"
 #include "bodies.h"
@@ -281,6 +282,67 @@ TEST(LineDefs, SayWhatIsWrong) {
   EXPECT_THROW(structure.create_joint(def), std::invalid_argument);
   def.rows[axial] = RowDef::rope();
   EXPECT_NO_THROW(structure.create_joint(def));
+}
+
+// A beam on a hinge that yields hangs on a rope, and is struck every 40 steps, so that hinge and rope change
+// what they do at once. A slack rope keeps its length; one that yields becomes longer.
+TEST(Lines, AreNeverShorterForHavingBeenSlack) {
+  for (const unsigned seed : {459U, 482U, 58U}) {
+    for (const bool curve : {false, true}) {
+      std::mt19937 random(seed);
+      const auto between = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(random()) / 4294967296.0;
+      };
+      b2World world(vec(0, -gravity));
+      world.SetAllowSleeping(false);
+      Structure structure(world);
+      b2Body* wall = add_box(world, {.type = b2_staticBody});
+      b2Body* beam = add_box(world, {.x = 1, .width = 2, .height = 0.2, .mass = 100});
+      ElasticPlasticJointDef hinge;
+      hinge.Initialize(wall, beam, {0, 0}, {1, 0});
+      constexpr double N = 4000, M = 800;
+      hinge.rows[axial] = {.stiffness = 4e5, .damping_ratio = 0.1, .cap = N, .cap_reverse = 2 * N};
+      hinge.rows[rotation] = {.stiffness = 4e4, .damping_ratio = 0.1, .cap = M, .cap_reverse = M};
+      if (curve) hinge.interaction = {{N, 0}, {0, M}, {-2 * N, 0}, {0, -M}};
+      structure.create_joint(hinge);
+      ElasticPlasticJointDef line;
+      line.InitializeLine(wall, beam, {0, 1}, vec(2, 0.1));
+      line.rows[axial] = RowDef::rope(2e5, 1000);
+      const ElasticPlasticJoint* rope = structure.create_joint(line);
+      for (int step = 0; step < 220; ++step) {
+        if (step % 40 == 0) {
+          const double at = between(-1, 1), x = between(-300, 300), y = between(-300, 900);
+          beam->ApplyLinearImpulse(vec(x, y), beam->GetWorldPoint(vec(at, 0)), true);
+        }
+        const double length = rope->neutral(axial);
+        world.Step(1 / 60.0f, 8, 3);
+        structure.update();
+        ASSERT_GE(rope->neutral(axial), length) << seed << ", step " << step;
+      }
+    }
+  }
+}
+
+// Two lines hold a block between them, and nothing else does: their forces cancel to the last bits.
+TEST(Lines, ThatPullAgainstEachOtherLeaveNothingUnbalanced) {
+  b2World world({0, 0});
+  world.SetAllowSleeping(false);
+  Structure structure(world);
+  b2Body* block = add_box(world, {.x = 0.004, .mass = 50});
+  for (const double side : {-1, 1}) {
+    b2Body* support = add_box(world, {.x = 3 * side, .type = b2_staticBody});
+    ElasticPlasticJointDef def;
+    def.InitializeLine(support, block, vec(3 * side, 0), vec(0.004, 0));
+    def.rows[axial] = {.stiffness = 1e6, .damping_ratio = 0.05};
+    def.length = 2.99;
+    structure.create_joint(def);
+  }
+  for (int i = 0; i < 20 * 120; ++i) {
+    world.Step(1 / 120.0f, 8, 3);
+    structure.update();
+  }
+  EXPECT_NEAR(structure.joints()[0]->force(axial), 1e6 * (3 - 2.99), 1);
+  EXPECT_EQ(structure.warnings(), std::vector<std::string>{});
 }
 
 }  // namespace
