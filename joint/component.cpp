@@ -114,6 +114,8 @@ void Component::enter(std::size_t i, b2Body& body) {
   solver.bodies[i].mass = m.mass;
   solver.bodies[i].inertia = body.IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
   put(solver.places[i], origin.relative(mirror.left));
+  const b2Vec2 v = body.GetLinearVelocity();
+  solver.bodies[i].v = into_own_frame(solver.places[i].turn, v.x, v.y, body.GetAngularVelocity());
 }
 
 // What its joints knew of a body, if that is still where they left it.

@@ -147,7 +147,11 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
 double StepLaws::delta_for(const System& system, double h) {
   if (least_delta == 1) return 1;
   double turn = 0;
-  for (std::size_t i = 0; i < system.free; ++i) turn = std::max(turn, std::abs(system.bodies[i].v_free.w));
+  for (std::size_t i = 0; i < system.free; ++i) {
+    // What a load would turn a light piece by, were there no joints, is no turn.
+    const Body& b = system.bodies[i];
+    turn = std::max(turn, std::min(std::abs(b.v_free.w), std::abs(b.v.w)));
+  }
   const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
   double delta = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
   if (guard > least_guard) delta += std::exp2(std::ceil(std::log2(guard)));
