@@ -27,7 +27,8 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     if (h * h * k < how.rigid_from * m_eff[i]) {
       c = 2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]) + material.damping[i];
       // Beside implicit Euler, the damper is one of its own.
-      delta = how.delta < 1 ? std::max(how.delta, c / (k * h)) : 1 + c / (k * h);
+      const double least = i < 2 ? how.delta : how.delta_rotation;
+      delta = least < 1 ? std::max(least, c / (k * h)) : 1 + c / (k * h);
       // Where bodies turn, J of u and v is right to first order only; a damper that is beyond what the row's
       // own frequency lets the step resolve would store what that misses.
       if (i < 2 && how.delta < 1 && h * h * k > m_eff[i]) delta = std::min(delta, 1.0);

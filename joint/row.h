@@ -126,7 +126,8 @@ struct RowLaw {
 
 /// How rows are integrated.
 struct Integration {
-  double delta = 1;                 // δ at least
+  double delta = 1;                 // δ at least, of axial and shear rows
+  double delta_rotation = 1;        // likewise, of rotation rows
   double rigid_from = rigid_ratio;  // m_eff/h²: stiffer springs are rigid
 };
 

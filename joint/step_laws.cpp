@@ -38,7 +38,7 @@ void forget_infinite(Joint& j) {
 }  // namespace
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law = make_law(r.material, r.m_eff, h_, {delta_, elastic_ratio});
+  r.law = make_law(r.material, r.m_eff, h_, {delta_.value, delta_of_rotation_.value, elastic_ratio});
   take_law(j, r.law);
 }
 
@@ -142,10 +142,12 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
 }
 
 // δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
-// turn far in a step, in which rows take another direction; by powers of two, and for half a second at
-// least, so that factors last.
-double StepLaws::delta_for(const System& system, double h) {
-  if (least_delta == 1) return 1;
+// turn far in a step, in which rows take another direction, but those of rotation; by powers of two, and for
+// half a second at least, so that factors last. What comes down on an edge is lifted by corrections of its
+// overlap, and what vibrates beneath it would throw it again and again: with contacts rows of rotation do not
+// go without.
+bool StepLaws::choose_delta(const System& system, double h) {
+  if (least_delta == 1) return false;
   double turn = 0;
   for (std::size_t i = 0; i < system.free; ++i) {
     // What a load would turn a light piece by, were there no joints, is no turn.
@@ -153,15 +155,20 @@ double StepLaws::delta_for(const System& system, double h) {
     turn = std::max(turn, std::min(std::abs(b.v_free.w), std::abs(b.v.w)));
   }
   const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
-  double delta = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
-  if (guard > least_guard) delta += std::exp2(std::ceil(std::log2(guard)));
-  delta = std::min(delta, 1.0);
-  if (h == h_ && delta <= delta_ && delta_ > least_delta) {
-    unneeded_ = delta > delta_ / 3 ? 0 : unneeded_ + h;
-    if (unneeded_ < delta_time) return delta_;
-  }
-  unneeded_ = 0;
-  return delta;
+  const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
+  const double of_others = of_step + (guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0);
+  const double of_rotation = system.contacts.empty() ? of_step : of_others;
+  const auto keep = [&](Delta& delta, double needed) {
+    needed = std::min(needed, 1.0);
+    if (h == h_ && needed <= delta.value && delta.value > least_delta) {
+      delta.unneeded = needed > delta.value / 3 ? 0 : delta.unneeded + h;
+      if (delta.unneeded < delta_time) return false;
+    }
+    delta.unneeded = 0;
+    return std::exchange(delta.value, needed) != needed;
+  };
+  const bool changed = keep(delta_, of_others);
+  return keep(delta_of_rotation_, of_rotation) || changed;
 }
 
 // follow_law() keeps what a row moved by in the last step. Here its velocity is kept.
@@ -187,11 +194,9 @@ void StepLaws::unite(System& system, double parts) {
 }
 
 bool StepLaws::begin(System& system, double h) {
-  const double delta = delta_for(system, h);
-  const bool changed = h != h_ || delta != delta_ || !known_;
+  const bool other_delta = choose_delta(system, h), changed = h != h_ || other_delta || !known_;
   known_ = true;
   const double last_h = std::exchange(h_, h);
-  delta_ = delta;
   const bool drifts = h < drift_time;
   const double deferred = deferred_share(system, h);
   if (!changed && !drifts) {

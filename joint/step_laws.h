@@ -40,7 +40,7 @@ class StepLaws {
   }
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
-  void keep(Tape& tape) { tape(h_, known_, delta_, unneeded_, drift_time); }
+  void keep(Tape& tape) { tape(h_, known_, delta_, delta_of_rotation_, drift_time); }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
 
@@ -49,13 +49,17 @@ class StepLaws {
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
-  double delta_for(const System& system, double h);
+  bool choose_delta(const System& system, double h);  // whether it is another
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
-  bool known_ = false;   // the laws are those of h_, caps and stiffness
-  double delta_ = 1;     // of the laws
-  double unneeded_ = 0;  // s that it was more than three times what was needed
+  bool known_ = false;  // the laws are those of h_, caps and stiffness
+  struct Delta {
+    double value = 1;     // of the laws
+    double unneeded = 0;  // s that it was more than three times what was needed
+    void keep(Tape& tape) { tape(value, unneeded); }
+  };
+  Delta delta_, delta_of_rotation_;  // of axial and shear rows, and of rotation rows
 };
 
 }  // namespace ductile::dynamics
