@@ -271,11 +271,11 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   }
   if (!(at.gradient2 <= target(system, at) || settled)) at = solve_by_interior_point(system, hessian, report);
   report.rounds += round.number;
-  // The last bits of impulses that press against each other may be all that is left, and all that there is:
-  // they are no lack of balance.
-  const bool rounding = settled && at.gradient2 <= rounding_of_impulses(system);
+  // Where impulses cancel, the last bits of them may be all that is left: they are no lack of balance.
+  const double goal2 = target(system, at);
+  const bool rounding = settled && at.gradient2 > goal2 && at.gradient2 <= rounding_of_impulses(system);
   report.residual =
-      at.gradient2 > 0 && !rounding ? tolerance_of(system) * std::sqrt(at.gradient2 / target(system, at)) : 0;
+      at.gradient2 > 0 && !rounding ? tolerance_of(system) * std::sqrt(at.gradient2 / goal2) : 0;
   left2_ = at.gradient2;
   pushed2_ = 0;
   pushes_ = 0;

@@ -83,9 +83,9 @@ class Pool {
 
   static inline thread_local Pool* in_use_ = nullptr;
   MemorySource source_;
-  std::array<Piece*, 21> free_{};  // of least · 2ᵏ bytes
-  Block* blocks_ = nullptr;        // the last comes first
-  std::byte* next_ = nullptr;      // in the last block
+  std::array<Piece*, std::bit_width(largest / least)> free_{};  // of least · 2ᵏ bytes
+  Block* blocks_ = nullptr;                                     // the last comes first
+  std::byte* next_ = nullptr;                                   // in the last block
   std::size_t left_ = 0;
 };
 

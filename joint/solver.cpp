@@ -188,8 +188,7 @@ void Solver::advance() {
     if (i < newest.size()) newest[i] = bodies[i].v;
     const Vec3& v = bodies[i].v;
     displace(places[i], h * v);
-    const Turn back = turn_of(-h * v.w);
-    turned_[i] = {back.c * v.x - back.s * v.y, back.s * v.x + back.c * v.y, v.w};
+    turned_[i] = after_turning(v, h);
   }
   if (predicted_) prediction_.fit();
   for (Joint& j : own_joints()) {

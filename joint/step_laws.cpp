@@ -105,9 +105,7 @@ double StepLaws::most_growth(System& system, double last_h) {
   double given = 0;
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
-    const Turn back = turn_of(-last_h * b.v.w);
-    const Vec3 was{back.c * b.v.x - back.s * b.v.y, back.s * b.v.x + back.c * b.v.y, b.v.w};
-    given += square(b, momentum(b, b.v_free - was));
+    given += square(b, momentum(b, b.v_free - after_turning(b.v, last_h)));
   }
   return std::max(1.0, std::sqrt(strain_of_loads * std::min(borne, given) / stored));
 }
@@ -143,9 +141,9 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
 
 // δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
 // turn far in a step, in which rows take another direction, but those of rotation; by powers of two, and for
-// half a second at least, so that factors last. What comes down on an edge is lifted by corrections of its
-// overlap, and what vibrates beneath it would throw it again and again: with contacts rows of rotation do not
-// go without.
+// half a second at least, so that factors last. Corrections of overlap lift what comes down on an edge, and
+// what vibrates beneath it would throw it again and again: where there are contacts δ of rotation rows grows
+// with the turn as well.
 bool StepLaws::choose_delta(const System& system, double h) {
   if (least_delta == 1) return false;
   double turn = 0;
@@ -158,7 +156,7 @@ bool StepLaws::choose_delta(const System& system, double h) {
   const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
   const double of_others = of_step + (guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0);
   const double of_rotation = system.contacts.empty() ? of_step : of_others;
-  const auto keep = [&](Delta& delta, double needed) {
+  const auto choose = [&](Delta& delta, double needed) {
     needed = std::min(needed, 1.0);
     if (h == h_ && needed <= delta.value && delta.value > least_delta) {
       delta.unneeded = needed > delta.value / 3 ? 0 : delta.unneeded + h;
@@ -167,8 +165,8 @@ bool StepLaws::choose_delta(const System& system, double h) {
     delta.unneeded = 0;
     return std::exchange(delta.value, needed) != needed;
   };
-  const bool changed = keep(delta_, of_others);
-  return keep(delta_of_rotation_, of_rotation) || changed;
+  const bool changed = choose(delta_, of_others);
+  return choose(delta_of_rotation_, of_rotation) || changed;
 }
 
 // follow_law() keeps what a row moved by in the last step. Here its velocity is kept.

@@ -279,8 +279,8 @@ TEST(Ledger, SpinThatBeginsAfterALongStep) {
   }
 }
 
-// A block of 1000 t at 0.1 m/s is stopped by rigid joints over a light piece, in short steps with 1e8 N. In a
-// step that is 333 times as long that is no load that they bear.
+// Rigid joints over a light piece stop a block of 1000 t at 0.1 m/s, in short steps with 1e8 N. That force is
+// no load: a step that is 333 times as long must not take it over.
 TEST(Ledger, FlungApartInStepsOfChangingLength) {
   for (const double light : {0.001, 0.006, 0.1}) {
     for (const int stopping : {1, 2, 5}) {

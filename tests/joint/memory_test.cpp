@@ -13,7 +13,8 @@ namespace ductile {
 namespace {
 
 // A frame of 36 bays, a hundred times as heavy as steel for its strength, loses the columns of its ground
-// floor. Within a second it hits the ground; what breaks off then has its memory from what it was a part of.
+// floor. What falls is formed anew in the first second; what breaks off later has the memory of what it was a
+// part of.
 TEST(MemoryOfComponents, OfACollapseIsTakenInItsFirstSecond) {
   const bench::Layout layout = bench::heavy_frame(6, 6, 100);
   bench::Built frame(layout, bench::Built::ours, 10);

@@ -107,11 +107,9 @@ double lean_of_elastica(double share) {
   return 2 * low / std::comp_ellint_1(low);
 }
 
-// Below Euler's load first-order deflection grows by 1/(1 − P/P_cr). Beyond it an error of P_cr, a quarter of
-// a per cent with 10 pieces, is one of 1/(2 (P/P_cr − 1)) times as much of the lean.
-// The end of a cantilever is loaded at once, by a force that would turn the last piece by up to 0.6 rad a
-// step, were it free. It falls to twice the static deflection and comes back as often as it likes; the first
-// mode has 97 % of that.
+// The end of a cantilever is loaded at once, by a force that would turn the last piece by 0.36 rad in a step
+// of 1/30 s, were it free. The end falls to twice its static deflection, period after period; the first mode
+// has 97 % of that.
 TEST(Motion, ALoadThatTurnsALightPieceDampsNothing) {
   constexpr int n = 12;
   constexpr double length = 5, height = 0.08, width = 0.1, E = 2e11, density = 7800, piece = length / n,
@@ -149,6 +147,8 @@ TEST(Motion, ALoadThatTurnsALightPieceDampsNothing) {
   }
 }
 
+// Below Euler's load first-order deflection grows by 1/(1 − P/P_cr). Beyond it an error of P_cr, a quarter of
+// a per cent with 10 pieces, is one of 1/(2 (P/P_cr − 1)) times as much of the lean.
 TEST(Motion, ColumnsBuckleAtEulersLoad) {
   // The table's row of a tip that turns by 40°: its share is cut to three digits, which are 1.6e-3 of the
   // lean.
@@ -290,8 +290,6 @@ TEST(Motion, ASuddenForceReachesTheDuctilityOfTheClosedForm) {
   }
 }
 
-// The error of x(t) = v/ω sin ωt falls with h². Velocities belong to the middle of a step, so the start at t
-// = 0 is late by h/2, which a peak shows to second order only.
 // An arm of 2 m on a spring of 2.2 Hz, which turns by up to 0.027 rad a step.
 struct Arm {
   explicit Arm(double yield_moment) : world({0, 0}), structure(world) {
@@ -348,6 +346,8 @@ TEST(Motion, AnArmThatSwingsFarKeepsItsEnergy) {
   EXPECT_NEAR(std::pow(farthest_in(27) / first, 2), 1, 0.04);
 }
 
+// The error of x(t) = v/ω sin ωt falls with h². Velocities belong to the middle of a step, so the start at t
+// = 0 is late by h/2, which a peak shows to second order only.
 TEST(Motion, IsOfSecondOrder) {
   const auto error = [](double rate) {
     Oscillator mass(1);
