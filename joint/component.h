@@ -64,6 +64,7 @@ struct Component {
   struct Parts {
     int count = 1;          // of the step that the solver's laws are for
     double since_blow = 0;  // s, a hard one
+    bool goes_on = false;   // the next step has parts, too
     bool advanced = false;  // this step was solved so: poses have moved
     struct OfBody {         // velocities in world axes
       Pose start;
@@ -81,7 +82,7 @@ struct Component {
     Vector<OfContact> sums;
 
     void keep(Tape& tape) {
-      tape(count, since_blow);
+      tape(count, since_blow, goes_on);
       if (count < 1) tape.refuse(), count = 1;
     }
   };
@@ -219,6 +220,8 @@ struct Component {
   bool may_divide(const b2SolverData& data) const;
   bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
   bool is_strained() const;
+  bool throws() const;
+  bool arms_held() const;
   bool strikes_hard();
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);

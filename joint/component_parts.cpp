@@ -1,9 +1,10 @@
 // The steps of a blow in parts: what strikes a structure sends waves through it that are over in a few
 // milliseconds, and their plastic work depends on them. So a step in which a blow strains joints by a good
 // share of their capacity, be it more than they carried before, and those of the next 50 ms in which some are
-// strained that much, are solved as shorter ones, with contacts as rows of each. What strikes less hard is
-// part of what goes on. Box2D sees one step: it moves bodies with their mean velocities, before its
-// iterations of positions they get those at the end, and contacts have the sums of their impulses.
+// strained that much, or throw what struck them, are solved as shorter ones, with contacts as rows of each.
+// What strikes less hard is part of what goes on. Box2D sees one step: it moves bodies with their mean
+// velocities, before its iterations of positions they get those at the end, and contacts have the sums of
+// their impulses.
 //
 // Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest:
 // the springs of rigid rows grow with the inverse square of the step, so that between supports that move
@@ -23,6 +24,7 @@ namespace {
 constexpr double part = 1 / 1920.0;  // s
 constexpr double blow_time = 0.05;   // s that waves are followed for
 constexpr double strained = 0.25;    // of a capacity
+constexpr double most_turn = 0.5;    // rad that a guest turns in a step
 
 // A step of 32 parts takes some 8 ms of a frame of 160 joints; of one of 2085 joints it would take 150, and
 // of one that comes down, whose debris strikes in every step, 670. So many bodies of a structure at most have
@@ -47,7 +49,7 @@ bool Component::may_divide(const b2SolverData& data) const {
 }
 
 bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
-  return parts_.count > 1 && !moved && parts_.since_blow < blow_time && may_divide(data) && is_strained();
+  return parts_.count > 1 && !moved && parts_.goes_on && may_divide(data);
 }
 
 // What a blow gives a struck body, λ²/2m of λ = m_eff v, against what its joints store until they yield,
@@ -88,10 +90,34 @@ bool Component::strikes_hard() {
 // of the game. The solution of the whole step knows that.
 bool Component::strains_much() const { return solver.strained_by_blow() > strained; }
 
+// Rows without a cap have no usage: NaN, which is more than nothing.
 bool Component::is_strained() const {
   return std::any_of(members.begin(), members.end(), [](const Member* m) {
-    return std::max({m->joint->usage(axial), m->joint->usage(shear), m->joint->usage(rotation)}) > strained;
+    const auto is_strained = [m](Row row) { return m->joint->usage(row) > strained; };
+    return is_strained(axial) || is_strained(shear) || is_strained(rotation);
   });
+}
+
+// Whether the structure gave what strikes it more than twice what bears its weight: moments may pass through
+// 0 while it is thrown, or braked.
+bool Component::throws() const {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    if (!mirrors[i].guest()) continue;
+    const Parts::OfBody& body = parts_.bodies[i];
+    const Vec3 weight = parts_.count * body.given, push = mirrors[i].exact - body.before - weight;
+    if (std::hypot(push.x, push.y) > std::max(double{blow_speed}, 2 * std::hypot(weight.x, weight.y)))
+      return true;
+  }
+  return false;
+}
+
+// Contacts kept their arms in this step. What turned far on them would spin on in the next.
+bool Component::arms_held() const {
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const double turned = solver.places[i].pose.angle - parts_.bodies[i].start.angle;
+    if (mirrors[i].guest() && std::abs(turned) > most_turn) return false;
+  }
+  return true;
 }
 
 void Component::solve_in_parts(const b2SolverData& data, bool blow) {
@@ -200,13 +226,13 @@ void Component::end_parts(const b2SolverData& data) {
   }
   return_contacts();
   const double rate = 1 / double{data.step.dt};
-  const bool last = !(parts_.since_blow < blow_time && is_strained());
+  parts_.goes_on = parts_.since_blow < blow_time && arms_held() && (is_strained() || throws());
   double lost = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
     const Vec3 mean{rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)};
-    if (last) {
+    if (!parts_.goes_on) {
       const Body& b = solver.bodies[i];
       lost += (dot(momentum(b, m.exact), m.exact) - dot(momentum(b, mean), mean)) / 2;
       m.exact = mean;

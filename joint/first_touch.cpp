@@ -51,16 +51,27 @@ void each_near(const Component& component, const Visit& visit) {
   }
 }
 
-/// The share of the guest's last motion until it touched the piece where that is now; 1 where it did not.
-float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest) {
+/// A motion in the last step as it looked from the piece where that is now. What sleeps has not moved.
+b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
+  moving.alpha0 = 0;
+  if (!piece.IsAwake()) return moving;
+  const b2Sweep& carrier = of(piece, b2Body_m_sweep{});
+  const float turn = carrier.a - carrier.a0;
+  moving.c0 = carrier.c + b2Mul(b2Rot(turn), moving.c0 - carrier.c0);
+  moving.a0 += turn;
+  return moving;
+}
+
+/// The share of this motion until the guest touched the piece; 1 where it did not.
+float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest, const b2Sweep& moving) {
   const bool a_is_guest = contact.GetFixtureA()->GetBody() == &guest;
   b2TOIInput input;
   input.proxyA.Set(contact.GetFixtureA()->GetShape(), contact.GetChildIndexA());
   input.proxyB.Set(contact.GetFixtureB()->GetShape(), contact.GetChildIndexB());
-  b2Sweep still = of(piece, b2Body_m_sweep{}), moving = of(guest, b2Body_m_sweep{});
+  b2Sweep still = of(piece, b2Body_m_sweep{});
   still.c0 = still.c;
   still.a0 = still.a;
-  still.alpha0 = moving.alpha0 = 0;
+  still.alpha0 = 0;
   input.sweepA = a_is_guest ? moving : still;
   input.sweepB = a_is_guest ? still : moving;
   input.tMax = 1;
@@ -72,14 +83,12 @@ float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest) {
 }
 
 // What it is raised by it pays for.
-void put_back(b2Body& guest, float share, const b2Vec2& gravity) {
-  b2Sweep sweep = of(guest, b2Body_m_sweep{});
-  sweep.alpha0 = 0;
-  const b2Vec2 from = sweep.c;
+void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& gravity) {
   b2Transform at;
-  sweep.GetTransform(&at, share);
+  moving.GetTransform(&at, share);
+  const b2Vec2 from = guest.GetWorldCenter();
   guest.SetTransform(at.p,
-                     (1 - share) * sweep.a0 + share * sweep.a);  // b2Rot::GetAngle() forgets whole turns
+                     (1 - share) * moving.a0 + share * moving.a);  // b2Rot::GetAngle() forgets whole turns
   const b2Vec2 v = guest.GetLinearVelocity();
   const float gain = -guest.GetGravityScale() * b2Dot(gravity, guest.GetWorldCenter() - from);
   const float speed2 = v.LengthSquared();
@@ -115,6 +124,7 @@ void Island::meet_guests(b2World& in) {
   struct Meeting {
     b2Body* guest;
     float share;
+    b2Sweep motion;
   };
   std::vector<Meeting> meetings;
   std::vector<const Mirror*> met;  // pieces that a bullet met alone
@@ -122,7 +132,7 @@ void Island::meet_guests(b2World& in) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& guest) {
       b2Body& piece = *mirror.body;
       if (met_alone(contact, mirror)) {
-        meetings.push_back({&guest, 0});
+        meetings.push_back({&guest, 0, of(guest, b2Body_m_sweep{})});
         if (std::find(met.begin(), met.end(), &mirror) != met.end())
           return;  // at another point, or by another
         undo_impact(mirror, guest);
@@ -134,9 +144,10 @@ void Island::meet_guests(b2World& in) {
       if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
           std::abs(s.a - s.a0) < b2_angularSlop)
         return;
+      const b2Sweep motion = seen_from(piece, s);
       if (guest.IsBullet()) piece.SetAwake(true);
-      const float share = way_to(contact, piece, guest);
-      if (share < 1) meetings.push_back({&guest, share});
+      const float share = way_to(contact, piece, guest, motion);
+      if (share < 1) meetings.push_back({&guest, share, motion});
     });
   }
   for (const Mirror* m : met) put_back(*m);
@@ -145,7 +156,8 @@ void Island::meet_guests(b2World& in) {
     const auto earlier = [&m](const Meeting& o) {
       return o.guest == m.guest && (o.share < m.share || (o.share == m.share && &o < &m));
     };
-    if (std::none_of(meetings.begin(), meetings.end(), earlier)) put_back(*m.guest, m.share, in.GetGravity());
+    if (std::none_of(meetings.begin(), meetings.end(), earlier))
+      put_back(*m.guest, m.motion, m.share, in.GetGravity());
   }
 }
 

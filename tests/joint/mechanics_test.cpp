@@ -230,11 +230,12 @@ INSTANTIATE_TEST_SUITE_P(Beams, SameBlow,
                          testing::Values(Struck{10, 500, 30, 5, true}, Struck{10, 1000, 15, 5.3, false},
                                          Struck{16, 250, 35, 4, false}));
 
-// A heavy disc goes on to touch what it bent: that does not begin 50 ms of parts anew.
+// A heavy disc goes on to touch what it bent: that does not begin 50 ms of parts anew. When it has been
+// thrown up, and comes down 1.4 s later, it strikes hard again.
 TEST(SolvedInParts, EndsSoonAfterTheHardBlow) {
   ClampedBeam beam(10, 1.0 / 60);
   beam.drop({10, 500, 30, 5, true});
-  beam.run(2);
+  beam.run(1);
   EXPECT_GT(beam.structure.energy().dissipated, 0);
   EXPECT_GE(beam.divided, 3);
   EXPECT_LE(beam.divided, 8);
