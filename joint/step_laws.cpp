@@ -29,6 +29,21 @@ double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
   return r.gap[i] - j.neutral[i] - e;
 }
 
+bool is_deferred(const Joint& j, const JointRecord& r, unsigned i) {
+  return j.G[i] > 0 && !is_slack(j, r, i);
+}
+
+// Of all that a joint's rows are strained beyond their forces.
+Drift beyond_forces(const Joint& j, const JointRecord& r) {
+  Drift sum;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!is_deferred(j, r, i)) continue;
+    const double d = beyond_force(j, r, i);
+    (std::isfinite(r.material.stiffness[i]) ? sum.elastic : sum.rigid) += r.m_eff[i] * d * d;
+  }
+  return sum;
+}
+
 // The past may have known what is not finite; this step need not.
 void forget_infinite(Joint& j) {
   for (unsigned i = 0; i < 3; ++i)
@@ -57,28 +72,31 @@ void StepLaws::take_law(Joint& j, const RowLaw& law) {
   }
 }
 
-// The share of all drift that is not taken back in this step. Updates each joint's deferred drift.
-double StepLaws::deferred_share(System& system, double h) {
+// The share of drift that is not taken back in this step.
+double StepLaws::deferred_share(double h) {
   const double share = h < drift_time ? h / drift_time : 1;
   drift_time = std::max(h, drift_time - h);
-  if (share == 1) return 0;
-  find_gaps(system);
-  double deferred = 0, all = 0;
+  return 1 - share;
+}
+
+// Of what rows are strained beyond their forces no more is deferred than there was of drift.
+double StepLaws::share_of(double drift, double now) { return drift < now ? std::sqrt(drift / now) : 1; }
+
+// What a joint has of drift: all that there is, where a longer step went before.
+Drift StepLaws::drift_of(const JointRecord& r, const Drift& now) const {
+  return h_ < r.law.h ? now : r.deferred_drift;
+}
+
+// One share for all rigid rows.
+double StepLaws::share_of_rigid(System& system) const {
+  double drift = 0, now = 0;
   for (const Joint& j : system.own_joints()) {
-    JointRecord& r = system.record(j);
-    double now = 0;
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!(j.G[i] > 0) || is_slack(j, r, i)) continue;
-      const double d = beyond_force(j, r, i);
-      now += r.m_eff[i] * d * d;
-    }
-    deferred += h < r.law.h ? now : r.deferred_drift;
-    all += now;
-    r.deferred_drift = now;
+    const JointRecord& r = system.record(j);
+    const Drift d = beyond_forces(j, r);
+    drift += drift_of(r, d).rigid;
+    now += d.rigid;
   }
-  const double deferred_now = (1 - share) * (deferred < all ? std::sqrt(deferred / all) : 1);
-  for (JointRecord& r : system.records) r.deferred_drift *= deferred_now * deferred_now;
-  return deferred_now;
+  return share_of(drift, now);
 }
 
 // In a longer step the spring of a rigid row is softer by its square, and stores as much more by the same
@@ -196,7 +214,7 @@ bool StepLaws::begin(System& system, double h) {
   known_ = true;
   const double last_h = std::exchange(h_, h);
   const bool drifts = h < drift_time;
-  const double deferred = deferred_share(system, h);
+  const double deferred = deferred_share(h);
   if (!changed && !drifts) {
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
@@ -208,13 +226,21 @@ bool StepLaws::begin(System& system, double h) {
   }
   find_gaps(system);
   const double growth = changed ? most_growth(system, last_h) : 1;
+  const double of_rigid = drifts ? deferred * share_of_rigid(system) : 0;
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
     Rows strain, drift{};
+    double of_elastic = 0;
+    if (drifts) {
+      const Drift now = beyond_forces(j, r);
+      of_elastic = deferred * share_of(drift_of(r, now).elastic, now.elastic);
+      r.deferred_drift = {of_elastic * of_elastic * now.elastic, of_rigid * of_rigid * now.rigid};
+    }
     for (unsigned i = 0; i < 3; ++i) {
       strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
-      if (drifts && j.G[i] > 0 && !is_slack(j, r, i)) drift[i] = deferred * beyond_force(j, r, i);
+      if (drifts && is_deferred(j, r, i))
+        drift[i] = (std::isfinite(r.material.stiffness[i]) ? of_elastic : of_rigid) * beyond_force(j, r, i);
     }
     if (changed) follow_law(j, r, strain, growth);
     for (unsigned i = 0; i < 3; ++i) {

@@ -3,8 +3,9 @@
 // In a rigid row b = gap/h. The gap is more than the strain where turning bodies parted along their tangents
 // in the step before, by r(ωh)²/2: that constraint drift is taken back in as much time as it took to arise,
 // be it in several shorter steps; at once it would be a blow. What the shorter steps themselves add is taken
-// back at once: it would pile up. Which is which is known by size alone; all rows defer the same share, so
-// that those of parallel joints agree.
+// back at once: it would pile up. Which is which is known by size alone. All rigid rows defer the same share,
+// so that those of parallel joints agree; each joint that of its elastic ones, so that what a long rope
+// parted strains no stiff beam.
 #pragma once
 
 #include "pool.h"
@@ -45,7 +46,10 @@ class StepLaws {
   void set_law(Joint& joint, JointRecord& record) const;
 
  private:
-  double deferred_share(System& system, double h);
+  double deferred_share(double h);
+  static double share_of(double drift, double now);
+  Drift drift_of(const JointRecord& record, const Drift& now) const;
+  double share_of_rigid(System& system) const;
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;

@@ -110,14 +110,22 @@ struct Clump {
 template <>
 inline constexpr bool all_doubles<PlasticFlow> = true;
 
+/// Σ m_eff d² of the constraint drift d of a longer step that is not yet taken back.
+struct Drift {
+  double elastic = 0, rigid = 0;  // of rows of finite stiffness, and of others
+};
+
+template <>
+inline constexpr bool all_doubles<Drift> = true;
+
 /// The rest of a joint, at the same index.
 struct JointRecord {
   Rows gap{};  // u, v, θ: after find_gaps()
   Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
   RowLaw law;
-  Coupling tangent;           // ds/dx that is in H
-  int turn_inertia = -1;      // index into System::turn_inertias, of the first
-  double deferred_drift = 0;  // Σ m_eff d² of the constraint drift d of a longer step, not yet taken back
+  Coupling tangent;       // ds/dx that is in H
+  int turn_inertia = -1;  // index into System::turn_inertias, of the first
+  Drift deferred_drift;
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
