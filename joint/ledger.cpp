@@ -78,8 +78,14 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
             ? 5 * m / 6 + (j.trend[i] + 2 * third * j.mean[i] + r.law.detuning[i] * j.moved[i]) / delta
             : m;
     double damping = r.law.damping[i] / h * m * damped;
-    // Of implicit rows u holds what turning bodies part by, too, which no damper answers to.
-    if (delta >= 1) damping = std::min(damping, std::max(lost, 0.0));
+    // Of implicit rows u holds what turning bodies part by, too, which no damper answers to: heavy ones know
+    // how much that is.
+    if (delta > 1 && r.law.damping[i] > 0) {
+      const double rate = u / h + j.rate[i];
+      damping = r.law.damping[i] * h * rate * rate;
+    } else if (delta >= 1) {
+      damping = std::min(damping, std::max(lost, 0.0));
+    }
     energies.damping += damping;
     energies.numerical += lost - damping;
   }

@@ -185,6 +185,35 @@ TEST(Ledger, AParallelJointMadeInASpin) {
   }
 }
 
+// A vibration that its damper ends leaves all of its energy there, and to the integration what δ cannot damp
+// as the damper would: less with each shorter step, also where δ > 1.
+TEST(Ledger, DampersTakeTheEnergyOfAVibration) {
+  const double omega = 11;
+  for (const double ratio : {0.05, 0.2}) {
+    for (const double hz : {60., 144., 480., 2000., 8000.}) {
+      b2World world({0, 0});
+      world.SetAllowSleeping(false);
+      Structure structure(world, {.keep_ledger = true});
+      b2Body* bar = add_box(world, {.x = 1, .width = 2, .height = 0.2, .mass = 1000});
+      const double inertia = double{bar->GetInertia()} + bar->GetMass(), k = inertia * omega * omega;
+      ElasticPlasticJointDef def;
+      def.Initialize(add_box(world, {.x = -0.5, .type = b2_staticBody}), bar, {0, 0}, {1, 0});
+      def.rows[rotation] = {.stiffness = k};
+      def.rows[rotation].damping = 2 * ratio / omega * k;
+      structure.create_joint(def);
+      bar->SetAngularVelocity(0.5f);
+      bar->SetLinearVelocity({0, 0.5f});
+      for (int i = 0; i < 10 * hz; ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+      }
+      const double energy = inertia * 0.25 / 2, left = std::exp(-2 * ratio * omega * 10);
+      EXPECT_NEAR(structure.energy().damping / energy, 1 - left, 0.01 * left + 0.25 * omega / hz)
+          << ratio << ", " << hz;
+    }
+  }
+}
+
 // Nor may parallel joints that wait for what a long step parted strain each other: all by the same share.
 TEST(Ledger, ParallelJointsInShorterStepsOfASpin) {
   Beam beam({.pieces = 2, .length = 40, .gravity = 0});
