@@ -222,6 +222,7 @@ struct Component {
   bool is_strained() const;
   bool throws() const;
   bool arms_held() const;
+  bool snaps_hard() const;
   bool strikes_hard();
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
@@ -251,6 +252,7 @@ struct Component {
   std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came
   bool displaced_ = false;                 // bodies were moved apart while their joint was in no island
   bool struck_ = false;                    // velocities were changed between the steps
+  bool snapped_ = false;                   // in this step a rope goes taut in a jerk
   Parts parts_;
   Coupling coupling_ = Coupling::partly;
   Rest rest_ = Rest::none;

@@ -21,10 +21,10 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr double part = 1 / 1920.0;  // s
-constexpr double blow_time = 0.05;   // s that waves are followed for
-constexpr double strained = 0.25;    // of a capacity
-constexpr double most_turn = 0.5;    // rad that a guest turns in a step
+constexpr double part = 1 / 1920.0;      // s
+constexpr double blow_time = 0.05;       // s that waves are followed for
+constexpr double strained = 0.25;        // of a capacity
+constexpr double most_guest_turn = 0.5;  // rad that a guest turns in a step
 
 // A step of 32 parts takes some 8 ms of a frame of 160 joints; of one of 2085 joints it would take 150, and
 // of one that comes down, whose debris strikes in every step, 670. So many bodies of a structure at most have
@@ -52,10 +52,35 @@ bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
   return parts_.count > 1 && !moved && parts_.goes_on && may_divide(data);
 }
 
+// Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving: F = v √(k
+// m_eff). At the start of the next it would be strained by a good part of a step's way.
+bool Component::snaps_hard() const {
+  const auto free_velocity = [this](int i) {
+    const Body& b = solver.bodies[z(i)];
+    return solver.is_free(i) ? b.v_free : b.v;
+  };
+  return std::any_of(members.begin(), members.end(), [&](const Member* m) {
+    const Joint& j = solver.joints[m->index];
+    const JointRecord& r = solver.records[m->index];
+    if (!j.special) return false;
+    const Rows v = relative_velocity(j, free_velocity(j.a), free_velocity(j.b));
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!is_slack(j, r, i) || !(j.relaxation[i] > 0)) continue;
+      const double e = strain_of_bias(j, i), cap = v[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i];
+      const double stiffness = is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i];
+      if (cap > 0 && v[i] * e <= 0 && v[i] * (e + r.law.h * v[i]) > 0 &&
+          v[i] * v[i] * stiffness * r.m_eff[i] > strained * strained * cap * cap)
+        return true;
+    }
+    return false;
+  });
+}
+
 // What a blow gives a struck body, λ²/2m of λ = m_eff v, against what its joints store until they yield,
-// F²/2k; of what is stiffer than a part resolves, k is what that does. The solution of the whole step does
-// not know the peak.
+// F²/2k. Of a long beam that is v √(ρA EI), and v √(ρA EA) along it, however short its pieces; of rigid rows
+// k is what a part resolves. The solution of the whole step does not know the peak.
 bool Component::strikes_hard() {
+  if (snapped_) return true;
   for (Parts::OfBody& body : parts_.bodies) body.energy = 0;
   each_point([this](std::size_t, const Touch& t, const PointConstraint& p) {
     const double speed = -closing_speed(t, p);
@@ -78,7 +103,7 @@ bool Component::strikes_hard() {
       if (solver.is_free(i)) energy = std::max(energy, parts_.bodies[z(i)].energy);
     Rows force;
     for (unsigned i = 0; i < 3; ++i)
-      force[i] = std::sqrt(2 * energy * std::min(r.law.spring[i], r.m_eff[i] / (part * part)));
+      force[i] = std::sqrt(2 * energy * (is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i]));
     if (r.law.surface != nullptr) return r.law.surface->usage(force) > strained;
     for (unsigned i = 0; i < 3; ++i)
       if (force[i] > strained * std::min(r.material.cap[i], r.material.cap_reverse[i])) return true;
@@ -115,7 +140,7 @@ bool Component::throws() const {
 bool Component::arms_held() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const double turned = solver.places[i].pose.angle - parts_.bodies[i].start.angle;
-    if (mirrors[i].guest() && std::abs(turned) > most_turn) return false;
+    if (mirrors[i].guest() && std::abs(turned) > most_guest_turn) return false;
   }
   return true;
 }
@@ -226,7 +251,7 @@ void Component::end_parts(const b2SolverData& data) {
   }
   return_contacts();
   const double rate = 1 / double{data.step.dt};
-  parts_.goes_on = parts_.since_blow < blow_time && arms_held() && (is_strained() || throws());
+  parts_.goes_on = parts_.since_blow < blow_time && arms_held() && (snapped_ || is_strained() || throws());
   double lost = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];

@@ -151,6 +151,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     start_from(i);
   }
+  snapped_ = false;
   const bool in_parts = goes_on_in_parts(data, moved);
   if (!in_parts) {
     if (parts_.count > 1) solver.unite(std::exchange(parts_.count, 1));
@@ -194,7 +195,8 @@ void Component::first_velocity(const b2SolverData& data) {
   if (!direct()) solver.warm_start();
   enter_ties();
   enter_contacts();
-  const bool blow = direct() && is_blow();
+  snapped_ = direct() && snaps_hard();
+  const bool blow = direct() && (snapped_ || is_blow());
   struck_ = false;
   if (in_parts) return solve_in_parts(data, blow);
   if (!blow) return solve(data);

@@ -92,7 +92,7 @@ void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& g
   const b2Vec2 v = guest.GetLinearVelocity();
   const float gain = -guest.GetGravityScale() * b2Dot(gravity, guest.GetWorldCenter() - from);
   const float speed2 = v.LengthSquared();
-  if (speed2 > 2 * gain) guest.SetLinearVelocity(std::sqrt(1 - 2 * gain / speed2) * v);
+  if (speed2 > 0 && speed2 > 2 * gain) guest.SetLinearVelocity(std::sqrt(1 - 2 * gain / speed2) * v);
 }
 
 /// Whether Box2D let the piece meet a bullet alone in the last step.
