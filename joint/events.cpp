@@ -43,9 +43,16 @@ void Structure::Impl::look_for_break(Member& m) {
   break_joint(m, mode, static_cast<Row>(row));
 }
 
+// Never allocates inside a step: a flow that finds no room is not said, and counts with the next. Each
+// joint's yield and break have room.
 void Structure::Impl::say(Member& member, JointEvent event) {
-  // Never allocates inside a step: what finds no room is not said.
-  if (events.pending.size() == events.pending.capacity()) return;
+  if (!events.delivering && events.delivered > 0) {  // a handler threw
+    events.pending.erase(events.pending.begin(),
+                         events.pending.begin() + static_cast<std::ptrdiff_t>(events.delivered));
+    events.delivered = 0;
+  }
+  const std::size_t kept_free = event.kind == JointEvent::flow ? 2 * members.size() : 0;
+  if (events.pending.size() + kept_free >= events.pending.capacity()) return;
   event.worked = event.energy - std::exchange(member.said.energy, event.energy);
   events.pending.push_back({member.id, event});
 }

@@ -316,6 +316,32 @@ TEST(Events, TellWhatIsSetFreeAndWhere) {
   EXPECT_GE(events.back().energy, F * 0.1);
 }
 
+// However fast a joint goes from yield to break, be it within one step in parts, the game hears of it before
+// the joint is gone.
+TEST(Events, TellOfABreakThatComesWithManyFlows) {
+  for (double speed = 5.25; speed < 18; speed += 0.25) {
+    b2World world({0, 0});
+    Structure structure(world);
+    b2Body* arm = add_box(world, {.x = 1, .width = 2, .height = 0.1, .mass = 157});
+    ElasticPlasticJointDef def;
+    def.Initialize(add_box(world, {.x = -0.5, .type = b2_staticBody}), arm, {0, 0}, {1, 0});
+    def.rows[rotation].cap = def.rows[rotation].cap_reverse = 6250;
+    def.max_rotation = 0.4;
+    const ElasticPlasticJoint* joint = structure.create_joint(def);
+    arm->SetLinearVelocity(vec(0, speed));
+    arm->SetAngularVelocity(static_cast<float>(speed));
+    int broke = 0;
+    structure.on_event(
+        [&](const JointEvent& e) { broke += e.kind == JointEvent::broke && e.joint == joint; });
+    for (int i = 0; i < 30; ++i) {
+      world.Step(1 / 30.0f, 8, 3);
+      structure.update();
+      ASSERT_EQ(structure.joints().size(), broke == 0 ? 1u : 0u) << speed;
+    }
+    EXPECT_EQ(broke, 1) << speed;
+  }
+}
+
 TEST(Joint, ThatYieldedWithoutALimitSaysSo) {
   Hanging h;
   h.structure.joints()[0]->set_limits(unlimited, unlimited, unlimited, unlimited);
