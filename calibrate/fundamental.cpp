@@ -10,6 +10,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -23,8 +24,9 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// Rigid rows are springs of so many times the row's mass a second², far above what a structure can have.
-constexpr double rigid_rate = 1e10;
+// Rigid rows are springs of so many times the row's mass a second² at least, and as many times as stiff as
+// the stiffest elastic row: short pieces' are stiffer than any number that could be given here.
+constexpr double least_rigid_rate = 1e10, rigid_ratio = 100;
 
 struct Connected {
   std::vector<std::size_t> joints;
@@ -81,18 +83,22 @@ double fundamental(const Plan& plan, const Connected& structure) {
     const Piece& p = plan.pieces[z(structure.pieces[i])];
     mass.segment<3>(static_cast<Eigen::Index>(3 * i)) << p.mass, p.mass, p.inertia;
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  bool elastic = false;
+  struct Row {
+    double stiffness;
+    double compliance = 0;  // of its bodies' masses
+    int columns[6]{}, used = 0;
+    double jacobian[6]{};
+  };
+  std::vector<Row> rows;
+  double stiffest = 0;  // of elastic rows, 1/s²
   for (const std::size_t k : structure.joints) {
     const PlannedJoint& j = plan.joints[k];
     const double stiffness[3] = {j.N == 0 && j.Nc == 0 ? 0 : j.stiffness.N, j.Q == 0 ? 0 : j.stiffness.Q,
                                  j.M == 0 && j.M_reverse == 0 ? 0 : j.stiffness.M};
-    for (int row = 0; row < 3; ++row) {
-      if (!(stiffness[row] > 0)) continue;
-      const Point d = row == 0 ? j.axis : Point{-j.axis.y, j.axis.x};
-      double jacobian[6];
-      int columns[6], used = 0;
-      double compliance = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (!(stiffness[i] > 0)) continue;
+      const Point d = i == 0 ? j.axis : Point{-j.axis.y, j.axis.x};
+      Row row{.stiffness = stiffness[i]};
       for (const int side : {0, 1}) {
         const int body = moving(plan, side == 0 ? j.a : j.b);
         if (body < 0) continue;
@@ -100,25 +106,30 @@ double fundamental(const Plan& plan, const Connected& structure) {
         const double sign = side == 0 ? -1 : 1;
         const Point at = side == 0 ? j.anchor : j.far_anchor();
         const Point arm{at.x - p.center.x, at.y - p.center.y};
-        const double entry[3] = {row == 2 ? 0 : sign * d.x, row == 2 ? 0 : sign * d.y,
-                                 row == 2 ? sign : sign * (arm.x * d.y - arm.y * d.x)};
-        for (int i = 0; i < 3; ++i) {
-          if (!(mass[column[z(body)] + i] > 0)) continue;
-          jacobian[used] = entry[i];
-          columns[used++] = column[z(body)] + i;
-          compliance += entry[i] * entry[i] / mass[column[z(body)] + i];
+        const double entry[3] = {i == 2 ? 0 : sign * d.x, i == 2 ? 0 : sign * d.y,
+                                 i == 2 ? sign : sign * (arm.x * d.y - arm.y * d.x)};
+        for (int c = 0; c < 3; ++c) {
+          const double of_column = mass[column[z(body)] + c];
+          if (!(of_column > 0)) continue;
+          row.jacobian[row.used] = entry[c];
+          row.columns[row.used++] = column[z(body)] + c;
+          row.compliance += entry[c] * entry[c] / of_column;
         }
       }
-      if (!(compliance > 0)) continue;
-      const bool rigid = stiffness[row] == unlimited || stiffness[row] > rigid_rate / compliance;
-      elastic |= !rigid;
-      const double rate = rigid ? rigid_rate / compliance : stiffness[row];
-      for (int a = 0; a < used; ++a)
-        for (int b = 0; b < used; ++b)
-          entries.emplace_back(columns[a], columns[b], rate * jacobian[a] * jacobian[b]);
+      if (!(row.compliance > 0)) continue;
+      if (row.stiffness < unlimited) stiffest = std::max(stiffest, row.stiffness * row.compliance);
+      rows.push_back(row);
     }
   }
-  if (!elastic) return 0;
+  if (stiffest == 0) return 0;
+  const double rigid_rate = std::max(least_rigid_rate, rigid_ratio * stiffest);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Row& row : rows) {
+    const double rate = row.stiffness < unlimited ? row.stiffness : rigid_rate / row.compliance;
+    for (int a = 0; a < row.used; ++a)
+      for (int b = 0; b < row.used; ++b)
+        entries.emplace_back(row.columns[a], row.columns[b], rate * row.jacobian[a] * row.jacobian[b]);
+  }
   Matrix K(n, n);
   K.setFromTriplets(entries.begin(), entries.end());
 
