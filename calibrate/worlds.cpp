@@ -293,15 +293,29 @@ Built build_stock(b2World& world, const Plan& plan, bool all_rigid) {
   return built;
 }
 
-std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time) {
-  std::vector<AppliedLoad> applied;
-  const auto ramp = [](double t, double over) {
-    return t < 0 ? 0 : over > 0 ? std::min(1.0, t / over) : 1.0;
+namespace {
+
+/// The part of a load that grows over `over` seconds, once it has set in, from t to t + dt: its mean.
+double mean_of_ramp(double t, double dt, double over) {
+  const auto at = [over](double now) { return now <= 0 ? 0 : now < over ? now / over : 1; };
+  if (!(dt > 0)) return over > 0 || t < 0 ? at(t) : 1;
+  const auto until = [over](double now) {  // the integral
+    return now <= 0 ? 0 : now < over ? now * now / (2 * over) : now - over / 2;
   };
-  world.SetGravity(to_box2d(ramp(time, plan.gravity_ramp) * plan.gravity));
+  return t >= over && t >= 0 ? 1 : (until(t + dt) - until(t)) / dt;
+}
+
+}  // namespace
+
+std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time,
+                                     double dt) {
+  std::vector<AppliedLoad> applied;
+  world.SetGravity(to_box2d(mean_of_ramp(time, dt, plan.gravity_ramp) * plan.gravity));
   for (const Plan::Load& load : plan.loads) {
     if (time >= load.def.to) continue;
-    const double factor = ramp(time - load.def.from, load.def.ramp);
+    const double lasts = std::min(dt, load.def.to - time);
+    const double factor =
+        mean_of_ramp(time - load.def.from, lasts, load.def.ramp) * (lasts < dt ? lasts / dt : 1);
     if (factor == 0) continue;
     b2Body* body = built.bodies[load.piece];
     const b2Vec2 at = body->GetWorldPoint(local_point(built, load.piece, load.at));

@@ -45,7 +45,7 @@ Simulation::Simulation(Plan plan, JointSolver solver, const Stepping& with, bool
 
 void Simulation::step() {
   const double dt = stepping.dt;
-  const std::vector<AppliedLoad> loads = apply_loads(world_, plan_, built_, time_ + dt / 2);
+  const std::vector<AppliedLoad> loads = apply_loads(world_, plan_, built_, time_, dt);
   apply_drives(plan_, built_, time_ + dt / 2);
   if (ledger_) ledger_->before_step(static_cast<float>(dt), loads);
   const auto start = std::chrono::steady_clock::now();

@@ -227,6 +227,33 @@ TEST(World, LoadsRideRampAndEnd) {
   EXPECT_EQ(acceleration(5), (Point{0, -10}));
 }
 
+// Whatever the steps, the impulse is that of the load: F (t − r/2) of what grows over r and lasts t in all.
+TEST(World, LoadsGiveTheirImpulseInStepsOfAnyLength) {
+  SceneDef scene;
+  scene.bodies = {{.name = "box",
+                   .outline = {rectangle(-1, -1, 1, 1), {}},
+                   .material = Material{.yield_stress = 1, .density = 1}}};
+  scene.gravity = {0, -10};
+  scene.gravity_ramp = 0.033;
+  for (const auto& [from, ramp, to] :
+       {std::array{0.0, 0.0, 0.01}, std::array{0.105, 0.0, 0.26}, std::array{0.013, 0.1, 0.2}}) {
+    scene.loads = {{.body = "box", .at = {0, 0}, .force = {8, 0}, .from = from, .ramp = ramp, .to = to}};
+    const Plan plan = calibrate(scene);
+    for (const double hz : {30., 50., 60., 100., 144., 240.}) {
+      b2World world({0, 0});
+      const Built built = build_bodies(world, plan);
+      for (int i = 0; i < hz / 2; ++i) {
+        apply_loads(world, plan, built, i / hz, 1 / hz);
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+      }
+      const double exact = 8 * (to - from - ramp / 2) / 4;
+      EXPECT_NEAR(built.bodies[0]->GetLinearVelocity().x, exact, 1e-6) << from << ", " << hz;
+      EXPECT_NEAR(built.bodies[0]->GetLinearVelocity().y, -10 * (0.5 - 0.033 / 2), 1e-5)
+          << from << ", " << hz;
+    }
+  }
+}
+
 TEST(World, StockJointsLeaveFreeRowsFree) {
   // A simply supported beam: pin and roller carry half the weight each, and the beam stays where it is.
   SceneDef scene;

@@ -103,16 +103,18 @@ Built build(Structure& structure, b2World& world, const Plan& plan);
 /// free.
 Built build_stock(b2World& world, const Plan& plan, bool all_rigid = false);
 
-/// A load as it is at a moment.
+/// A load as it is at a moment, or in the mean of a step.
 struct AppliedLoad {
   b2Body* body;
   b2Vec2 at, force;  ///< m, N: world axes
   float moment;      ///< N m
 };
 
-/// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start; returns
-/// those that are not zero. Call before each Step.
-std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time);
+/// Sets the world's gravity and puts the plan's loads on, as they are `time` seconds after the start or, in
+/// the mean, from then on for `dt` seconds, so that a load that comes and goes within steps gives its whole
+/// impulse; returns those that are not zero. Call before each Step.
+std::vector<AppliedLoad> apply_loads(b2World& world, const Plan& plan, const Built& built, double time,
+                                     double dt = 0);
 
 /// Sets the plan's drives to drive_at(). Call before each Step; a joint that is gone must be null in
 /// `built.joints` by then, as a destruction listener learns.
