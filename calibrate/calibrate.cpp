@@ -880,6 +880,17 @@ class Planner {
     joint.displacement = def.displacement;
     joint.ramp = def.ramp;
     joint.governed_by = caps_.reason("support");
+    const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+    const bool by_section = !body.joint.moment && !scene_.joint.moment;
+    if (const PlannedJoint* next = next_to_end(piece, def.at); next && def.fix_angle && by_section) {
+      // What is clamped yields at its end as beside a wall.
+      const bool onward = next->a == piece;
+      joint.M = onward ? next->M : next->M_reverse;
+      joint.M_reverse = onward ? next->M_reverse : next->M;
+      joint.max_rotation = next->max_rotation;
+      if (joint.M < unlimited)
+        joint.governed_by = caps_.reason("support; M, M_reverse, max_rotation: as joint " + next->name);
+    }
   }
 
   // The joint inside a body that ends with this piece at a point: none where it goes on beyond, or is one

@@ -11,16 +11,37 @@
 namespace ductile {
 namespace {
 
+// The joint inside the body that a support clamps at its end: they have one section.
+const PlannedJoint* beside_clamp(const Plan& plan, const PlannedJoint& support) {
+  const bool clamps = support.a < 0 && support.b >= 0 && support.height == 0 && support.M < unlimited;
+  if (!clamps || !(support.M > 0)) return nullptr;
+  const auto body_of = [&](int piece) {
+    return piece < 0 ? -1 : plan.pieces[static_cast<std::size_t>(piece)].body;
+  };
+  for (const PlannedJoint& j : plan.joints)
+    if ((j.a == support.b || j.b == support.b) && body_of(j.a) == body_of(j.b)) return &j;
+  return nullptr;
+}
+
 // Of one side of a joint: how much of the yield stress a unit of N and of M bring to each corner.
 class Fibres {
  public:
   Fibres(const Plan& plan, const PlannedJoint& joint) {
+    if (const PlannedJoint* next = beside_clamp(plan, joint)) {
+      const double sense = next->a == joint.b ? 1 : -1;
+      axis_ = sense * next->axis;
+      sense_ = sense;
+      if (const std::optional<Section> section = section_at(plan, *next, joint.b)) add(*section);
+      return;
+    }
     for (const int piece : {joint.a, joint.b}) {
       if (piece < 0) continue;
       if (const std::optional<Section> section = section_at(plan, joint, piece)) add(*section);
     }
   }
-  double usage(double N, double M) const {
+  /// Of N, Q and M along the joint's axis, which is [1, 0] of a support.
+  double usage(const Eigen::Vector3d& R) const {
+    const double N = R[0] * axis_.x + R[1] * axis_.y, M = sense_ * R[2];
     double most = 0;
     for (const Corner& c : corners_) {
       const double share = c.N * N + c.M * M;
@@ -50,6 +71,8 @@ class Fibres {
     }
   }
   std::vector<Corner> corners_;
+  Point axis_{1, 0};  // of the section, in the axes of the forces
+  double sense_ = 1;  // of M
 };
 
 }  // namespace
@@ -64,7 +87,7 @@ FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order) 
     if (load_case.time != check.time) continue;
     statics.let_slack(load_case);
     const auto usage = [&](std::size_t i, const Eigen::Vector3d& R) {
-      return statics.held[i] ? fibres[i].usage(R[0], R[2]) : 0;
+      return statics.held[i] ? fibres[i].usage(R) : 0;
     };
     std::vector<double> reached;
     if (order == Order::second) {

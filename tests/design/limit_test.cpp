@@ -37,6 +37,25 @@ TEST(LimitAnalysis, Beams) {
   expect_collapse(calibrate(propped(10, P)), 6 * M / L / P, {"wall-beam/0", "beam/4-beam/5"});
 }
 
+// What a support clamps yields there as beside a wall; of one with a moment of its own the joints do.
+TEST(LimitAnalysis, ClampedBySupports) {
+  SceneDef scene = simply_supported(10, P);
+  for (SupportDef& support : scene.supports) support.fix_angle = true;
+  expect_collapse(calibrate(scene), 8 * M / L / P, {"support/0", "beam/4-beam/5", "support/1"});
+  scene.supports.pop_back();
+  scene.loads[0].at = {20, 0};
+  expect_collapse(calibrate(scene), M / L / P, {"support/0"});
+  scene.supports[0].at = {20, 0};
+  scene.loads[0].at = {0, 0};
+  const Plan plan = calibrate(scene);
+  expect_collapse(plan, M / L / P, {"support/0"});
+  const FirstFibre fibre = first_fibre(plan, static_check(plan));
+  EXPECT_NEAR(fibre.factor / (2.0 / 3 * M / L / P), 1, exactly);
+  EXPECT_EQ(plan.joints[static_cast<std::size_t>(fibre.joint)].name, "support/0");
+  scene.joint.moment = M;
+  expect_collapse(calibrate(scene), M / (L - L / 10) / P, {"beam/8-beam/9"});
+}
+
 TEST(LimitAnalysis, UnitsDoNotMatter) {
   for (const double load : {1e-3, 1e12})
     expect_collapse(calibrate(propped(10, load)), 6 * M / L / load, {"wall-beam/0", "beam/4-beam/5"});
