@@ -230,6 +230,31 @@ std::vector<std::string> rigid_bars(const Plan& plan) {
 
 }  // namespace
 
+namespace {
+
+/// Of numbers that no solid has in the units of scenes, and many in those of tables: what they are, and the
+/// bodies of which they are.
+std::map<std::string, std::vector<std::string>> other_units(const Plan& plan) {
+  constexpr double least_yield_stress = 1e4, least_modulus = 1e6;  // Pa
+  constexpr double strong = 1e7, least_density = 25;  // Pa, kg/m³: what is stronger than cork is heavier
+  std::map<std::string, std::vector<std::string>> found;
+  for (const BodyDef& body : plan.bodies) {
+    if (!body.material) continue;
+    const Material& m = *body.material;
+    const auto look = [&](const char* key, double value, double least, const char* unit, const char* needs) {
+      if (value > 0 && value < least)
+        found[fmt::format("{} is {:g} {}; in {}", key, value, unit, needs)].push_back(body.name);
+    };
+    look("fy", m.yield_stress, least_yield_stress, "Pa", "MPa it needs 1e6");
+    look("E", m.youngs_modulus, least_modulus, "Pa", "GPa it needs 1e9, in MPa 1e6");
+    look("density", m.density, m.yield_stress > strong ? least_density : 0, "kg/m³",
+         "g/cm³ or t/m³ it needs 1000");
+  }
+  return found;
+}
+
+}  // namespace
+
 std::vector<std::string> remarks(const Plan& plan) {
   std::vector<double> heights(plan.bodies.size());  // of the highest section of a joint
   for (const PlannedJoint& joint : plan.joints)
@@ -251,6 +276,7 @@ std::vector<std::string> remarks(const Plan& plan) {
     result.push_back(list_of(rigid) +
                      ": one piece is rigid: between its joints it neither bends nor yields nor buckles; "
                      "split it into several");
+  for (const auto& [what, names] : other_units(plan)) result.push_back(list_of(names) + ": " + what);
   for (const auto& [strain, names] : breaking)
     result.push_back(fmt::format(
         "{}: breaks at {} times the yield strain, before a plastic hinge turns; design with the first fibre",

@@ -87,6 +87,26 @@ TEST(CheckCommand, TellsOfMaterialsWithoutPlasticHinges) {
   }
 }
 
+// Numbers of tables, where the unit is not the scene's.
+TEST(CheckCommand, TellsOfOtherUnits) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& fy, const std::string& E, const std::string& density) {
+    const std::string scene =
+        folder.write("scene.json", R"({"materials": {"steel": {"fy": )" + fy + R"(, "E": )" + E +
+                                       R"(, "density": )" + density + R"(}},
+      "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "beam", "outline": [[0,0],[3,0],[3,0.3],[0,0.3]], "material": "steel", "split": {"pieces": 3}}],
+      "joints": [{"between": ["wall","beam"]}]})");
+    return run("check " + scene + " --json").json()["remarks"];
+  };
+  EXPECT_EQ(remarks("355e6", "210e9", "7850"), json::array());
+  EXPECT_EQ(remarks("355", "210e9", "7850"), (json{"beam: fy is 355 Pa; in MPa it needs 1e6"}));
+  EXPECT_EQ(remarks("355e6", "210e3", "7850")[0], "beam: E is 210000 Pa; in GPa it needs 1e9, in MPa 1e6");
+  EXPECT_EQ(remarks("355e6", "210e9", "7.85"),
+            (json{"beam: density is 7.85 kg/m³; in g/cm³ or t/m³ it needs 1000"}));
+}
+
 // An angle's principal axes lie across its drawn ones; an I-section's and a channel's do not.
 TEST(CheckCommand, TellsOfSectionsThatWouldBendSideways) {
   const Folder folder;
