@@ -16,7 +16,8 @@ namespace {
 constexpr double turn_guard = 10;   // δ per rad that a body turns in a step
 constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
-constexpr double delta_time = 0.5;  // s that δ is kept beyond its need
+constexpr double rotation_share = 0.25;  // of that δ which rotation rows among contacts have
+constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
 
 // What loads store in rigid rows, of what their impulses in a step are as kinetic energy: 4e-7 of a
 // cantilever of 10 pieces, as the fourth power of them in longer ones.
@@ -161,7 +162,7 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
 // turn far in a step, in which rows take another direction, but those of rotation; by powers of two, and for
 // half a second at least, so that factors last. Corrections of overlap lift what comes down on an edge, and
 // what vibrates beneath it would throw it again and again: where there are contacts δ of rotation rows grows
-// with the turn as well.
+// with the turn as well, to a quarter, as all of it would take half of what an elastic beam throws back.
 bool StepLaws::choose_delta(const System& system, double h) {
   if (least_delta == 1) return false;
   double turn = 0;
@@ -173,7 +174,8 @@ bool StepLaws::choose_delta(const System& system, double h) {
   const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
   const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
   const double of_others = of_step + (guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0);
-  const double of_rotation = system.contacts.empty() ? of_step : of_others;
+  const double of_rotation =
+      system.contacts.empty() ? of_step : of_step + rotation_share * (of_others - of_step);
   const auto choose = [&](Delta& delta, double needed) {
     needed = std::min(needed, 1.0);
     if (h == h_ && needed <= delta.value && delta.value > least_delta) {

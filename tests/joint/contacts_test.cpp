@@ -221,6 +221,32 @@ TEST(SolvedInParts, GoesOnWhileSomethingIsThrown) {
     EXPECT_NEAR(Thrown(speed, 0, 60).speed, Thrown(speed, 0, 3840).speed, 0.05 * speed) << speed;
 }
 
+// A clamped beam that never yields throws back what falls on it, in whole steps: most of m g H, less what the
+// first touch takes of the pieces that it meets, m/M, and vibrations.
+TEST(Contacts, WithAnElasticBeamThrowBack) {
+  const auto rebound = [](double hz) {
+    Beam beam(
+        {.pieces = 8, .length = 8, .height = 0.2, .density = 100, .youngs_modulus = 2e9, .damping_time = 0});
+    ElasticPlasticJointDef end;
+    end.Initialize(beam.pieces.back(), beam.wall, beam.point(8), {1, 0});
+    beam.set_rows(end, 0.5);
+    end.rows[axial] = RowDef::free();
+    beam.structure.create_joint(end);
+    beam.run(1, 1 / hz);
+    b2Body* block = add(beam.world, {.x = 4, .bottom = 2.1, .mass = 1000});
+    double fastest = 0;
+    for (int i = 0; i < 1.5 * hz; ++i) {
+      beam.run(1 / hz, 1 / hz);
+      fastest = std::max(fastest, double{block->GetLinearVelocity().y});
+    }
+    return fastest * fastest / (2 * 10 * 2);  // of the fall
+  };
+  const double fine = rebound(3840);
+  EXPECT_GT(fine, 0.8);
+  EXPECT_NEAR(rebound(120), fine, 0.05 * fine);
+  EXPECT_NEAR(rebound(60), fine, 0.2 * fine);
+}
+
 // What a blow strains is the beam's, v √(ρA EI), however short its pieces: of a step in one, short ones
 // showed nothing.
 TEST(SolvedInParts, BendsWhatHasManyShortPieces) {
