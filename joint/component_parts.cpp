@@ -21,10 +21,10 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr double part = 1 / 1920.0;      // s
-constexpr double blow_time = 0.05;       // s that waves are followed for
-constexpr double strained = 0.25;        // of a capacity
-constexpr double most_guest_turn = 0.5;  // rad that a guest turns in a step
+constexpr double part = 1 / 1920.0;        // s
+constexpr double blow_time = 0.05;         // s that waves are followed for
+constexpr double strained = 0.25;          // of a capacity
+constexpr double most_turn_of_arms = 0.5;  // rad in a step
 
 // A step of 32 parts takes some 8 ms of a frame of 160 joints; of one of 2085 joints it would take 150, and
 // of one that comes down, whose debris strikes in every step, 670. So many bodies of a structure at most have
@@ -139,8 +139,8 @@ bool Component::throws() const {
 // Contacts kept their arms in this step. What turned far on them would spin on in the next.
 bool Component::arms_held() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    const double turned = solver.places[i].pose.angle - parts_.bodies[i].start.angle;
-    if (mirrors[i].guest() && std::abs(turned) > most_guest_turn) return false;
+    if (std::abs(solver.places[i].pose.angle - parts_.bodies[i].start.angle) > most_turn_of_arms)
+      return false;
   }
   return true;
 }

@@ -51,9 +51,13 @@ void each_near(const Component& component, const Visit& visit) {
   }
 }
 
+b2Sweep alone(b2Sweep moving) {
+  moving.alpha0 = 0;
+  return moving;
+}
+
 /// A motion in the last step as it looked from the piece where that is now. What sleeps has not moved.
 b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
-  moving.alpha0 = 0;
   if (!piece.IsAwake()) return moving;
   const b2Sweep& carrier = of(piece, b2Body_m_sweep{});
   const float turn = carrier.a - carrier.a0;
@@ -62,7 +66,24 @@ b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
   return moving;
 }
 
-/// The share of this motion until the guest touched the piece; 1 where it did not.
+/// m, without skins.
+float distance(const b2DistanceProxy& a, const b2Transform& at_a, const b2DistanceProxy& b,
+               const b2Transform& at_b) {
+  b2DistanceInput input;
+  input.proxyA = a;
+  input.proxyB = b;
+  input.transformA = at_a;
+  input.transformB = at_b;
+  input.useRadii = false;
+  b2SimplexCache cache;
+  cache.count = 0;
+  b2DistanceOutput found;
+  b2Distance(&found, &cache, &input);
+  return found.distance;
+}
+
+/// The share of this motion until the guest touched the piece; 1 where it did not. Time of impact is found 3
+/// slops deep; positions are corrected to 1, which would raise the guest.
 float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest, const b2Sweep& moving) {
   const bool a_is_guest = contact.GetFixtureA()->GetBody() == &guest;
   b2TOIInput input;
@@ -78,8 +99,55 @@ float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest, const b2Swe
   b2TOIOutput output;
   b2TimeOfImpact(&output, &input);
   if (output.state != b2TOIOutput::e_touching) return 1;
-  // Time of impact is found 3 slops deep; positions are corrected to 1, which would raise the guest.
-  return std::max(0.0f, output.t - 2 * b2_linearSlop / (moving.c - moving.c0).Length());
+  const float one_deep = input.proxyA.m_radius + input.proxyB.m_radius - b2_linearSlop;
+  float apart = 0, touching = output.t;
+  for (int halving = 0; halving < 16; ++halving) {
+    const float middle = (apart + touching) / 2;
+    b2Transform a, b;
+    input.sweepA.GetTransform(&a, middle);
+    input.sweepB.GetTransform(&b, middle);
+    (distance(input.proxyA, a, input.proxyB, b) > one_deep ? apart : touching) = middle;
+  }
+  return touching;
+}
+
+b2DistanceProxy proxy(const b2Fixture& fixture, int32 child) {
+  b2DistanceProxy made;
+  made.Set(fixture.GetShape(), child);
+  return made;
+}
+
+/// Whether a body would overlap nothing there by more than its skin, but pieces and what it so overlaps where
+/// it is.
+bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
+  struct Overlap : b2QueryCallback {
+    Overlap(const b2Fixture& of, const b2Transform& at) : fixture(of), there(at) {}
+    bool ReportFixture(b2Fixture* other) override {
+      b2Body* const on = other->GetBody();
+      if (on == fixture.GetBody() || other->IsSensor() || is_piece(on)) return true;
+      const auto overlaps = [&](const b2Transform& at) {
+        for (int32 i = 0; i < fixture.GetShape()->GetChildCount(); ++i)
+          for (int32 k = 0; k < other->GetShape()->GetChildCount(); ++k)
+            if (distance(proxy(fixture, i), at, proxy(*other, k), on->GetTransform()) == 0) return true;
+        return false;
+      };
+      return room = !overlaps(there) || overlaps(fixture.GetBody()->GetTransform());
+    }
+    const b2Fixture& fixture;
+    const b2Transform& there;
+    bool room = true;
+  };
+  for (b2Fixture* f = body.GetFixtureList(); f != nullptr; f = f->GetNext()) {
+    if (f->IsSensor()) continue;
+    for (int32 i = 0; i < f->GetShape()->GetChildCount(); ++i) {
+      b2AABB box;
+      f->GetShape()->ComputeAABB(&box, there, i);
+      Overlap overlap(*f, there);
+      world.QueryAABB(&overlap, box);
+      if (!overlap.room) return false;
+    }
+  }
+  return true;
 }
 
 // What it is raised by it pays for.
@@ -144,10 +212,20 @@ void Island::meet_guests(b2World& in) {
       if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
           std::abs(s.a - s.a0) < b2_angularSlop)
         return;
-      const b2Sweep motion = seen_from(piece, s);
+      // Where both went the same way, the piece is now on the guest's way, and they never met; where they
+      // met, they did so in the motion that the piece saw. What overtook the guest takes it along where there
+      // is room.
+      const b2Sweep own = alone(s), seen = seen_from(piece, own);
       if (guest.IsBullet()) piece.SetAwake(true);
-      const float share = way_to(contact, piece, guest, motion);
-      if (share < 1) meetings.push_back({&guest, share, motion});
+      const float share = way_to(contact, piece, guest, seen);
+      if (!(share < 1)) return;
+      b2Transform there;
+      seen.GetTransform(&there, share);
+      if (has_room(in, guest, there)) {
+        meetings.push_back({&guest, share, seen});
+      } else if (const float alone = way_to(contact, piece, guest, own); alone < 1) {
+        meetings.push_back({&guest, alone, own});
+      }
     });
   }
   for (const Mirror* m : met) put_back(*m);

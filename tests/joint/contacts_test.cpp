@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <random>
 #include <tuple>
+#include <vector>
 
 #include "beam.h"
 #include "bodies.h"
@@ -292,6 +295,86 @@ TEST(FirstTouch, OfABulletWithoutTheStructureIsUndone) {
   for (const b2Body* piece : plate.beam.pieces) {
     EXPECT_LT(piece->GetLinearVelocity().Length(), 1e-4);
     EXPECT_NEAR(piece->GetPosition().y, 0, 1e-6);
+  }
+}
+
+// What turns onto a deck at one corner is put back to where that touched, not to where its step began: it
+// went no further in any step, with its velocity, for ever.
+TEST(FirstTouch, LeavesNothingStandingInTheAir) {
+  std::mt19937 random(3);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 0x1p32;
+  };
+  for (const double hz : {30., 60., 144.}) {
+    for (int scene = 0; scene < 12; ++scene) {
+      Beam deck({.pieces = 10, .length = 6, .height = 0.15, .youngs_modulus = 210e9, .damping_time = 0.005});
+      ElasticPlasticJointDef end;
+      end.Initialize(deck.pieces.back(), deck.wall, deck.point(6), {1, 0});
+      deck.set_rows(end, 0.3);
+      deck.structure.create_joint(end);
+      std::vector<b2Body*> boxes;
+      for (int i = 0; i < 3; ++i) {
+        const double width = between(0.1, 0.8), height = between(0.1, 0.8);
+        b2Body* box = add_box(deck.world, {.x = between(0.6, 5.4),
+                                           .y = 1 + 1.2 * i,
+                                           .width = width,
+                                           .height = height,
+                                           .mass = between(30, 2000) * width * height,
+                                           .group = 0});
+        box->SetTransform(box->GetPosition(), static_cast<float>(between(0, 3)));
+        box->SetLinearVelocity(vec(between(-2, 2), between(-14, -2)));
+        box->SetAngularVelocity(static_cast<float>(between(-8, 8)));
+        boxes.push_back(box);
+      }
+      std::vector<int> standing(boxes.size());
+      for (int step = 0; step < 3 * hz; ++step) {
+        std::vector<b2Vec2> before;
+        for (const b2Body* box : boxes) before.push_back(box->GetPosition());
+        deck.run(1 / hz, 1 / hz);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+          const b2Body& box = *boxes[i];
+          const bool moves =
+              box.GetLinearVelocity().Length() > 0.2f || std::abs(box.GetAngularVelocity()) > 0.5f;
+          const bool moved = (box.GetPosition() - before[i]).Length() > 1e-5f;
+          standing[i] = moves && !moved ? standing[i] + 1 : 0;
+          ASSERT_LT(standing[i], 10) << hz << ", " << scene << ": at " << box.GetPosition().x << ", "
+                                     << box.GetPosition().y;
+        }
+      }
+    }
+  }
+}
+
+// A bar that swings into boxes takes them along as far as there is room: not into the wall behind them.
+TEST(FirstTouch, PutsNothingIntoAWall) {
+  for (const auto& [hz, pieces, count, speed] : {std::tuple{30., 1, 2, 3.6}, std::tuple{30., 3, 3, 7.1},
+                                                 std::tuple{60., 3, 2, 8.5}, std::tuple{60., 1, 3, 7.1}}) {
+    Beam bar({.pieces = pieces,
+              .length = 3.6,
+              .height = 0.15,
+              .youngs_modulus = 210e9,
+              .damping_time = 0.002,
+              .angle = std::numbers::pi,
+              .x = 3.3,
+              .y = 4.2});
+    bar.joints[0]->set_caps(rotation, 0, 0);
+    for (b2Body* piece : bar.pieces) {
+      piece->SetAngularVelocity(static_cast<float>(speed));
+      piece->SetLinearVelocity(b2Cross(static_cast<float>(speed), piece->GetPosition() - b2Vec2(3.3f, 4.2f)));
+    }
+    add_box(bar.world, {.y = -1, .width = 60, .height = 2, .type = b2_staticBody, .group = 0});
+    add_box(bar.world, {.x = 6, .y = 5, .width = 2, .height = 10, .type = b2_staticBody, .group = 0});
+    std::vector<b2Body*> boxes;
+    for (int i = 0; i < count; ++i)
+      boxes.push_back(add_box(bar.world, {.x = 4.4, .y = 0.5 + i, .mass = 20, .group = 0}));
+    for (int step = 0; step < 1.5 * hz; ++step) {
+      bar.run(1 / hz, 1 / hz);
+      for (const b2Body* box : boxes) {
+        b2AABB around;
+        box->GetFixtureList()->GetShape()->ComputeAABB(&around, box->GetTransform(), 0);
+        EXPECT_LT(around.upperBound.x, 5 + 0.05) << hz << ", " << pieces << ", " << step;
+      }
+    }
   }
 }
 
