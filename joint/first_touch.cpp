@@ -125,10 +125,16 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
     bool ReportFixture(b2Fixture* other) override {
       b2Body* const on = other->GetBody();
       if (on == fixture.GetBody() || other->IsSensor() || is_piece(on)) return true;
+      const b2Shape& shape = *fixture.GetShape();
       const auto overlaps = [&](const b2Transform& at) {
-        for (int32 i = 0; i < fixture.GetShape()->GetChildCount(); ++i)
+        for (int32 i = 0; i < shape.GetChildCount(); ++i) {
+          b2AABB around;
+          shape.ComputeAABB(&around, at, i);
           for (int32 k = 0; k < other->GetShape()->GetChildCount(); ++k)
-            if (distance(proxy(fixture, i), at, proxy(*other, k), on->GetTransform()) == 0) return true;
+            if (b2TestOverlap(around, other->GetAABB(k)) &&
+                distance(proxy(fixture, i), at, proxy(*other, k), on->GetTransform()) == 0)
+              return true;
+        }
         return false;
       };
       return room = !overlaps(there) || overlaps(fixture.GetBody()->GetTransform());
