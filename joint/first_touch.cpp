@@ -51,11 +51,6 @@ void each_near(const Component& component, const Visit& visit) {
   }
 }
 
-b2Sweep alone(b2Sweep moving) {
-  moving.alpha0 = 0;
-  return moving;
-}
-
 /// A motion in the last step as it looked from the piece where that is now. What sleeps has not moved.
 b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
   if (!piece.IsAwake()) return moving;
@@ -221,7 +216,9 @@ void Island::meet_guests(b2World& in) {
       // Where both went the same way, the piece is now on the guest's way, and they never met; where they
       // met, they did so in the motion that the piece saw. What overtook the guest takes it along where there
       // is room.
-      const b2Sweep own = alone(s), seen = seen_from(piece, own);
+      b2Sweep own = s;
+      own.alpha0 = 0;
+      const b2Sweep seen = seen_from(piece, own);
       if (guest.IsBullet()) piece.SetAwake(true);
       const float share = way_to(contact, piece, guest, seen);
       if (!(share < 1)) return;
@@ -229,8 +226,8 @@ void Island::meet_guests(b2World& in) {
       seen.GetTransform(&there, share);
       if (has_room(in, guest, there)) {
         meetings.push_back({&guest, share, seen});
-      } else if (const float alone = way_to(contact, piece, guest, own); alone < 1) {
-        meetings.push_back({&guest, alone, own});
+      } else if (const float own_share = way_to(contact, piece, guest, own); own_share < 1) {
+        meetings.push_back({&guest, own_share, own});
       }
     });
   }
