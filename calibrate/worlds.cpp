@@ -297,12 +297,11 @@ namespace {
 
 /// The part of a load that grows over `over` seconds, once it has set in, from t to t + dt: its mean.
 double mean_of_ramp(double t, double dt, double over) {
-  const auto at = [over](double now) { return now <= 0 ? 0 : now < over ? now / over : 1; };
-  if (!(dt > 0)) return over > 0 || t < 0 ? at(t) : 1;
+  if (!(dt > 0)) return t < 0 ? 0 : t < over ? t / over : 1;
   const auto until = [over](double now) {  // the integral
     return now <= 0 ? 0 : now < over ? now * now / (2 * over) : now - over / 2;
   };
-  return t >= over && t >= 0 ? 1 : (until(t + dt) - until(t)) / dt;
+  return t >= over ? 1 : (until(t + dt) - until(t)) / dt;
 }
 
 }  // namespace

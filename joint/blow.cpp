@@ -97,17 +97,13 @@ LeftOut left_out(const System& system, std::span<const Rows> before, double clos
                ? b.v + Vec3{b.inverse_mass * p.x, b.inverse_mass * p.y, b.inverse_inertia * p.w}
                : b.v;
   };
-  const auto brought = [&](int body) {
-    const Body& b = system.bodies[z(body)];
-    return system.is_free(body) ? b.v_free : b.v;
-  };
   LeftOut all;
   for (const Joint& j : own) {
     const JointRecord& r = system.record(j);
     if (r.held < 1) continue;  // it breaks, which is work enough
     const Rows s = more(j), v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v),
                v2 = relative_velocity(j, without(j.a), without(j.b)),
-               v0 = relative_velocity(j, brought(j.a), brought(j.b));
+               v0 = relative_velocity(j, system.free_velocity(j.a), system.free_velocity(j.b));
     double way = 0, gyration = unlimited;
     const auto look_at = [&](int body, double across, double along) {
       if (!system.is_free(body)) return;

@@ -31,6 +31,11 @@ constexpr double most_turn_of_arms = 0.5;  // rad in a step
 // parts in a step, and none among so many contacts; all else has whole steps.
 constexpr std::size_t most_bodies = 160, most_touches = 16;
 
+// N/m or N m/rad: of a rigid row, what a part resolves.
+double resolved_stiffness(const JointRecord& r, unsigned i) {
+  return is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i];
+}
+
 }  // namespace
 
 bool Component::may_divide(const b2SolverData& data) const {
@@ -55,21 +60,15 @@ bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
 // Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving: F = v √(k
 // m_eff). At the start of the next it would be strained by a good part of a step's way.
 bool Component::snaps_hard() const {
-  const auto free_velocity = [this](int i) {
-    const Body& b = solver.bodies[z(i)];
-    return solver.is_free(i) ? b.v_free : b.v;
-  };
-  return std::any_of(members.begin(), members.end(), [&](const Member* m) {
-    const Joint& j = solver.joints[m->index];
-    const JointRecord& r = solver.records[m->index];
-    if (!j.special) return false;
-    const Rows v = relative_velocity(j, free_velocity(j.a), free_velocity(j.b));
+  return std::any_of(solver.slackening.begin(), solver.slackening.end(), [this](int k) {
+    const Joint& j = solver.joints[z(k)];
+    const JointRecord& r = solver.records[z(k)];
+    const Rows v = relative_velocity(j, solver.free_velocity(j.a), solver.free_velocity(j.b));
     for (unsigned i = 0; i < 3; ++i) {
       if (!is_slack(j, r, i) || !(j.relaxation[i] > 0)) continue;
       const double e = strain_of_bias(j, i), cap = v[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i];
-      const double stiffness = is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i];
       if (cap > 0 && v[i] * e <= 0 && v[i] * (e + r.law.h * v[i]) > 0 &&
-          v[i] * v[i] * stiffness * r.m_eff[i] > strained * strained * cap * cap)
+          v[i] * v[i] * resolved_stiffness(r, i) * r.m_eff[i] > strained * strained * cap * cap)
         return true;
     }
     return false;
@@ -102,8 +101,7 @@ bool Component::strikes_hard() {
     for (const int i : {j.a, j.b})
       if (solver.is_free(i)) energy = std::max(energy, parts_.bodies[z(i)].energy);
     Rows force;
-    for (unsigned i = 0; i < 3; ++i)
-      force[i] = std::sqrt(2 * energy * (is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i]));
+    for (unsigned i = 0; i < 3; ++i) force[i] = std::sqrt(2 * energy * resolved_stiffness(r, i));
     if (r.law.surface != nullptr) return r.law.surface->usage(force) > strained;
     for (unsigned i = 0; i < 3; ++i)
       if (force[i] > strained * std::min(r.material.cap[i], r.material.cap_reverse[i])) return true;
@@ -115,7 +113,7 @@ bool Component::strikes_hard() {
 // of the game. The solution of the whole step knows that.
 bool Component::strains_much() const { return solver.strained_by_blow() > strained; }
 
-// Rows without a cap have no usage: NaN, which is more than nothing.
+// The usage of a row without a cap is NaN, which exceeds no number: such a row is not strained.
 bool Component::is_strained() const {
   return std::any_of(members.begin(), members.end(), [](const Member* m) {
     const auto is_strained = [m](Row row) { return m->joint->usage(row) > strained; };

@@ -151,7 +151,6 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     start_from(i);
   }
-  snapped_ = false;
   const bool in_parts = goes_on_in_parts(data, moved);
   if (!in_parts) {
     if (parts_.count > 1) solver.unite(std::exchange(parts_.count, 1));

@@ -7,11 +7,13 @@ namespace ductile::dynamics {
 void list_special(System& system) {
   system.driven.clear();
   system.rated.clear();
+  system.slackening.clear();
   for (std::size_t k = 0; k < system.own(); ++k) {
     const Material& m = system.records[k].material;
     system.joints[k].special = (m.slackens | m.driven) != 0;
     if (m.driven != 0) system.driven.push_back(static_cast<int>(k));
     if (m.rate != nullptr) system.rated.push_back(static_cast<int>(k));
+    if (m.slackens != 0) system.slackening.push_back(static_cast<int>(k));
   }
 }
 

@@ -16,8 +16,8 @@ namespace ductile::dynamics {
 
 inline bool is_driven(const JointRecord& r, unsigned i) { return r.material.is_driven(i); }
 
-/// Lists the driven joints and those of a rate law, and marks those that are or may be slack. Never allocates
-/// after the system's form().
+/// Lists the driven joints, those of a rate law and those that go slack, and marks those that are or may be
+/// slack. Never allocates after the system's form().
 void list_special(System& system);
 
 /// After laws and biases of a step of h seconds are made: sets the drives' rates.

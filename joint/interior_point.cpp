@@ -85,12 +85,9 @@ double InteriorPoint::balance(System& system) {
 void InteriorPoint::moderate_start(const System& system) {
   std::fill(d_.begin(), d_.end(), Vec3{});
   double asked = 0, taken = 0;  // s·(J v* + b) and |M⁻¹ Jᵀ s|²_M + sᵀ G⁻¹ s
-  const auto free_velocity = [&](int i) {
-    return system.is_free(i) ? system.bodies[z(i)].v_free : system.bodies[z(i)].v;
-  };
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Joint& j = system.joints[k];
-    const Rows x = biased_velocity(j, free_velocity(j.a), free_velocity(j.b));
+    const Rows x = biased_velocity(j, system.free_velocity(j.a), system.free_velocity(j.b));
     for (unsigned i = 0; i < 3; ++i) {
       asked += best_[k][i] * x[i];
       if (j.G[i] > 0) taken += best_[k][i] * best_[k][i] / j.G[i];

@@ -48,6 +48,7 @@ void Solver::form(std::size_t free_bodies, std::size_t first) {
   prediction_.form(masses);
   driven.reserve(joints.size());
   rated.reserve(joints.size());
+  slackening.reserve(joints.size());
   predicted_ = false;
   last_ = {};
   if (first == 0) return laws_changed();

@@ -64,7 +64,7 @@ void System::remove(std::size_t joint) {
   records[joint] = records[last];
   joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(last));
   records.erase(records.begin() + static_cast<std::ptrdiff_t>(last));
-  if (!driven.empty() || !rated.empty()) list_special(*this);
+  if (!driven.empty() || !rated.empty() || !slackening.empty()) list_special(*this);
 }
 
 void System::insert_bodies(std::size_t first, std::size_t last) {

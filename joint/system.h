@@ -179,6 +179,7 @@ struct System {
   Vector<TurnInertia> turn_inertias;  // of some of them: one each, or three
   Vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
   Vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
+  Vector<int> slackening;             // joints: of them some row goes slack
   Vector<Link> links;                 // whose rows follow the structure's own joints
   Vector<Contact> contacts;           // whose rows follow those
   Vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H
@@ -196,6 +197,10 @@ struct System {
   std::span<const Joint> own_joints() const { return {joints.data(), own()}; }
   std::size_t first_contact() const { return joints.size() - contacts.size(); }
   bool is_free(int body) const { return z(body) < free; }
+  /// Of a free body without the structure's impulses; of another the prescribed one.
+  const Vec3& free_velocity(int body) const {
+    return is_free(body) ? bodies[z(body)].v_free : bodies[z(body)].v;
+  }
   /// Whether tension between two bodies turns each by itself: turn_inertia.h.
   bool turns_each(const Joint& joint) const;
 

@@ -228,10 +228,6 @@ std::vector<std::string> rigid_bars(const Plan& plan) {
   return names;
 }
 
-}  // namespace
-
-namespace {
-
 /// Of numbers that no solid has in the units of scenes, and many in those of tables: what they are, and the
 /// bodies of which they are.
 std::map<std::string, std::vector<std::string>> other_units(const Plan& plan) {

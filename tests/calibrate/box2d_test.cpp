@@ -205,12 +205,18 @@ TEST(World, ASpinningBodyTurnsAboutItsCentre) {
   EXPECT_EQ(built.bodies[1]->GetAngularVelocity(), 3);
 }
 
-TEST(World, LoadsRideRampAndEnd) {
+// 4 kg, that nothing holds.
+SceneDef falling_box() {
   SceneDef scene;
   scene.bodies = {{.name = "box",
                    .outline = {rectangle(-1, -1, 1, 1), {}},
                    .material = Material{.yield_stress = 1, .density = 1}}};
   scene.gravity = {0, -10};
+  return scene;
+}
+
+TEST(World, LoadsRideRampAndEnd) {
+  SceneDef scene = falling_box();
   scene.gravity_ramp = 4;
   scene.loads = {{.body = "box", .at = {0, 0}, .force = {8, 0}, .from = 1, .ramp = 2, .to = 5}};
   const Plan plan = calibrate(scene);
@@ -229,11 +235,7 @@ TEST(World, LoadsRideRampAndEnd) {
 
 // Whatever the steps, the impulse is that of the load: F (t − r/2) of what grows over r and lasts t in all.
 TEST(World, LoadsGiveTheirImpulseInStepsOfAnyLength) {
-  SceneDef scene;
-  scene.bodies = {{.name = "box",
-                   .outline = {rectangle(-1, -1, 1, 1), {}},
-                   .material = Material{.yield_stress = 1, .density = 1}}};
-  scene.gravity = {0, -10};
+  SceneDef scene = falling_box();
   scene.gravity_ramp = 0.033;
   for (const auto& [from, ramp, to] :
        {std::array{0.0, 0.0, 0.01}, std::array{0.105, 0.0, 0.26}, std::array{0.013, 0.1, 0.2}}) {
