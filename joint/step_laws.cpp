@@ -131,17 +131,30 @@ double StepLaws::most_growth(System& system, double last_h) {
 
 // A rigid row's spring goes with the step, and keeps its force, within most_growth(). Where a spring was
 // edited, or a rigid one's masses, it keeps its force if it became stiffer, its strain if softer: no energy
-// comes of it.
+// comes of it. Nor does any of a row that was implicit and is Newmark's now. It stored the strain at its
+// step's end, where velocities belong to the middle: that of half a step before, which they would ask for,
+// may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
+// than it stores: the strain that it will be half a step on gives less.
 void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_growth) const {
   Rows spring = r.law.spring;
   const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
+  const std::array<bool, 3> was_implicit{is_implicit(r, 0), is_implicit(r, 1), is_implicit(r, 2)};
   const unsigned overdamped = j.overdamped;
   set_law(j, r);
   for (unsigned i = 0; i < 3; ++i) {
     // The same force, but none larger than the step: what was rough in a short one would be a blow.
     j.impulse[i] *= std::min(1.0, longer);
+    const double ahead = h_ / 2 * j.rate[i];
     j.rate[i] /= longer;
+    if (was_implicit[i] && j.is_newmark(i)) {
+      j.rate[i] = j.moved[i] = j.mean[i] = 0;
+      if (ahead * strain[i] < 0) {
+        const double left = std::max(0.0, 1 + ahead / strain[i]);
+        j.neutral[i] += strain[i] * (1 - left);
+        strain[i] *= left;
+      }
+    }
     // w and w' (row.h) say nothing of each other
     if (((overdamped ^ j.overdamped) >> i & 1u) != 0) j.rate[i] = j.moved[i] = j.mean[i] = 0;
     j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);

@@ -382,6 +382,40 @@ TEST(Ledger, FlungApartInStepsOfChangingLength) {
   }
 }
 
+// Springs that were implicit, as each step was of another length, become Newmark's where a mass changes and
+// the component is formed anew.
+TEST(Ledger, ImplicitSpringsBecomeNewmarks) {
+  for (const double stiffness : {0.5, 2.0, 8.0}) {  // of m/h², the longer step's
+    for (int stopping = 1; stopping < 12; ++stopping) {
+      b2World world({0, 0});
+      Structure structure(world, {.keep_ledger = true});
+      b2Body* wall = add_box(world, {.x = -0.5, .type = b2_staticBody, .group = -1});
+      b2Body* block = add_box(world, {.x = 0.5, .mass = 1, .group = -1});
+      ElasticPlasticJointDef def;
+      def.Initialize(wall, block, vec(0, 0), {1, 0});
+      def.rows[axial].stiffness = stiffness * 900;
+      structure.create_joint(def);
+      block->SetLinearVelocity({1, 0});
+      const std::vector<b2Body*> moving{block};
+      const auto energy = [&] { return kinetic_energy(moving) + structure.energy().elastic; };
+      const auto step = [&](float dt) {
+        world.Step(dt, 8, 3);
+        structure.update();
+      };
+      for (int i = 0; i < stopping; ++i) step(i % 2 == 0 ? 1 / 120.0f : 1 / 30.0f);
+      const double before = energy();
+      b2MassData mass;
+      block->GetMassData(&mass);
+      mass.mass *= 1 + 1e-6f;
+      block->SetMassData(&mass);
+      for (int i = 0; i < 5; ++i) {
+        step(1 / 30.0f);
+        EXPECT_LE(energy(), before * (1 + 1e-4)) << stiffness << ", " << stopping << " steps, " << i;
+      }
+    }
+  }
+}
+
 TEST(Ledger, StepsOfChangingLength) {
   Beam beam({.pieces = 5});
   Balance balance(beam);
