@@ -217,6 +217,7 @@ struct Component {
   void solve_direct();
   void move();
   // component_parts.cpp
+  std::size_t cost_of_parts() const;  // in bodies
   bool may_divide(const b2SolverData& data) const;
   bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
   bool is_strained() const;

@@ -26,10 +26,10 @@ constexpr double blow_time = 0.05;         // s that waves are followed for
 constexpr double strained = 0.25;          // of a capacity
 constexpr double most_turn_of_arms = 0.5;  // rad in a step
 
-// A step of 32 parts takes some 8 ms of a frame of 160 joints; of one of 2085 joints it would take 150, and
-// of one that comes down, whose debris strikes in every step, 670. So many bodies of a structure at most have
-// parts in a step, and none among so many contacts; all else has whole steps.
-constexpr std::size_t most_bodies = 160, most_touches = 16;
+// A step of 32 parts takes some 8 ms of a frame of 160 joints that something strikes, 45 ms of one of 158
+// bodies that jams among 13 that it touches: what touches costs as much as so many bodies. Of all that a
+// structure's step solves in parts no more comes together than this; all else has whole steps.
+constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
 // N/m or N m/rad: of a rigid row, what a part resolves.
 double resolved_stiffness(const JointRecord& r, unsigned i) {
@@ -38,19 +38,22 @@ double resolved_stiffness(const JointRecord& r, unsigned i) {
 
 }  // namespace
 
+std::size_t Component::cost_of_parts() const {
+  return solver.bodies.size() + bodies_per_touch * outside_.touches.size();
+}
+
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
   const auto rests = [](const Mirror& m) { return dot(m.exact, m.exact) == 0; };
   const auto has_room = [this](const Structure::Impl* s) {
-    return s->reports.bodies_in_parts + solver.bodies.size() <= most_bodies;
+    return s->reports.in_parts + cost_of_parts() <= most_in_parts;
   };
   return whole() &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      rests) &&
          !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
          std::all_of(structures.begin(), structures.end(), has_room) &&
-         outside_.touches.size() <= most_touches && h * solver.fastest() < b2_maxTranslation &&
-         h * solver.fastest_turn() < b2_maxRotation;
+         h * solver.fastest() < b2_maxTranslation && h * solver.fastest_turn() < b2_maxRotation;
 }
 
 bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
@@ -162,7 +165,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   parts_.advanced = true;
   report([this](Reports& r) {
     ++r.step.divided;
-    r.bodies_in_parts += solver.bodies.size();
+    r.in_parts += cost_of_parts();
   });
 }
 

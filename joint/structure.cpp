@@ -140,7 +140,7 @@ void dynamics::add(JointEnergy& sum, const Energies& booked) {
 void dynamics::Reports::open_step() {
   if (std::exchange(stepped, true)) return;
   step = {};
-  bodies_in_parts = 0;
+  in_parts = 0;
 }
 
 void dynamics::Reports::close_step() {
