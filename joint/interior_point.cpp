@@ -303,7 +303,9 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
     // Friction that follows is factored without pivoting between bodies. A step along a good direction
     // shortens what is lacking; where it does not, or is short, caps stay, if they are of any use.
+    const bool stands = now.products > 0.8 * earlier[0];
     if (follows && (now.gap() <= tunables.friction_goal * scale || short_steps == 2 ||
+                    (stands && now.gap() <= tunables.tolerance * scale) ||
                     now.lack > 4 * last_lack + tunables.tolerance * scale)) {
       if (scale > 10 * first_scale) return false;
       follows = false;
@@ -317,14 +319,14 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     ++outcome.factorisations;
     // Predictor (μ = 0), then a corrector with the centring that its success calls for and with its
     // second-order terms (Mehrotra 1992), by the square of the step that it could go. Where two rounds have
-    // gained nothing, these are left out for five, and centring is no less than half: else one structure in
-    // 3000 goes round in circles. Nor does a step go all the way to a bound then: friction would jump from
-    // one of its caps to the other.
-    if (now.products > 0.8 * earlier[0]) careful = 5;
+    // gained nothing, these are left out for five, or until a step goes nearly all the way, and centring is
+    // no less than half: else one structure in 3000 goes round in circles. Nor does a step go all the way to
+    // a bound then: what is too near one would come 200 times nearer in each round, and friction would jump
+    // from one of its caps to the other.
+    if (stands) careful = 5;
     const bool stalls = careful-- > 0;
     earlier = {earlier[1], now.products};
-    const double reach =
-        stalls && !alone ? 0.8 : 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
+    const double reach = stalls ? 0.8 : 1 - std::clamp(std::sqrt(now.products / scale), 1e-6, 0.005);
     const Direction predictor = find_direction(system, hessian, 0, 0, follows);
     const double affine = predictor.step_within(reach);
     const double left = now.products > 0 ? predictor.products(now.products, affine) / now.products : 0;
@@ -337,6 +339,7 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
                        stalls ? 0 : affine * affine, follows);
     const double step = corrector.step_within(reach);
     short_steps = step < 0.1 ? short_steps + 1 : 0;
+    if (step > 0.9) careful = 0;
     move(step);
     scale = balance(system);
   }

@@ -115,9 +115,10 @@ Certificate certify(const Problem& problem) {
   for (std::size_t k = 0; k < p.joints.size(); ++k) {
     const Joint& j = p.joints[k];
     const RowLaw& law = p.records[k].law;
+    const Rows m_eff = effective_masses(p, j);  // with its arms as they are: torn open, they are long
     for (unsigned i = 0; i < 3; ++i) {
       // That s is rounded moves its row by ε s/m_eff, which the row answers by G.
-      const double m = p.records[k].m_eff[i], step = m > 0 ? 10 * 2.2e-16 * j.impulse[i] / m : 0;
+      const double m = m_eff[i], step = m > 0 ? 10 * 2.2e-16 * j.impulse[i] / m : 0;
       result.rounding += law.G[i] * step * step / 2;
     }
     const Row3 jv = times(j, v[z(j.a)], v[z(j.b)]);
@@ -329,14 +330,14 @@ Problem random_structure(unsigned seed, Laws laws) {
 }
 
 // DUCTILE_SOLVES=100000 tests/dynamics_tests --gtest_filter='InteriorPoint.Solves*' takes more of them, of
-// which 3 are above the relative gap of 1e-12 that is asked for; they are within 1e-8.
+// which 3 are above the relative gap of 1e-12 that is asked for; they are within 2e-11.
 TEST(InteriorPoint, SolvesRandomStructures) {
   const char* asked = std::getenv("DUCTILE_SOLVES");
   const int count = asked != nullptr ? std::atoi(asked) : 1500;
   int failed = 0, most = 0;
   long sum = 0;
   double worst = 0;
-  for (int seed = 0; seed < count; ++seed) {
+  const auto solve = [&](int seed) {
     Problem problem = random_structure(static_cast<unsigned>(seed), static_cast<Laws>(seed % 3));
     const InteriorPoint::Outcome outcome = problem.solve();
     const Certificate c = certify(problem);
@@ -348,7 +349,10 @@ TEST(InteriorPoint, SolvesRandomStructures) {
     EXPECT_TRUE(good) << "seed " << seed << ": gap " << c.gap << " of " << c.scale << ", by its own account "
                       << outcome.gap << ", outside by " << c.outside << ", " << outcome.factorisations
                       << " rounds";
-  }
+  };
+  for (int seed = 0; seed < count; ++seed) solve(seed);
+  // What went in circles, or came ever nearer to a bound.
+  for (const int seed : {13093, 21088, 42537, 51495, 57174, 74596}) solve(seed);
   std::printf("%d solved, %d failed, largest relative gap %.1e; %.1f factorisations, %d at most\n", count,
               failed, worst, static_cast<double>(sum) / count, most);
 }
