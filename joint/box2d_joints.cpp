@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "box2d_private.h"
 #include "reveal.h"
 
 namespace ductile::dynamics {
 
-DUCTILE_REVEAL(b2Joint, m_islandFlag, bool);
 #define DUCTILE_REVEAL_MASSES(Class)        \
   DUCTILE_REVEAL(Class, m_invMassA, float); \
   DUCTILE_REVEAL(Class, m_invMassB, float); \

@@ -16,6 +16,7 @@ DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
 // at the cost of a sine, a cosine and a matrix inverse per joint; so it is a load per body.
 DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
 DUCTILE_REVEAL(b2Contact, m_toiCount, int32);
+DUCTILE_REVEAL(b2Joint, m_islandFlag, bool);
 DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);
 DUCTILE_REVEAL(b2BroadPhase, m_tree, b2DynamicTree);
 DUCTILE_REVEAL(b2BroadPhase, m_moveBuffer, int32*);

@@ -11,6 +11,23 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+// A sensor, or what PreSolve has disabled, is not in Box2D's island.
+bool pushes(const b2Contact& c) {
+  return c.IsTouching() && c.IsEnabled() && !c.GetFixtureA()->IsSensor() && !c.GetFixtureB()->IsSensor();
+}
+
+// Nor are joints whose other body is disabled.
+int joints_in_island(const b2Body& body) {
+  int count = 0;
+  for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next)
+    count += of(*e->joint, b2Joint_m_islandFlag{}) ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
 void Component::clear_outside() {
   outside_.touches.clear();
   outside_.ties.clear();
@@ -42,9 +59,9 @@ bool Component::is_whole() const {
   std::size_t sides = 0;  // of contacts, less those of the touches
   for (const Mirror& m : mirrors) {
     if (!m.present || m.type != b2_dynamicBody) continue;
-    if (m.body->GetJointList() != m.joints) return false;
+    if (m.body->GetJointList() != m.joints && joints_in_island(*m.body) != m.joined) return false;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
-      sides += e->contact->IsTouching() ? 1 : 0;
+      sides += pushes(*e->contact) ? 1 : 0;
   }
   for (const Touch& t : outside_.touches) {
     for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;

@@ -197,10 +197,15 @@ double ElasticPlasticJoint::dissipated() const {
   return std::max(0.0, d[0] + d[1] + d[2]);  // rows on a yield surface may cancel but for rounding
 }
 
+// What rings in a row that no step resolves is no strain that its force stands for.
 double ElasticPlasticJoint::elastic_energy() const {
+  const RowLaw& law = record().law;
   double sum = 0;
-  for (const Row row : {axial, shear, rotation})
-    sum += record().law.spring[row] * elastic(row) * elastic(row) / 2;
+  for (const Row row : {axial, shear, rotation}) {
+    if (!(law.spring[row] > 0)) continue;
+    const double e = within(elastic(row), row_state().impulse[row] / (law.h * law.spring[row]));
+    sum += law.spring[row] * e * e / 2;
+  }
   return sum;
 }
 

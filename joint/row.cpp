@@ -34,8 +34,9 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
       if (i < 2 && how.delta < 1 && h * h * k > m_eff[i]) delta = std::min(delta, 1.0);
       if (special(i)) delta = std::max(delta, special_delta);
       delta = std::min(delta, limit / (h * h * k));
-      if (i < 2 && how.delta < 1 &&
-          h * h * k > (how.delta > 0 && !special(i) ? unresolved_ratio : stiff_ratio) * m_eff[i]) {
+      const bool unresolved = h * h * k > unresolved_ratio * m_eff[i] && !special(i);
+      if (how.delta < 1 && ((unresolved && (how.flow_begins || (i < 2 && how.delta > 0))) ||
+                            (i < 2 && h * h * k > stiff_ratio * m_eff[i]))) {
         delta = 1;
       } else {
         shared = std::max(shared, delta);

@@ -26,6 +26,8 @@ double rounding_of_gaps(const System& system, double last_bits) {
   return 2 * 6.5 * sum;
 }
 
+bool begins_to_flow(const Joint& j) { return (flowing(j.regime) & ~unsigned{j.flowed}) != 0; }
+
 }  // namespace
 
 Solver::Solver(bool swept_in_passes) {
@@ -135,6 +137,11 @@ bool Solver::solve(SolveReport& report) {
     solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
     solution.moved = true;
   }
+  if (!struck_ && solution.at.flows &&
+      std::any_of(own_joints().begin(), own_joints().end(), begins_to_flow) && laws_.begin_flow(*this)) {
+    hessian_.forget();
+    solve_again(solution, report);
+  }
   settle_friction(solution, report);
   for (int round = 0; round < most_rate_rounds && raise_caps(*this); ++round) {
     hessian_.forget();
@@ -192,6 +199,7 @@ void Solver::advance() {
     turned_[i] = after_turning(v, h);
   }
   if (predicted_) prediction_.fit();
+  bool begins = false;  // some row to flow
   for (Joint& j : own_joints()) {
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
@@ -199,7 +207,10 @@ void Solver::advance() {
     carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
+    begins |= begins_to_flow(j);
+    j.flowed = static_cast<std::uint8_t>(flowing(j.regime));
   }
+  if (begins) laws_.expect_flow();
   remember_turn_rates(*this, turned_);
   biases_known = true;
   if (std::exchange(struck_, false)) close_blow(*this);

@@ -18,6 +18,7 @@ constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
 constexpr double rotation_share = 0.25;  // of that δ which rotation rows among contacts have
 constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
+constexpr double wave_step = 1e-3;  // s: shorter ones resolve waves that rows yield to one after the other
 
 // What loads store in rigid rows, of what their impulses in a step are as kinetic energy: 4e-7 of a
 // cantilever of 10 pieces, as the fourth power of them in longer ones.
@@ -54,7 +55,8 @@ void forget_infinite(Joint& j) {
 }  // namespace
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law = make_law(r.material, r.m_eff, h_, {delta_.value, delta_of_rotation_.value, elastic_ratio});
+  r.law = make_law(r.material, r.m_eff, h_,
+                   {delta_.value, delta_of_rotation_.value, elastic_ratio, flow_begins_});
   take_law(j, r.law);
 }
 
@@ -215,6 +217,25 @@ void StepLaws::rescale(System& system, double by) {
   known_ = false;
 }
 
+bool StepLaws::begin_flow(System& system) {
+  if (least_delta == 1 || h_ <= wave_step || std::exchange(flow_begins_, true)) return false;
+  bool changed = false;
+  for (Joint& j : system.own_joints()) {
+    JointRecord& r = system.record(j);
+    Rows e;
+    for (unsigned i = 0; i < 3; ++i) e[i] = j.G[i] > 0 ? strain_of_bias(j, i) : 0;
+    const Rows G = j.G;
+    set_law(j, r);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (j.G[i] == G[i]) continue;
+      changed = true;
+      j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+      j.bias[i] = j.relaxation[i] * (e[i] + j.trend[i]) - j.carry[i] * j.rate[i];
+    }
+  }
+  return changed;
+}
+
 void StepLaws::divide(System& system, double parts) { rescale(system, 1 / parts); }
 
 // Rates w of what the longer step does not resolve say nothing of the strain half a step ago. With w = 0 the
@@ -225,7 +246,9 @@ void StepLaws::unite(System& system, double parts) {
 }
 
 bool StepLaws::begin(System& system, double h) {
-  const bool other_delta = choose_delta(system, h), changed = h != h_ || other_delta || !known_;
+  const bool flow_begins = std::exchange(expects_flow_, false) && h > wave_step && least_delta < 1;
+  const bool other_laws = std::exchange(flow_begins_, flow_begins) != flow_begins || !known_;
+  const bool changed = choose_delta(system, h) || h != h_ || other_laws;
   known_ = true;
   const double last_h = std::exchange(h_, h);
   const bool drifts = h < drift_time;

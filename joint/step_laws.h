@@ -25,6 +25,11 @@ class StepLaws {
   /// Laws and biases of a step of h seconds; whether laws are others than those of the last step.
   bool begin(System& system, double h);
   double step() const { return h_; }
+  /// Some row began to flow in the step as it was solved: whether laws are others for that, and it is to be
+  /// solved anew. In steps that resolve waves they are not.
+  bool begin_flow(System& system);
+  /// Rows began to flow in the last step: so they may in the next, which has the same laws.
+  void expect_flow() { expects_flow_ = true; }
   /// Says that the last step was one of h/parts seconds at the same velocities: the next begin() goes on from
   /// it as from one that was as long, with the same δ.
   void divide(System& system, double parts);
@@ -41,7 +46,9 @@ class StepLaws {
   }
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
-  void keep(Tape& tape) { tape(h_, known_, delta_, delta_of_rotation_, drift_time); }
+  void keep(Tape& tape) {
+    tape(h_, known_, flow_begins_, expects_flow_, delta_, delta_of_rotation_, drift_time);
+  }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
 
@@ -58,6 +65,7 @@ class StepLaws {
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
   bool known_ = false;  // the laws are those of h_, caps and stiffness
+  bool flow_begins_ = false, expects_flow_ = false;
   struct Delta {
     double value = 1;     // of the laws
     double unneeded = 0;  // s that it was more than three times what was needed

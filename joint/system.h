@@ -56,6 +56,7 @@ struct Joint {
   std::uint8_t factored_flow = 0;            // rows that were flowing in the current factorisation
   bool special = false;                      // some row is driven or goes slack (drive.h)
   std::uint8_t newmark = 0, overdamped = 0;  // rows with δ < 1 and with δ > 1, one bit each
+  std::uint8_t flowed = 0;                   // rows that flowed in the last step, one bit each
   bool damped = false;                       // some row has 0 < δ < 1
   int block = -1;                            // of H, when both bodies are free
 
@@ -73,7 +74,9 @@ struct Joint {
   bool is_overdamped(unsigned row) const { return (overdamped >> row & 1u) != 0; }
   /// Knows nothing of what its rows did.
   void forget_rates() { rate = trend = moved = mean = {}; }
-  void keep(Tape& tape) { tape(bias, impulse, regime, factored_flow, rate, trend, moved, mean, neutral); }
+  void keep(Tape& tape) {
+    tape(bias, impulse, regime, factored_flow, flowed, rate, trend, moved, mean, neutral);
+  }
 };
 
 /// Plastic offsets, m, m, rad.

@@ -250,24 +250,34 @@ TEST(Contacts, WithAnElasticBeamThrowBack) {
   EXPECT_NEAR(rebound(60), fine, 0.2 * fine);
 }
 
+// A ball of 200/0.15 kg, at 8 m/s, and a cantilever of 0.15 m.
+struct StruckBeam {
+  Beam beam;
+  b2Body* ball;
+  explicit StruckBeam(int pieces)
+      : beam({.pieces = pieces,
+              .length = 4,
+              .height = 0.15,
+              .youngs_modulus = 210e9,
+              .damping_time = 0.005,
+              .moment_cap = 235e6 * 0.15 * 0.15 / 4,
+              .gravity = 0}),
+        ball(add(beam.world, {.x = 3, .bottom = 0.05 + 0.15 / 2, .size = 1})) {
+    ball->DestroyFixture(ball->GetFixtureList());
+    b2CircleShape circle;
+    circle.m_radius = 0.5f;
+    ball->CreateFixture(&circle, static_cast<float>(200 / 0.15 / (b2_pi * 0.25)));
+    ball->SetLinearVelocity(vec(0, -8));
+  }
+};
+
 // What a blow strains is the beam's, v √(ρA EI), however short its pieces: of a step in one, short ones
 // showed nothing.
 TEST(SolvedInParts, BendsWhatHasManyShortPieces) {
   for (const int pieces : {10, 20, 40}) {
     const auto plastic_work = [&](double hz) {
-      Beam beam({.pieces = pieces,
-                 .length = 4,
-                 .height = 0.15,
-                 .youngs_modulus = 210e9,
-                 .damping_time = 0.005,
-                 .moment_cap = 235e6 * 0.15 * 0.15 / 4,
-                 .gravity = 0});
-      b2Body* ball = add(beam.world, {.x = 3, .bottom = 0.05 + 0.15 / 2, .size = 1});
-      ball->DestroyFixture(ball->GetFixtureList());
-      b2CircleShape circle;
-      circle.m_radius = 0.5f;
-      ball->CreateFixture(&circle, static_cast<float>(200 / 0.15 / (b2_pi * 0.25)));
-      ball->SetLinearVelocity(vec(0, -8));
+      StruckBeam struck(pieces);
+      Beam& beam = struck.beam;
       beam.run(1, 1 / hz);
       return beam.structure.energy().dissipated;
     };
@@ -276,6 +286,71 @@ TEST(SolvedInParts, BendsWhatHasManyShortPieces) {
     for (const double hz : {30., 60., 120., 240.})
       EXPECT_NEAR(plastic_work(hz), fine, 0.15 * fine) << pieces << ", " << hz;
   }
+}
+
+// What rings in rows that no step resolves, where a blow is not solved in parts, is not stored.
+TEST(Contacts, StoreNoMoreThanForcesStandFor) {
+  StruckBeam struck(10);
+  struck.beam.world.SetSubStepping(true);
+  double most = 0;
+  for (int i = 0; i < 60; ++i) {
+    struck.beam.run(1 / 60.0, 1 / 60.0);
+    for (const ElasticPlasticJoint* j : struck.beam.joints) {
+      double by_force = 0;
+      for (const Row row : {axial, shear, rotation})
+        by_force += j->force(row) * j->force(row) / (2 * j->def().rows[row].stiffness);
+      EXPECT_LE(j->elastic_energy(), by_force * (1 + 1e-9)) << i;
+      most = std::max(most, by_force);
+    }
+  }
+  EXPECT_GT(most, 100);
+}
+
+// What touches as a sensor, or was disabled, pushes nothing; nor does a joint of a disabled body.
+TEST(SolvedInParts, AmongWhatPushesNothing) {
+  enum class Beside { nothing, sensor, disabled_contact, disabled_body };
+  struct Disable : b2ContactListener {
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+      if (contact->GetFixtureA()->GetDensity() == 1 || contact->GetFixtureB()->GetDensity() == 1)
+        contact->SetEnabled(false);
+    }
+  };
+  const auto plastic_work = [](Beside beside) {
+    Disable disable;
+    StruckBeam struck(10);
+    Beam& beam = struck.beam;
+    beam.world.SetContactListener(&disable);
+    if (beside != Beside::nothing) {
+      b2BodyDef def;
+      def.position = beam.pieces[1]->GetPosition();
+      b2Body* other = beam.world.CreateBody(&def);
+      b2PolygonShape box;
+      box.SetAsBox(0.1f, 0.1f);
+      b2FixtureDef fixture;
+      fixture.shape = &box;
+      fixture.density = 1;
+      fixture.isSensor = beside == Beside::sensor;
+      other->CreateFixture(&fixture);
+      if (beside == Beside::disabled_body) {
+        ElasticPlasticJointDef pin;
+        pin.Initialize(beam.pieces[1], other, other->GetPosition(), {1, 0});
+        beam.structure.create_joint(pin);
+        other->SetEnabled(false);
+      }
+    }
+    int divided = 0;
+    for (int i = 0; i < 30; ++i) {
+      beam.world.Step(1 / 60.0f, 8, 3);
+      divided += beam.structure.report().divided;
+      beam.structure.update();
+    }
+    EXPECT_GT(divided, 0);
+    return beam.structure.energy().dissipated;
+  };
+  const double alone = plastic_work(Beside::nothing);
+  ASSERT_GT(alone, 0.1 * 200 / 0.15 * 8 * 8 / 2);
+  for (const Beside beside : {Beside::sensor, Beside::disabled_contact, Beside::disabled_body})
+    EXPECT_EQ(plastic_work(beside), alone) << static_cast<int>(beside);
 }
 
 // A bullet that Box2D let meet a piece alone is where they met, as fast as it was, and so is the piece.

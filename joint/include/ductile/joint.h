@@ -129,7 +129,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
 
   // Energy.
   double dissipated() const;      ///< J: plastic work so far
-  double elastic_energy() const;  ///< J: ½ k e² of its rows now
+  double elastic_energy() const;  ///< J: ½ k e² of its rows now, no more than ½ R²/k
 
   /// Whether the stiffness asked for is more than the step can integrate, so that the row is softer than that
   /// (docs/theory/rows.md: κ).
