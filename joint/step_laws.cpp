@@ -174,7 +174,7 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
 }
 
 // δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
-// turn far in a step, in which rows take another direction, but those of rotation; by powers of two, and for
+// turn far in a step, in which rows take another direction, but those of rotation: by powers of two, and for
 // half a second at least, so that factors last. Corrections of overlap lift what comes down on an edge, and
 // what vibrates beneath it would throw it again and again: where there are contacts δ of rotation rows grows
 // with the turn as well, to a quarter, as all of it would take half of what an elastic beam throws back.
@@ -188,20 +188,16 @@ bool StepLaws::choose_delta(const System& system, double h) {
   }
   const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
   const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
-  const double of_others = of_step + (guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0);
-  const double of_rotation =
-      system.contacts.empty() ? of_step : of_step + rotation_share * (of_others - of_step);
+  const double of_turn = guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0;
   const auto choose = [&](Delta& delta, double needed) {
-    needed = std::min(needed, 1.0);
-    if (h == h_ && needed <= delta.value && delta.value > least_delta) {
-      delta.unneeded = needed > delta.value / 3 ? 0 : delta.unneeded + h;
-      if (delta.unneeded < delta_time) return false;
-    }
-    delta.unneeded = 0;
-    return std::exchange(delta.value, needed) != needed;
+    const bool is_kept = h == h_ && needed <= delta.of_turn && delta.of_turn > 0;
+    delta.unneeded = is_kept && needed <= delta.of_turn / 3 ? delta.unneeded + h : 0;
+    if (!is_kept || delta.unneeded >= delta_time) delta.of_turn = needed, delta.unneeded = 0;
+    const double value = std::min(of_step + delta.of_turn, 1.0);
+    return std::exchange(delta.value, value) != value;
   };
-  const bool changed = choose(delta_, of_others);
-  return choose(delta_of_rotation_, of_rotation) || changed;
+  const bool changed = choose(delta_, of_turn);
+  return choose(delta_of_rotation_, system.contacts.empty() ? 0 : rotation_share * of_turn) || changed;
 }
 
 // follow_law() keeps what a row moved by in the last step. Here its velocity is kept.

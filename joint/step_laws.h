@@ -68,8 +68,9 @@ class StepLaws {
   bool flow_begins_ = false, expects_flow_ = false;
   struct Delta {
     double value = 1;     // of the laws
-    double unneeded = 0;  // s that it was more than three times what was needed
-    void keep(Tape& tape) { tape(value, unneeded); }
+    double of_turn = 0;   // its part for how far bodies turn
+    double unneeded = 0;  // s that this was more than three times what was needed
+    void keep(Tape& tape) { tape(value, of_turn, unneeded); }
   };
   Delta delta_, delta_of_rotation_;  // of axial and shear rows, and of rotation rows
 };

@@ -503,6 +503,7 @@ class Game : b2DestructionListener {
     const bool seen = velocity > 0 && count_awake() == awake;  // Box2D stops what falls asleep
     // Pieces that are thrown about by hand may come to where no pose keeps all gaps.
     const StepReport& report = structure_->report();
+    const bool whole = report.divided == 0;
     require(report.bounds_hit == report.parted || curved_ || impossible() || was_far || far(),
             "solves end in time");
     for (const b2Body* b : bodies_) {
@@ -554,8 +555,9 @@ class Game : b2DestructionListener {
     // While the speed limit keeps a gap from closing, what it takes comes back with the gap. After a step of
     // another length velocities are as old as half of both, and strains are not: what is too little of a
     // vibration then comes back, too, as less than nothing that the method takes. A step of no length brings
-    // them no closer.
-    const bool of_one_time = dt > 0 && std::exchange(last_dt_, dt) == dt && e.numerical >= start.numerical;
+    // them no closer. So it is after one in parts, of which velocities are the mean, and strains the end.
+    const bool of_one_time =
+        dt > 0 && std::exchange(last_dt_, dt) == dt && whole && e.numerical >= start.numerical;
     if (report.slowed == 0 && (of_one_time || !held)) held ? budget_.lower(dt, now) : budget_.raise(now);
   }
 

@@ -280,6 +280,22 @@ struct Oscillator {
   double stiffness;
 };
 
+// A dropped frame, a step twice as long: δ = ln 2 in it, and in the next, which is half as long, take no more
+// than exp(−δφ²/2) of a swing, φ = ωh (row.h). Kept for half a second, it took three quarters.
+TEST(Motion, OneStepOfAnotherLengthDampsNoOtherStep) {
+  Oscillator mass(0.2);
+  mass.body->SetLinearVelocity({1, 0});
+  const auto swing_in = [&mass](int steps) {
+    double most = 0;
+    for (int i = 0; i < steps; ++i) most = std::max(most, std::abs(mass.step(1 / 60.0)));
+    return most;
+  };
+  const double before = swing_in(60);
+  mass.step(1 / 30.0);
+  const double h = 2 * pi / 0.2 / 60, left = std::exp(-std::log(2) * (4 * h * h + h * h) / 2);
+  EXPECT_GT(swing_in(60), left * before);
+}
+
 TEST(Motion, ASuddenForceReachesTheDuctilityOfTheClosedForm) {
   for (const double share : {0.5, 0.6, 0.75, 0.9}) {
     constexpr double cap = 1000;
