@@ -22,11 +22,11 @@ struct Distance {
 /// than at rest, is a rigid row that stiff.
 inline double least_compliance(double m) { return m > 0 ? 1e-12 / m : 0; }
 
-/// The last bits of s move its row by ε s/m_eff, which the row answers by G: what s² is to be multiplied with
-/// for that to be a gap.
+/// The last bits of s, eight of them as rows of a body move each other, move its row by ε s/m_eff, which the
+/// row answers by G: what s² is to be multiplied with for that to be a gap.
 inline double last_bits(double G, double m_eff) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return 16 * (G > m_eff ? G : m_eff) * (epsilon / m_eff) * (epsilon / m_eff);
+  return 32 * (G > m_eff ? G : m_eff) * (epsilon / m_eff) * (epsilon / m_eff);
 }
 
 /// A direction, bound by bound.
