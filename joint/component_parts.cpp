@@ -26,9 +26,9 @@ constexpr double blow_time = 0.05;         // s that waves are followed for
 constexpr double strained = 0.25;          // of a capacity
 constexpr double most_turn_of_arms = 0.5;  // rad in a step
 
-// A step of 32 parts takes some 8 ms of a frame of 160 joints that something strikes, 45 ms of one of 158
-// bodies that jams among 13 that it touches: what touches costs as much as so many bodies. Of all that a
-// structure's step solves in parts no more comes together than this; all else has whole steps.
+// A step of 32 parts takes some 8 ms where something strikes a frame of 160 joints, and 45 ms where 158
+// bodies jam among 13 that they touch. So a pair that touches costs as much as eight bodies do, and the sum
+// over all that a structure solves in parts in one step is bounded; the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
 // N/m or N m/rad: of a rigid row, what a part resolves.

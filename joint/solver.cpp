@@ -26,8 +26,6 @@ double rounding_of_gaps(const System& system, double last_bits) {
   return 2 * 6.5 * sum;
 }
 
-bool begins_to_flow(const Joint& j) { return (flowing(j.regime) & ~unsigned{j.flowed}) != 0; }
-
 }  // namespace
 
 Solver::Solver(bool swept_in_passes) {
@@ -133,12 +131,9 @@ bool Solver::solve(SolveReport& report) {
   Solution solution = newton_.solve(*this, hessian_, last_, predicted ? &prediction_ : nullptr, report);
   for (int again = 0; again < 3 && solution.moved && raise_to_tension(*this, step()); ++again) {
     hessian_.forget();
-    newton_.forget();
-    solution = newton_.solve(*this, hessian_, solution.at, nullptr, report);
-    solution.moved = true;
+    solve_again(solution, report);
   }
-  if (!struck_ && solution.at.flows &&
-      std::any_of(own_joints().begin(), own_joints().end(), begins_to_flow) && laws_.begin_flow(*this)) {
+  if (!struck_ && solution.at.flows && laws_.begin_flow(*this)) {
     hessian_.forget();
     solve_again(solution, report);
   }
@@ -207,7 +202,7 @@ void Solver::advance() {
     carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
-    begins |= begins_to_flow(j);
+    begins |= j.begins_to_flow();
     j.flowed = static_cast<std::uint8_t>(flowing(j.regime));
   }
   if (begins) laws_.expect_flow();

@@ -147,15 +147,15 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
   for (unsigned i = 0; i < 3; ++i) {
     // The same force, but none larger than the step: what was rough in a short one would be a blow.
     j.impulse[i] *= std::min(1.0, longer);
+    const auto strain_by = [&](double by) {
+      j.neutral[i] += strain[i] * (1 - by);
+      strain[i] *= by;
+    };
     const double ahead = h_ / 2 * j.rate[i];
     j.rate[i] /= longer;
     if (was_implicit[i] && j.is_newmark(i)) {
       j.rate[i] = j.moved[i] = j.mean[i] = 0;
-      if (ahead * strain[i] < 0) {
-        const double left = std::max(0.0, 1 + ahead / strain[i]);
-        j.neutral[i] += strain[i] * (1 - left);
-        strain[i] *= left;
-      }
+      if (ahead * strain[i] < 0) strain_by(std::max(0.0, 1 + ahead / strain[i]));
     }
     // w and w' (row.h) say nothing of each other
     if (((overdamped ^ j.overdamped) >> i & 1u) != 0) j.rate[i] = j.moved[i] = j.mean[i] = 0;
@@ -163,12 +163,11 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
     // What holds nothing any more, as both its bodies are held, forgets its force.
     if (!(r.law.spring[i] > 0)) j.neutral[i] = r.gap[i], strain[i] = 0;
     if (!(spring[i] > 0 && r.law.spring[i] > 0) || is_slack(j, r, i)) continue;
-    const auto strain_by = [&](double by) {
-      j.neutral[i] += strain[i] * (1 - by);
-      strain[i] *= by;
+    if (was_rigid[i] && is_rigid(r, i)) {
+      const double by = longer * std::min(longer, most_growth);
+      strain_by(by);
       spring[i] /= by;
-    };
-    if (was_rigid[i] && is_rigid(r, i)) strain_by(longer * std::min(longer, most_growth));
+    }
     if (r.law.spring[i] > spring[i]) strain_by(spring[i] / r.law.spring[i]);
   }
 }
@@ -214,9 +213,12 @@ void StepLaws::rescale(System& system, double by) {
 }
 
 bool StepLaws::begin_flow(System& system) {
-  if (least_delta == 1 || h_ <= wave_step || std::exchange(flow_begins_, true)) return false;
+  if (least_delta == 1 || h_ <= wave_step || flow_begins_) return false;
+  const std::span<Joint> own = system.own_joints();
+  if (std::none_of(own.begin(), own.end(), [](const Joint& j) { return j.begins_to_flow(); })) return false;
+  flow_begins_ = true;
   bool changed = false;
-  for (Joint& j : system.own_joints()) {
+  for (Joint& j : own) {
     JointRecord& r = system.record(j);
     Rows e;
     for (unsigned i = 0; i < 3; ++i) e[i] = j.G[i] > 0 ? strain_of_bias(j, i) : 0;
@@ -226,7 +228,7 @@ bool StepLaws::begin_flow(System& system) {
       if (j.G[i] == G[i]) continue;
       changed = true;
       j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
-      j.bias[i] = j.relaxation[i] * (e[i] + j.trend[i]) - j.carry[i] * j.rate[i];
+      j.bias[i] = bias_of_strain(j, i, e[i]);
     }
   }
   return changed;
@@ -277,10 +279,7 @@ bool StepLaws::begin(System& system, double h) {
         drift[i] = (std::isfinite(r.material.stiffness[i]) ? of_elastic : of_rigid) * beyond_force(j, r, i);
     }
     if (changed) follow_law(j, r, strain, growth);
-    for (unsigned i = 0; i < 3; ++i) {
-      const double e = r.gap[i] - j.neutral[i] - drift[i];
-      j.bias[i] = j.relaxation[i] * (e + j.trend[i]) - j.carry[i] * j.rate[i];
-    }
+    for (unsigned i = 0; i < 3; ++i) j.bias[i] = bias_of_strain(j, i, r.gap[i] - j.neutral[i] - drift[i]);
   }
   return changed;
 }

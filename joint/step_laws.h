@@ -25,8 +25,8 @@ class StepLaws {
   /// Laws and biases of a step of h seconds; whether laws are others than those of the last step.
   bool begin(System& system, double h);
   double step() const { return h_; }
-  /// Some row began to flow in the step as it was solved: whether laws are others for that, and it is to be
-  /// solved anew. In steps that resolve waves they are not.
+  /// Where some row begins to flow in the step as it was solved: whether laws are others for that, so that it
+  /// is to be solved anew. In steps that resolve waves they are not.
   bool begin_flow(System& system);
   /// Rows began to flow in the last step: so they may in the next, which has the same laws.
   void expect_flow() { expects_flow_ = true; }
@@ -41,8 +41,7 @@ class StepLaws {
 
   /// Biases of the next step if it is as long.
   static void set_equal_bias(Joint& j, const Rows& gap) {
-    for (unsigned i = 0; i < 3; ++i)
-      j.bias[i] = j.relaxation[i] * (gap[i] - j.neutral[i] + j.trend[i]) - j.carry[i] * j.rate[i];
+    for (unsigned i = 0; i < 3; ++i) j.bias[i] = bias_of_strain(j, i, gap[i] - j.neutral[i]);
   }
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
@@ -64,8 +63,9 @@ class StepLaws {
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
-  bool known_ = false;  // the laws are those of h_, caps and stiffness
-  bool flow_begins_ = false, expects_flow_ = false;
+  bool known_ = false;         // the laws are those of h_, caps and stiffness
+  bool flow_begins_ = false;   // the laws are of a step in which some row begins to flow
+  bool expects_flow_ = false;  // those of the next step are to be
   struct Delta {
     double value = 1;     // of the laws
     double of_turn = 0;   // its part for how far bodies turn

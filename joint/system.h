@@ -72,6 +72,8 @@ struct Joint {
   bool has_free_row() const { return G[0] == 0 || G[1] == 0 || G[2] == 0; }
   bool is_newmark(unsigned row) const { return (newmark >> row & 1u) != 0; }
   bool is_overdamped(unsigned row) const { return (overdamped >> row & 1u) != 0; }
+  /// Whether a row flows that did not in the last step.
+  bool begins_to_flow() const { return (flowing(regime) & ~unsigned{flowed}) != 0; }
   /// Knows nothing of what its rows did.
   void forget_rates() { rate = trend = moved = mean = {}; }
   void keep(Tape& tape) {
@@ -247,6 +249,11 @@ inline double within(double strain, double limit) {
 /// The elastic strain e that a row's bias was made of, m or rad.
 inline double strain_of_bias(const Joint& j, unsigned i) {
   return (j.bias[i] + j.carry[i] * j.rate[i]) / j.relaxation[i] - j.trend[i];
+}
+
+/// The reverse: the bias of a row that is strained by e.
+inline double bias_of_strain(const Joint& j, unsigned i, double e) {
+  return j.relaxation[i] * (e + j.trend[i]) - j.carry[i] * j.rate[i];
 }
 
 /// The elastic strain at the end of the last step, m or rad: that of the biases; in implicit rows R/k, beside

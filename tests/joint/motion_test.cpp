@@ -280,9 +280,9 @@ struct Oscillator {
   double stiffness;
 };
 
-// A dropped frame, a step twice as long: δ = ln 2 in it, and in the next, which is half as long, take no more
-// than exp(−δφ²/2) of a swing, φ = ωh (row.h). Kept for half a second, it took three quarters.
-TEST(Motion, OneStepOfAnotherLengthDampsNoOtherStep) {
+// A dropped frame is a step twice as long. δ = ln 2 in it, and in the next, which is half as long, leaves at
+// least exp(−δφ²/2) of a swing each, φ = ωh (row.h). Kept for half a second, δ took three quarters.
+TEST(Motion, OneStepOfAnotherLengthDampsThatAndTheNext) {
   Oscillator mass(0.2);
   mass.body->SetLinearVelocity({1, 0});
   const auto swing_in = [&mass](int steps) {
