@@ -166,6 +166,8 @@ struct Component {
   int index_of(const b2Body* body) const;
   /// Whether a guest is a piece of another component: one that was of this one, and broke off.
   bool is_of_another(int body) const;
+  /// Between steps one of its pieces was moved with all that hangs on it (first_touch.cpp).
+  void shift(const b2Body& piece, const b2Vec2& way);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
   template <class Count>
@@ -222,12 +224,13 @@ struct Component {
   bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
   bool is_strained() const;
   bool throws() const;
-  bool arms_held() const;
+  bool normals_held() const;
   bool snaps_hard() const;
   bool strikes_hard();
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
   void begin_parts();
+  void carry_arms(double h);
   void solve_part(double h, bool first, bool blow);
   void end_parts(const b2SolverData& data);
   double work(const Touch& touch, const PointConstraint& at, double normal, double tangent) const;
@@ -259,6 +262,12 @@ struct Component {
   Rest rest_ = Rest::none;
 };
 
+inline Component* Member::component_of(const b2Body& body) {
+  for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
+    if (const ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(e->joint)) return joint->component_;
+  }
+  return nullptr;
+}
 inline Joint& Member::data() { return component != nullptr ? component->solver.joints[index] : own.joint; }
 inline JointRecord& Member::record() {
   return component != nullptr ? component->solver.records[index] : own.record;

@@ -21,10 +21,10 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr double part = 1 / 1920.0;        // s
-constexpr double blow_time = 0.05;         // s that waves are followed for
-constexpr double strained = 0.25;          // of a capacity
-constexpr double most_turn_of_arms = 0.5;  // rad in a step
+constexpr double part = 1 / 1920.0;           // s
+constexpr double blow_time = 0.05;            // s that waves are followed for
+constexpr double strained = 0.25;             // of a capacity
+constexpr double most_turn_of_normals = 0.5;  // rad in a step
 
 // A step of 32 parts takes some 8 ms where something strikes a frame of 160 joints, and 45 ms where 158
 // bodies jam among 13 that they touch. So a pair that touches costs as much as eight bodies do, and the sum
@@ -137,10 +137,10 @@ bool Component::throws() const {
   return false;
 }
 
-// Contacts kept their arms in this step. What turned far on them would spin on in the next.
-bool Component::arms_held() const {
+// Contacts kept their normals in this step. What turned far on them would spin on in the next.
+bool Component::normals_held() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    if (std::abs(solver.places[i].pose.angle - parts_.bodies[i].start.angle) > most_turn_of_arms)
+    if (std::abs(solver.places[i].pose.angle - parts_.bodies[i].start.angle) > most_turn_of_normals)
       return false;
   }
   return true;
@@ -188,8 +188,26 @@ void Component::begin_parts() {
   }
 }
 
-// Contacts keep their arms and directions in the world, and close no further than their gap since the step's
-// start.
+// A contact's two impulses act at one point, or friction would take angular momentum as bodies slide. It goes
+// with the corner or the circle that touches the other's face, and turns with corners.
+void Component::carry_arms(double h) {
+  each_point([&](std::size_t, const Touch& t, PointConstraint& p) {
+    const auto turn = [&](b2Vec2& arm, const b2Fixture& of, int body) {
+      if (of.GetType() == b2Shape::e_circle) return;
+      arm = b2Mul(b2Rot(static_cast<float>(h * mirrors[z(body)].exact.w)), arm);
+    };
+    const b2Manifold::Type type = t.contact->GetManifold()->type;
+    if (type == b2Manifold::e_faceA) turn(p.rb, *t.contact->GetFixtureB(), t.in_b);
+    if (type == b2Manifold::e_faceB) turn(p.ra, *t.contact->GetFixtureA(), t.in_a);
+    const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
+    const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
+    const float share = type == b2Manifold::e_faceA ? 1.0f : type == b2Manifold::e_faceB ? 0.0f : 0.5f;
+    p.ra += share * apart;
+    p.rb -= (1 - share) * apart;
+  });
+}
+
+// Contacts keep their directions in the world, and close no further than their gap since the step's start.
 void Component::solve_part(double h, bool first, bool blow) {
   const auto enter = [this](std::size_t i) {
     const Vec3& v = mirrors[i].exact;
@@ -206,6 +224,7 @@ void Component::solve_part(double h, bool first, bool blow) {
   }
   solver.begin(h);
   if (!first) {
+    carry_arms(h);
     read_touches();
     for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
       Contact& c = outside_.contacts[k];
@@ -252,7 +271,7 @@ void Component::end_parts(const b2SolverData& data) {
   }
   return_contacts();
   const double rate = 1 / double{data.step.dt};
-  parts_.goes_on = parts_.since_blow < blow_time && arms_held() && (snapped_ || is_strained() || throws());
+  parts_.goes_on = parts_.since_blow < blow_time && normals_held() && (snapped_ || is_strained() || throws());
   double lost = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];

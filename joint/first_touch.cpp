@@ -1,6 +1,9 @@
 // First touch: bodies that are fast reach far into a piece, or through it, before there is a contact,
 // and the manifold of so deep a touch has a normal of its own. So after each step a guest that met a piece on
-// its way is put back to where it did, and the next step finds a contact as it should be.
+// its way is put back to where it did, and the next step finds a contact as it should be. What has not gone
+// straight on, as it touched something else or hangs on other bodies, goes out of the piece along the normal
+// with which they met. Where both are free to move, their centre of mass stays: a way that only one has would
+// change angular momentum by its cross product with that one's momentum.
 //
 // Box2D does so for bullets, but then lets the two meet alone, the piece without its structure. So a bullet
 // that is near a piece is none while the world steps. One that came near in the step, as it was made or set
@@ -12,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
+#include <vector>
 
 #include "box2d_private.h"
 #include "frames.h"
@@ -30,14 +35,14 @@ float central_inertia(const b2Body& body) {
   return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
 }
 
-bool is_piece(const b2Body* body) {
+bool is_joined(const b2Body* body) {
   for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) {
     if (ElasticPlasticJoint::cast(e->joint) != nullptr) return true;
   }
   return false;
 }
 
-/// Calls visit(contact, mirror of the piece, guest) for what may touch the bodies of a component.
+/// Calls visit(contact, mirror of the piece, other body) for what may touch the bodies of a component.
 template <class Visit>
 void each_near(const Component& component, const Visit& visit) {
   for (std::size_t i = 0; i < component.solver.free_bodies(); ++i) {
@@ -46,7 +51,7 @@ void each_near(const Component& component, const Visit& visit) {
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& c = *e->contact;
       if (c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor()) continue;
-      if (is_free(e->other) && !is_piece(e->other)) visit(c, m, *e->other);
+      if (is_free(e->other)) visit(c, m, *e->other);
     }
   }
 }
@@ -61,9 +66,20 @@ b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
   return moving;
 }
 
-/// m, without skins.
-float distance(const b2DistanceProxy& a, const b2Transform& at_a, const b2DistanceProxy& b,
-               const b2Transform& at_b) {
+/// Whether a motion is more than rounding.
+bool moves(const b2Sweep& s) {
+  return (s.c - s.c0).LengthSquared() >= b2_linearSlop * b2_linearSlop ||
+         std::abs(s.a - s.a0) >= b2_angularSlop;
+}
+
+/// Two convex shapes, skins aside.
+struct Nearest {
+  float distance;  // m
+  b2Vec2 normal;   // from a to b; 0 where they overlap
+};
+
+Nearest nearest(const b2DistanceProxy& a, const b2Transform& at_a, const b2DistanceProxy& b,
+                const b2Transform& at_b) {
   b2DistanceInput input;
   input.proxyA = a;
   input.proxyB = b;
@@ -74,42 +90,52 @@ float distance(const b2DistanceProxy& a, const b2Transform& at_a, const b2Distan
   cache.count = 0;
   b2DistanceOutput found;
   b2Distance(&found, &cache, &input);
-  return found.distance;
-}
-
-/// The share of this motion until the guest touched the piece; 1 where it did not. Time of impact is found 3
-/// slops deep; positions are corrected to 1, which would raise the guest.
-float way_to(const b2Contact& contact, b2Body& piece, b2Body& guest, const b2Sweep& moving) {
-  const bool a_is_guest = contact.GetFixtureA()->GetBody() == &guest;
-  b2TOIInput input;
-  input.proxyA.Set(contact.GetFixtureA()->GetShape(), contact.GetChildIndexA());
-  input.proxyB.Set(contact.GetFixtureB()->GetShape(), contact.GetChildIndexB());
-  b2Sweep still = of(piece, b2Body_m_sweep{});
-  still.c0 = still.c;
-  still.a0 = still.a;
-  still.alpha0 = 0;
-  input.sweepA = a_is_guest ? moving : still;
-  input.sweepB = a_is_guest ? still : moving;
-  input.tMax = 1;
-  b2TOIOutput output;
-  b2TimeOfImpact(&output, &input);
-  if (output.state != b2TOIOutput::e_touching) return 1;
-  const float one_deep = input.proxyA.m_radius + input.proxyB.m_radius - b2_linearSlop;
-  float apart = 0, touching = output.t;
-  for (int halving = 0; halving < 16; ++halving) {
-    const float middle = (apart + touching) / 2;
-    b2Transform a, b;
-    input.sweepA.GetTransform(&a, middle);
-    input.sweepB.GetTransform(&b, middle);
-    (distance(input.proxyA, a, input.proxyB, b) > one_deep ? apart : touching) = middle;
-  }
-  return touching;
+  b2Vec2 normal = found.pointB - found.pointA;
+  if (normal.Normalize() == 0) normal.SetZero();
+  return {found.distance, normal};
 }
 
 b2DistanceProxy proxy(const b2Fixture& fixture, int32 child) {
   b2DistanceProxy made;
   made.Set(fixture.GetShape(), child);
   return made;
+}
+
+/// Where a body first touched a piece.
+struct Way {
+  float share = 1;      // of its motion until then; 1 where it did not
+  b2Vec2 normal{0, 0};  // from the piece
+};
+
+/// Time of impact is found 3 slops deep; positions are corrected to 1, which would raise the body.
+Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2Sweep& moving) {
+  const bool body_is_a = contact.GetFixtureA()->GetBody() == &body;
+  b2TOIInput input;
+  input.proxyA = proxy(*contact.GetFixtureA(), contact.GetChildIndexA());
+  input.proxyB = proxy(*contact.GetFixtureB(), contact.GetChildIndexB());
+  b2Sweep still = of(piece, b2Body_m_sweep{});
+  still.c0 = still.c;
+  still.a0 = still.a;
+  still.alpha0 = 0;
+  input.sweepA = body_is_a ? moving : still;
+  input.sweepB = body_is_a ? still : moving;
+  input.tMax = 1;
+  b2TOIOutput output;
+  b2TimeOfImpact(&output, &input);
+  if (output.state != b2TOIOutput::e_touching) return {};
+  const float one_deep = input.proxyA.m_radius + input.proxyB.m_radius - b2_linearSlop;
+  float apart = 0, touching = output.t;
+  b2Vec2 normal(0, 0);
+  for (int halving = 0; halving < 16; ++halving) {
+    const float middle = (apart + touching) / 2;
+    b2Transform a, b;
+    input.sweepA.GetTransform(&a, middle);
+    input.sweepB.GetTransform(&b, middle);
+    const Nearest found = nearest(input.proxyA, a, input.proxyB, b);
+    (found.distance > one_deep ? apart : touching) = middle;
+    if (found.distance > 0) normal = found.normal;
+  }
+  return {touching, body_is_a ? -normal : normal};
 }
 
 /// Whether a body would overlap nothing there by more than its skin, but pieces and what it so overlaps where
@@ -119,7 +145,7 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
     Overlap(const b2Fixture& of, const b2Transform& at) : fixture(of), there(at) {}
     bool ReportFixture(b2Fixture* other) override {
       b2Body* const on = other->GetBody();
-      if (on == fixture.GetBody() || other->IsSensor() || is_piece(on)) return true;
+      if (on == fixture.GetBody() || other->IsSensor() || is_joined(on)) return true;
       const b2Shape& shape = *fixture.GetShape();
       const auto overlaps = [&](const b2Transform& at) {
         for (int32 i = 0; i < shape.GetChildCount(); ++i) {
@@ -127,7 +153,7 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
           shape.ComputeAABB(&around, at, i);
           for (int32 k = 0; k < other->GetShape()->GetChildCount(); ++k)
             if (b2TestOverlap(around, other->GetAABB(k)) &&
-                distance(proxy(fixture, i), at, proxy(*other, k), on->GetTransform()) == 0)
+                nearest(proxy(fixture, i), at, proxy(*other, k), on->GetTransform()).distance == 0)
               return true;
         }
         return false;
@@ -151,17 +177,24 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
   return true;
 }
 
-// What it is raised by it pays for.
+/// By how much what is at this velocity is to be slowed where it is moved: what it is raised by it pays for.
+b2Vec2 price(const b2Vec2& v, const b2Vec2& way, const b2Vec2& gravity) {
+  const float gain = -b2Dot(gravity, way), speed2 = v.LengthSquared();
+  return speed2 > 0 && speed2 > 2 * gain ? (std::sqrt(1 - 2 * gain / speed2) - 1) * v : b2Vec2(0, 0);
+}
+
+void pay(b2Body& body, const b2Vec2& way, const b2Vec2& gravity) {
+  const b2Vec2 v = body.GetLinearVelocity();
+  body.SetLinearVelocity(v + price(v, way, body.GetGravityScale() * gravity));
+}
+
 void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& gravity) {
   b2Transform at;
   moving.GetTransform(&at, share);
   const b2Vec2 from = guest.GetWorldCenter();
   guest.SetTransform(at.p,
                      (1 - share) * moving.a0 + share * moving.a);  // b2Rot::GetAngle() forgets whole turns
-  const b2Vec2 v = guest.GetLinearVelocity();
-  const float gain = -guest.GetGravityScale() * b2Dot(gravity, guest.GetWorldCenter() - from);
-  const float speed2 = v.LengthSquared();
-  if (speed2 > 0 && speed2 > 2 * gain) guest.SetLinearVelocity(std::sqrt(1 - 2 * gain / speed2) * v);
+  pay(guest, guest.GetWorldCenter() - from, gravity);
 }
 
 /// Whether Box2D let the piece meet a bullet alone in the last step.
@@ -187,47 +220,163 @@ void put_back(const Mirror& piece) {
   piece.body->SetAngularVelocity(piece.given.w);
 }
 
+/// The bodies that hang together by joints.
+struct Group {
+  std::vector<b2Body*> bodies;
+  std::unordered_set<const b2Body*> known;  // these
+  bool is_held = false;                     // by something that does not move freely
+
+  explicit Group(b2Body& body) : bodies{&body}, known{&body} {
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      for (const b2JointEdge* e = bodies[k]->GetJointList(); e != nullptr; e = e->next) {
+        is_held |= !is_free(e->other);
+        if (is_free(e->other) && known.insert(e->other).second) bodies.push_back(e->other);
+      }
+    }
+  }
+  bool has(const b2Body* body) const { return known.count(body) > 0; }
+  float mass() const {
+    float sum = 0;
+    for (const b2Body* b : bodies) sum += b->GetMass();
+    return sum;
+  }
+  /// Whether it touches anything but the other group.
+  bool touches_more_than(const Group& other) const {
+    for (const b2Body* b : bodies) {
+      for (const b2ContactEdge* e = b->GetContactList(); e != nullptr; e = e->next)
+        if (e->contact->IsTouching() && !has(e->other) && !other.has(e->other)) return true;
+    }
+    return false;
+  }
+  bool has_room(const b2World& world, const b2Vec2& way) const {
+    return std::all_of(bodies.begin(), bodies.end(), [&](b2Body* b) {
+      b2Transform there = b->GetTransform();
+      there.p += way;
+      return dynamics::has_room(world, *b, there);
+    });
+  }
+  /// It goes elsewhere as it is, its strains with it.
+  void move(const b2Vec2& way, const b2Vec2& gravity) const;
+};
+
+/// The share that one group has of the way by which it and another go apart. What is held, or would be moved
+/// into something, does not move; where nothing else is in the way, their centre of mass stays.
+float share_of_way(const Group& one, const Group& other) {
+  if (other.is_held) return 1;
+  if (one.is_held) return 0;
+  const bool one_lies = one.touches_more_than(other), other_lies = other.touches_more_than(one);
+  if (one_lies != other_lies) return one_lies ? 0.0f : 1.0f;
+  const float mine = one.mass(), others = other.mass();
+  if (one_lies) return mine <= others ? 1.0f : 0.0f;
+  return others / (mine + others);
+}
+
+bool is_touching(const b2Body& body) {
+  for (const b2ContactEdge* e = body.GetContactList(); e != nullptr; e = e->next)
+    if (e->contact->IsTouching()) return true;
+  return false;
+}
+
+void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
+  float whole = 0, weight = 0;
+  b2Vec2 momentum(0, 0);
+  for (const b2Body* b : bodies) {
+    whole += b->GetMass();
+    weight += b->GetMass() * b->GetGravityScale();
+    momentum += b->GetMass() * b->GetLinearVelocity();
+  }
+  const b2Vec2 slower = price(1 / whole * momentum, way, weight / whole * gravity);
+  for (b2Body* b : bodies) {
+    b->SetTransform(b->GetPosition() + way, of(*b, b2Body_m_sweep{}).a);
+    b->SetLinearVelocity(b->GetLinearVelocity() + slower);
+    if (Component* c = Member::component_of(*b)) c->shift(*b, way);
+  }
+}
+
+// Two groups that overlap where a body met a piece go apart along the normal there.
+void move_apart(const b2World& world, b2Body& body, b2Body& piece, const b2Contact& contact,
+                const b2Sweep& motion, const b2Vec2& normal) {
+  const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
+                     contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
+  const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
+  b2Sweep along = of(body, b2Body_m_sweep{});
+  along.c0 = along.c + from * normal;
+  along.a0 = along.a;
+  along.alpha0 = 0;
+  const b2Vec2 way = (1 - way_to(contact, piece, body, along).share) * from * normal;
+  if (way.LengthSquared() == 0) return;
+  const Group one(body);
+  if (one.has(&piece)) return;
+  const Group other(piece);
+  if (one.is_held && other.is_held) return;
+  float share = share_of_way(one, other);
+  const auto has_room = [&] {
+    return (share == 0 || one.has_room(world, share * way)) &&
+           (share == 1 || other.has_room(world, (share - 1) * way));
+  };
+  if (!has_room()) {
+    share = share > 0.5f ? 0.0f : 1.0f;
+    if ((share == 1 ? one : other).is_held || !has_room()) return;
+  }
+  if (share > 0) one.move(share * way, world.GetGravity());
+  if (share < 1) other.move((share - 1) * way, world.GetGravity());
+}
+
 }  // namespace
+
+// In doubles, as Box2D's floats would strain stiff rows.
+void Component::shift(const b2Body& body, const b2Vec2& way) {
+  const std::size_t i = z(index_of(&body));
+  mirrors[i].left = pose_of(*mirrors[i].body);
+  solver.places[i].pose.x += way.x;
+  solver.places[i].pose.y += way.y;
+  rest_ = Rest::none;
+}
 
 void Island::meet_guests(b2World& in) {
   struct Meeting {
-    b2Body* guest;
-    float share;
+    b2Body *body, *piece;
+    const b2Contact* contact;
     b2Sweep motion;
+    Way way;
+    bool straight;  // back along the motion; or out along the normal
   };
   std::vector<Meeting> meetings;
   std::vector<const Mirror*> met;  // pieces that a bullet met alone
   for (const auto& c : components) {
-    each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& guest) {
+    each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& body) {
       b2Body& piece = *mirror.body;
-      if (met_alone(contact, mirror)) {
-        meetings.push_back({&guest, 0, of(guest, b2Body_m_sweep{})});
+      const bool guest = !is_joined(&body);
+      const b2Sweep& s = of(body, b2Body_m_sweep{});
+      if (guest && met_alone(contact, mirror)) {
+        meetings.push_back({&body, &piece, &contact, s, {.share = 0}, true});
         if (std::find(met.begin(), met.end(), &mirror) != met.end())
           return;  // at another point, or by another
-        undo_impact(mirror, guest);
+        undo_impact(mirror, body);
         met.push_back(&mirror);
         return;
       }
-      if (contact.IsTouching() || !guest.IsAwake()) return;
-      const b2Sweep& s = of(guest, b2Body_m_sweep{});
-      if ((s.c - s.c0).LengthSquared() < b2_linearSlop * b2_linearSlop &&
-          std::abs(s.a - s.a0) < b2_angularSlop)
-        return;
-      // Where both went the same way, the piece is now on the guest's way, and they never met; where they
-      // met, they did so in the motion that the piece saw. What overtook the guest takes it along where there
+      if (contact.IsTouching() || !body.IsAwake() || (guest && !moves(s))) return;
+      if (!guest && piece.IsAwake() && contact.GetFixtureA()->GetBody() == &piece)
+        return;  // of two pieces, once
+      // Where both went the same way, the piece is now on the body's way, and they never met; where they
+      // met, they did so in the motion that the piece saw. What overtook a guest takes it along where there
       // is room.
       b2Sweep own = s;
       own.alpha0 = 0;
       const b2Sweep seen = seen_from(piece, own);
-      if (guest.IsBullet()) piece.SetAwake(true);
-      const float share = way_to(contact, piece, guest, seen);
-      if (!(share < 1)) return;
+      if (!moves(seen)) return;
+      if (body.IsBullet()) piece.SetAwake(true);
+      const Way way = way_to(contact, piece, body, seen);
+      if (!(way.share < 1)) return;
+      // What hangs together turns as it swings, and what touches something has not gone straight on.
+      const bool straight = guest && !is_touching(body);
       b2Transform there;
-      seen.GetTransform(&there, share);
-      if (has_room(in, guest, there)) {
-        meetings.push_back({&guest, share, seen});
-      } else if (const float own_share = way_to(contact, piece, guest, own); own_share < 1) {
-        meetings.push_back({&guest, own_share, own});
+      seen.GetTransform(&there, way.share);
+      if (!straight || has_room(in, body, there)) {
+        meetings.push_back({&body, &piece, &contact, seen, way, straight});
+      } else if (const Way own_way = way_to(contact, piece, body, own); own_way.share < 1) {
+        meetings.push_back({&body, &piece, &contact, own, own_way, true});
       }
     });
   }
@@ -235,10 +384,14 @@ void Island::meet_guests(b2World& in) {
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {
-      return o.guest == m.guest && (o.share < m.share || (o.share == m.share && &o < &m));
+      return o.straight && o.body == m.body &&
+             (o.way.share < m.way.share || (o.way.share == m.way.share && &o < &m));
     };
-    if (std::none_of(meetings.begin(), meetings.end(), earlier))
-      put_back(*m.guest, m.motion, m.share, in.GetGravity());
+    if (!m.straight) {
+      move_apart(in, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
+    } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
+      put_back(*m.body, m.motion, m.way.share, in.GetGravity());
+    }
   }
 }
 
@@ -246,7 +399,7 @@ void Island::hold_bullets() {
   if (!direct() || world().GetSubStepping()) return;
   for (const Component* c : active_) {
     each_near(*c, [this](const b2Contact&, const Mirror&, b2Body& guest) {
-      if (!guest.IsBullet()) return;
+      if (!guest.IsBullet() || is_joined(&guest)) return;
       guest.SetBullet(false);
       bullets_.push_back(&guest);
     });

@@ -78,6 +78,8 @@ struct Member {
 
   void set_state(const JointState& state);
   void belong_to(Component* to) { joint->component_ = component = to; }
+  /// Of a piece; nullptr where it is in no island, or is none.
+  static Component* component_of(const b2Body& body);
   Joint& data();
   JointRecord& record();
   const Joint& data() const { return const_cast<Member*>(this)->data(); }
