@@ -23,6 +23,7 @@ void Ledger::form(const System& system) {
   moved_.assign(system.joints.size(), {});
   turns_.assign(system.bodies.size(), {});
   turn_inertias_.reserve(system.turn_inertias.capacity());
+  returned_.reserve(system.returned.capacity());
 }
 
 void Ledger::open(System& system, std::span<const Vec3> before, double h) {
@@ -47,6 +48,9 @@ void Ledger::open(System& system, std::span<const Vec3> before, double h) {
     energies.driven +=
         t.impulse * t.rate_of(prescribed_velocity(system, t.a), prescribed_velocity(system, t.b));
   }
+  returned_ = system.returned;
+  for (std::size_t i = 0; i < returned_.size(); ++i)
+    energies.numerical -= dot(returned_[i], system.bodies[i].v + before[i]) / 2;
 }
 
 void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Rows& slip, const Rows& work) {
@@ -103,6 +107,8 @@ void Ledger::close(std::span<const Vec3> change) {
   }
   for (const TurnInertia& t : turn_inertias_)
     energies.numerical += t.impulse * t.rate_of(own(t.a), own(t.b)) / 2;
+  for (std::size_t i = 0; i < returned_.size(); ++i)
+    energies.numerical -= dot(returned_[i], own(static_cast<int>(i))) / 2;
 }
 
 }  // namespace ductile::dynamics

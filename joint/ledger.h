@@ -44,6 +44,7 @@ class Ledger {
   Vector<Rows> taken_;    // s·J v̄, J
   Vector<Rows> moved_;    // h J v, m or rad
   Vector<TurnInertia> turn_inertias_;
+  Vector<Vec3> returned_;  // as System::returned
 };
 
 }  // namespace ductile::dynamics

@@ -144,6 +144,7 @@ bool Solver::solve(SolveReport& report) {
     settle_friction(solution, report);
   }
   read_links(*this);
+  if (return_moments(*this)) newton_.forget();
   last_ = solution.at;
   return solution.moved;
 }

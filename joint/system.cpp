@@ -16,6 +16,9 @@ void System::form(std::size_t free_bodies, std::size_t first) {
   for (std::size_t k = first; k < joints.size(); ++k) inertias += turns_each(joints[k]) ? 3 : 1;
   turn_inertias.reserve(inertias);
   clumps.assign(free_bodies, {});
+  wholes.reserve(free_bodies);
+  returned.clear();
+  returned.reserve(free_bodies);
   for (JointRecord& r : records) r.turn_inertia = -1;
   mass = 0;
   for (std::size_t i = 0; i < free; ++i) {

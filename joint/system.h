@@ -112,6 +112,17 @@ struct Clump {
   double mass = 0;  // kg
 };
 
+/// Free bodies that hang together: each is part of another, up to the one that has the sums of all (whole.h).
+struct Whole {
+  int part_of = 0;
+  bool held = false;    // by what is not free, or does not turn
+  double mass = 0;      // kg
+  double x = 0, y = 0;  // of the centre of mass, m
+  double inertia = 0;   // about it, kg m²; 0 of what is held
+  double spin = 0;      // rad/s; 0 of what is held
+  double moment = 0;    // N m s: that return_moments() gives it
+};
+
 template <>
 inline constexpr bool all_doubles<PlasticFlow> = true;
 
@@ -183,6 +194,8 @@ struct System {
   Vector<JointRecord> records;        // of the joints
   Vector<TurnInertia> turn_inertias;  // of some of them: one each, or three
   Vector<Clump> clumps;               // of the free bodies, for turn_inertia.cpp
+  Vector<Whole> wholes;               // of the free bodies, after find_wholes()
+  Vector<Vec3> returned;              // of the free bodies or of none, N s and N m s: return_moments()
   Vector<int> driven, rated;          // joints: of them some row is driven, or has a rate law
   Vector<int> slackening;             // joints: of them some row goes slack
   Vector<Link> links;                 // whose rows follow the structure's own joints

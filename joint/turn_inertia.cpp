@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "objective.h"
+#include "whole.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -12,11 +15,6 @@ namespace {
 constexpr double safety = 2;         // s
 constexpr double each_safety = 1.1;  // s of what turns each by itself
 constexpr double kept_time = 0.5;    // s that inertia is kept beyond its need
-
-int root_of(Vector<Clump>& clumps, int i) {
-  while (clumps[z(i)].part_of != i) i = clumps[z(i)].part_of = clumps[z(clumps[z(i)].part_of)].part_of;
-  return i;
-}
 
 void find_clumps(System& system) {
   for (std::size_t i = 0; i < system.free; ++i)
@@ -121,9 +119,38 @@ class Needs {
   bool known_ = false;
 };
 
-void raise(TurnInertia& t, double to) {
+// The rate where all turns as one by 1 rad/s, which is the moment of an impulse of 1, too.
+double rate_of_turn(const System& system, const TurnInertia& t) {
+  return t.rate_of(turning_about(system.places[z(t.a)], 0, 0), turning_about(system.places[z(t.b)], 0, 0));
+}
+
+// Finds wholes where they are asked for.
+class Spins {
+ public:
+  explicit Spins(System& system) : system_(system) {}
+  // The part of a rate that is its whole's turning as one.
+  double operator()(const TurnInertia& t) {
+    if (!system_.is_free(t.a) || !system_.is_free(t.b)) return 0;
+    const double by = rate_of_turn(system_, t);
+    if (by == 0) return 0;
+    if (!std::exchange(known_, true)) find_wholes(system_);
+    return by * whole_of(system_, t.a).spin;
+  }
+
+ private:
+  System& system_;
+  bool known_ = false;
+};
+
+// Scales what is not the whole's of a rate: else a spin would have to turn it up, too.
+void scale_rate(TurnInertia& t, double by, Spins& spins) {
+  const double even = spins(t);
+  t.rate = even + by * (t.rate - even);
+}
+
+void raise(TurnInertia& t, double to, Spins& spins) {
   to = std::max(to, 1.3 * t.inertia);
-  t.rate *= t.inertia / to;
+  scale_rate(t, t.inertia / to, spins);
   t.inertia = to;
   t.highest = t.unneeded = 0;
 }
@@ -164,10 +191,11 @@ double inverse_mass(const System& system, const TurnInertia& t) {
 }
 
 bool follow_tension(System& system, double h, double last_h) {
+  Spins spins(system);
   // What is faster than steps is excited where they vary, as a swing by whoever stands on it: there it loses
   // of its rate what the steps differ by.
   if (last_h > 0 && h != last_h)
-    for (TurnInertia& t : system.turn_inertias) t.rate *= std::min(h / last_h, last_h / h);
+    for (TurnInertia& t : system.turn_inertias) scale_rate(t, std::min(h / last_h, last_h / h), spins);
   bool changed = false;
   Needs needs(system, last_h > 0 ? h * std::max(1.0, h / last_h) : h);
   for (const Joint& j : system.own_joints()) {
@@ -177,7 +205,7 @@ bool follow_tension(System& system, double h, double last_h) {
     TurnInertia* t = of(system, j);
     for (std::size_t i = 0; i < need.count; ++i) {
       if (need.inertia[i] > t[i].inertia) {
-        raise(t[i], need.inertia[i]);
+        raise(t[i], need.inertia[i], spins);
         changed = true;
       } else {
         changed |= lower(t[i], need.inertia[i], h);
@@ -190,6 +218,7 @@ bool follow_tension(System& system, double h, double last_h) {
 bool raise_to_tension(System& system, double h) {
   bool raised = false;
   Needs needs(system, h);
+  Spins spins(system);
   for (const Joint& j : system.own_joints()) {
     if (j.block < 0 && !system.turns_each(j)) continue;
     const Need need = needs(j);
@@ -197,11 +226,35 @@ bool raise_to_tension(System& system, double h) {
     for (std::size_t i = 0; i < need.count; ++i) {
       const double have = index < 0 ? 0 : system.turn_inertias[z(index) + i].inertia;
       if (need.inertia[i] <= 1.5 * have || need.inertia[i] <= 0.1 * need.mass[i]) continue;
-      raise(of(system, j)[i], need.inertia[i]);
+      raise(of(system, j)[i], need.inertia[i], spins);
       raised = true;
     }
   }
   return raised;
+}
+
+bool return_moments(System& system) {
+  system.returned.clear();
+  bool any = false;
+  for (const TurnInertia& t : system.turn_inertias) {
+    if (t.impulse == 0 || !system.is_free(t.a) || !system.is_free(t.b)) continue;
+    const double moment = t.impulse * rate_of_turn(system, t);
+    if (moment == 0) continue;
+    if (!std::exchange(any, true)) find_wholes(system);
+    whole_of(system, t.a).moment += moment;
+  }
+  const auto is_owed = [](const Whole& w) { return !w.held && w.moment != 0; };
+  if (!any || std::none_of(system.wholes.begin(), system.wholes.end(), is_owed)) return false;
+  system.returned.assign(system.free, {});
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Whole& w = whole_of(system, static_cast<int>(i));
+    if (!is_owed(w)) continue;
+    Body& b = system.bodies[i];
+    const Vec3 by = w.moment / w.inertia * turning_about(system.places[i], w.x, w.y);
+    b.v += by;
+    system.returned[i] = momentum(b, by);
+  }
+  return true;
 }
 
 void remember_turn_rates(System& system, std::span<const Vec3> velocities) {

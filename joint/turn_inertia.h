@@ -25,6 +25,14 @@
 // that a resolved vibration is slowed by (3.9 s − 1)φ²/24 at most; by the average acceleration method it is
 // by φ²/12.
 //
+// Rates of bodies by themselves are not relative ones: their moments have no counterpart, and where the spin
+// of what nothing holds (whole.h) changes, C would keep a share of its angular momentum. So after the solve
+// all of it turns as one about its centre of mass, by what C took in this step:
+//   δω = Σ c_j C_j (rate_j − w_j) / RᵀMR      c: the rate where all turns as one by 1 rad/s
+// Its spin is that of v* then, to the last digit. The rest of its motion has of C what a free spin leaves of
+// it, C − C c cᵀC/(RᵀMR + cᵀC c), the least of C over all spins, and is as stable as before: K of tensions
+// that hold each other does not know the spin. What is held gives its moments to what holds it.
+//
 // Pieces that rigid rows hold to each other turn as one, a clump. What is ϱ times as long and as heavy as its
 // pieces has T and all of the above with ϱ l and ϱ m; C of short pieces would be ϱ times what it needs, and
 // what swings on it too slow for its load.
@@ -37,13 +45,18 @@
 namespace ductile::dynamics {
 
 /// Before a step of h seconds, from the impulses of the last one's tension, in last_h seconds or, where that
-/// is less, in h: inertia that is gained enters at equal turn rates, so that no energy comes of it; what is
-/// not needed any more goes after half a second, so that factors last. True where H changed.
+/// is less, in h: inertia that is gained enters at the rate of its whole's spin, and beside that at equal
+/// turn rates, so that no energy comes of it; what is not needed any more goes after half a second, so that
+/// factors last. True where H changed.
 bool follow_tension(System& system, double h, double last_h);
 
 /// After a solve: true where its impulses ask for half as much again as there is, which was raised then, and
 /// the solve is to be done once more.
 bool raise_to_tension(System& system, double h);
+
+/// After the last solve: wholes that nothing holds turn as one, each by the moment that it is owed. True
+/// where velocities changed.
+bool return_moments(System& system);
 
 /// Sets the rates after a step, with bodies' velocities in their new frames, and joints located there.
 void remember_turn_rates(System& system, std::span<const Vec3> velocities);

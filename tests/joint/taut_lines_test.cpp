@@ -209,5 +209,145 @@ TEST(TautLines, SwingAsAStringOfBeads) {
   EXPECT_NEAR(measured, f, 0.014 * f);
 }
 
+/// What nothing holds, in a spin: its angular momentum stays what it was, but for what solves leave within
+/// their tolerance.
+struct Spinning : Lines {
+  explicit Spinning(double hz) : Lines(0, hz) {}
+  void spin(double rate) {
+    for (b2Body* b : bodies) {
+      b->SetLinearVelocity(vec(-rate * b->GetPosition().y, rate * b->GetPosition().x));
+      b->SetAngularVelocity(static_cast<float>(rate));
+    }
+    L = angular_momentum(bodies);
+    first = energy();
+  }
+  void expect_kept(double seconds) {
+    for (double t = 0; t < seconds - dt / 2; t += dt) {
+      step();
+      ASSERT_NEAR(angular_momentum(bodies), L, 1e-4 * L) << "after " << t << " s";
+    }
+    b2Vec2 momentum{0, 0};
+    for (const b2Body* b : bodies) momentum += b->GetMass() * b->GetLinearVelocity();
+    EXPECT_LE(momentum.Length(), 1e-5 * L);
+  }
+  /// Joules that no account has.
+  double unaccounted() const {
+    const auto e = structure.energy();
+    return energy() - first + e.dissipated + e.damping + e.numerical - e.driven;
+  }
+  double L = 0, first = 0;
+};
+
+/// Two boxes on a strut, and a winch between them whose rope the strut holds tight.
+struct Dumbbell : Spinning {
+  Dumbbell(double hz, double mass) : Spinning(hz) {
+    b2Body *a = box(-1, 0.4, mass), *b = box(1, 0.4, mass);
+    ElasticPlasticJointDef strut;
+    strut.InitializeLine(a, b, vec(0, -1), vec(0, 1));
+    strut.rows[axial] = {.stiffness = 1e7};
+    structure.create_joint(strut);
+    winch = line(a, -1, b, 1, 2e7);
+    spin(1);
+  }
+  /// At which both turn about each other; the strut does not turn the boxes themselves.
+  double turn_rate() const {
+    const b2Vec2 d = way(), v = bodies[1]->GetLinearVelocity() - bodies[0]->GetLinearVelocity();
+    return b2Cross(d, v) / d.LengthSquared();
+  }
+  double turn_rate_by_momentum() const {
+    const b2Body& b = *bodies[0];
+    return (L - 2 * b.GetInertia()) / (b.GetMass() * way().LengthSquared() / 2);
+  }
+  b2Vec2 way() const { return bodies[1]->GetPosition() - bodies[0]->GetPosition(); }
+  ElasticPlasticJoint* winch = nullptr;
+};
+
+class TautSpin : public testing::TestWithParam<double> {};
+
+// The rope takes 500 kN, ten thousand times what the spin asks for, and an inertia of its turning of up
+// to 2.7 times that of the boxes. Drawn together they turn faster, and that inertia with them.
+TEST_P(TautSpin, IsFasterAsAWinchDrawsItTogether) {
+  Dumbbell dumbbell(GetParam(), 50);
+  dumbbell.winch->drive(axial, {.target = 1.9, .speed = 0.05});
+  dumbbell.expect_kept(3);
+  EXPECT_GT(dumbbell.winch->force(axial), 4e5);
+  EXPECT_GT(dumbbell.turn_rate(), 1.04);
+  EXPECT_NEAR(dumbbell.turn_rate(), dumbbell.turn_rate_by_momentum(), 1e-4);
+  EXPECT_LE(std::abs(dumbbell.unaccounted()), 1e-4 * dumbbell.structure.energy().driven);
+}
+
+// Inertia comes with each pull, and goes half a second after it.
+TEST_P(TautSpin, IsWhatItWasAfterEachPull) {
+  Dumbbell dumbbell(GetParam(), 200);
+  for (int pull = 0; pull < 4; ++pull) {
+    dumbbell.winch->drive(axial, {.target = 1.92, .speed = 0.2});
+    dumbbell.expect_kept(1);
+    dumbbell.winch->drive(axial, {.target = 2, .speed = 0.2});
+    dumbbell.expect_kept(1.5);
+    EXPECT_NEAR(dumbbell.turn_rate(), 1, 2e-3);
+  }
+}
+
+/// A ring of twelve pieces, and a hub in it on four lines under 250 kN.
+struct Wheel : Spinning {
+  explicit Wheel(double hz) : Spinning(hz) {
+    const int n = 12;
+    const double r = 2, half = std::numbers::pi / n, l = 2 * r * std::tan(half), A = 0.01;
+    for (int i = 0; i < n; ++i) {
+      const double angle = (2 * i + 1) * half;
+      bodies.push_back(add_box(world, {.x = r * std::cos(angle),
+                                       .y = r * std::sin(angle),
+                                       .width = 0.1,
+                                       .height = l,
+                                       .mass = 7850 * A * l,
+                                       .angle = angle}));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = 2 * (static_cast<double>(i) + 1) * half, corner = r / std::cos(half);
+      const double EA = 210e9 * A, EI = EA * A / 12;
+      ElasticPlasticJointDef def;
+      def.Initialize(bodies[i], bodies[(i + 1) % n], vec(corner * std::cos(angle), corner * std::sin(angle)),
+                     vec(-std::sin(angle), std::cos(angle)));
+      def.rows[axial] = {.stiffness = EA / l, .damping = 5e-4 * EA / l};
+      def.rows[shear] = {.stiffness = EA / l / 3, .damping = 5e-4 * EA / l / 3};
+      def.rows[rotation] = {.stiffness = EI / l, .damping = 5e-4 * EI / l};
+      structure.create_joint(def);
+    }
+    b2Body* hub = box(0, 0.6, 500);
+    for (std::size_t i = 0; i < n; i += 3) {
+      ElasticPlasticJointDef def;
+      def.InitializeLine(hub, bodies[i], {0, 0}, bodies[i]->GetPosition());
+      def.rows[axial] = RowDef::rope(1e7);
+      def.length = r - 0.03;
+      lines.push_back(structure.create_joint(def));
+    }
+    spin(3);
+  }
+  std::vector<ElasticPlasticJoint*> lines;
+};
+
+// What it loses is what bodies lose that part along their tangents, (ωh)² at most.
+TEST_P(TautSpin, OfAWheelWithTautSpokesGoesOn) {
+  Wheel wheel(GetParam());
+  const double spinning = kinetic_energy(wheel.bodies), turn = 3 * wheel.dt;
+  wheel.expect_kept(10);
+  for (const ElasticPlasticJoint* line : wheel.lines) EXPECT_GT(line->force(axial), 2e5);
+  EXPECT_NEAR(kinetic_energy(wheel.bodies), spinning, turn * turn * spinning);
+  EXPECT_LE(std::abs(wheel.unaccounted()), 1e-4 * spinning);
+}
+
+// Steps of half to twice the length, in any order.
+TEST_P(TautSpin, GoesOnInStepsOfAnyLength) {
+  Wheel wheel(GetParam());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> power(-1, 1);
+  for (int i = 0; i < 300; ++i) {
+    wheel.dt = std::exp2(power(random)) / GetParam();
+    wheel.expect_kept(wheel.dt);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(AtHertz, TautSpin, testing::Values(30, 60, 120),
+                         [](const auto& info) { return std::to_string(std::lround(info.param)); });
+
 }  // namespace
 }  // namespace ductile
