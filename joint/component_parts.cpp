@@ -61,7 +61,8 @@ bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
 }
 
 // Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving: F = v √(k
-// m_eff). At the start of the next it would be strained by a good part of a step's way.
+// m_eff). At the start of the next it would be strained by a good part of a step's way. What a winch draws in
+// strains it by little before.
 bool Component::snaps_hard() const {
   return std::any_of(solver.slackening.begin(), solver.slackening.end(), [this](int k) {
     const Joint& j = solver.joints[z(k)];
@@ -70,8 +71,10 @@ bool Component::snaps_hard() const {
     for (unsigned i = 0; i < 3; ++i) {
       if (!is_slack(j, r, i) || !(j.relaxation[i] > 0)) continue;
       const double e = strain_of_bias(j, i), cap = v[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i];
-      if (cap > 0 && v[i] * e <= 0 && v[i] * (e + r.law.h * v[i]) > 0 &&
-          v[i] * v[i] * resolved_stiffness(r, i) * r.m_eff[i] > strained * strained * cap * cap)
+      const double k = resolved_stiffness(r, i), blow = strained * cap;
+      const bool is_strained = v[i] * e > 0 && k * std::abs(e) > blow;
+      if (cap > 0 && !is_strained && v[i] * (e + r.law.h * v[i]) > 0 &&
+          v[i] * v[i] * k * r.m_eff[i] > blow * blow)
         return true;
     }
     return false;
