@@ -76,11 +76,17 @@ class IslandContacts {
   /// Whether what holds the body was looked for: `follow` was called.
   bool is_followed(const b2Body& body) const;
   std::span<const Touch> touches() const { return touches_; }
-  void clear() { touches_.clear(); }
+  /// Of those, such as choose() left out as their bodies share a neighbour.
+  std::span<const Touch> corners() const { return corners_; }
+  void clear() {
+    touches_.clear();
+    corners_.clear();
+  }
   /// Of so many contacts nothing is allocated in a step.
   void make_room(std::size_t contacts) {
     touches_.reserve(contacts);
     chosen_.reserve(contacts);
+    corners_.reserve(contacts);
     taken_.reserve(contacts);
   }
 
@@ -92,7 +98,7 @@ class IslandContacts {
   template <class Follow>
   void follow_front(const Follow& follow);
 
-  std::vector<Touch> touches_, chosen_;
+  std::vector<Touch> touches_, chosen_, corners_;
   std::vector<char> taken_;
   std::vector<Mark> marks_;     // of the island's bodies
   std::vector<b2Body*> front_;  // reached, but not followed
@@ -137,7 +143,11 @@ void IslandContacts::choose(const IsPiece& is_piece, const MayTake& may_take, co
       };
       if (taken_[k] != 0 || !(from(a) || from(b))) continue;
       taken_[k] = 1;
-      if (!may_take(a) || !may_take(b) || share_a_neighbour(*a, *b)) continue;
+      if (!may_take(a) || !may_take(b)) continue;
+      if (share_a_neighbour(*a, *b)) {
+        corners_.push_back(t);
+        continue;
+      }
       chosen_.push_back(t);
       points += static_cast<std::size_t>(t.velocity->count);
     }

@@ -46,14 +46,16 @@ struct Component {
   struct Outside {
     Vector<Touch> touches;
     Vector<Contact> contacts;  // rows of the touches' points
+    Vector<Touch> corners;     // which push, but in parts of a step
     Vector<StockJoint> ties;
     Vector<Link> links;  // rows of the ties
   };
   /// How much of what changes the bodies' velocities the solver solves with them.
   enum class Coupling : char {
-    none,   // nothing touches or holds them but the joints
-    whole,  // all of it
-    partly  // Box2D solves some of it
+    none,     // nothing touches or holds them but the joints
+    whole,    // all of it
+    corners,  // all but contacts of bodies that share a neighbour
+    partly    // Box2D solves some of it
   };
   enum class Rest : char {
     none,
@@ -136,13 +138,15 @@ struct Component {
   }
   /// The contact is a row of this step; false where the component was not formed for its bodies.
   bool touch(Touch touch);
+  /// Likewise, of bodies that share a neighbour: no row, if it is the component's at all.
+  void meet_at_corner(Touch touch);
   /// Likewise, of a stock joint.
   bool tie(StockJoint stock);
   /// Takes poses and velocities from Box2D, solves, gives velocities back.
   void first_velocity(const b2SolverData& data);
   void next_velocity(const b2SolverData& data);
   /// Whether nothing else can change its bodies' velocities in this step.
-  bool whole() const { return coupling_ != Coupling::partly; }
+  bool whole() const { return coupling_ == Coupling::none || coupling_ == Coupling::whole; }
   bool rests() const { return rest_ == Rest::kept; }
   /// Whether this step was solved in parts, and poses have moved.
   bool advanced() const { return parts_.advanced; }
@@ -206,7 +210,9 @@ struct Component {
   bool parts(const Joint& joint) const;
   /// By what velocities must change at once for a blow, m/s.
   static constexpr float blow_speed = 0.1f;
+  void set_warm_start_aside(const Touch& touch);
   void set_warm_starts_aside();
+  void silence_corners();
   void set_ties_aside(const b2SolverData& data);
   void read_touches();
   void steady(Contact& contact) const;

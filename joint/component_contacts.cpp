@@ -20,6 +20,13 @@ bool Component::touch(Touch t) {
   return true;
 }
 
+void Component::meet_at_corner(Touch t) {
+  t.in_a = index_of(t.a());
+  t.in_b = index_of(t.b());
+  const auto is_own = [this](int body) { return body >= 0 && !mirrors[z(body)].guest(); };
+  if (is_own(t.in_a) && is_own(t.in_b)) outside_.corners.push_back(t);
+}
+
 bool Component::knows(int a, int b) const {
   if (a < 0 || b < 0 || is_of_another(a) || is_of_another(b)) return false;
   const std::pair<int, int> pair = std::minmax(a, b);
@@ -33,28 +40,43 @@ bool Component::is_of_another(int body) const {
 
 // Velocities as they were before the contacts' stored impulses went into them. The floats are those of
 // b2ContactSolver::WarmStart(), in its order: where they give Box2D's velocities, no rounding is in those.
-void Component::set_warm_starts_aside() {
+void Component::set_warm_start_aside(const Touch& t) {
   const auto warm = [](Mirror& m, const b2Vec2& arm, float by_mass, float by_inertia, const b2Vec2& P) {
     m.expected.w += by_inertia * b2Cross(arm, P);
     m.expected.v += by_mass * P;
     m.exact -= {double{by_mass} * P.x, double{by_mass} * P.y, double{by_inertia} * b2Cross(arm, P)};
   };
-  for (const Touch& t : outside_.touches) {
-    const VelocityConstraint& v = *t.velocity;
-    const b2Vec2 tangent = b2Cross(v.normal, 1.0f);
-    for (int32 k = 0; k < v.count; ++k) {
-      const PointConstraint& p = v.points[k];
-      const b2Vec2 P = p.normal_impulse * v.normal + p.tangent_impulse * tangent;
-      warm(mirrors[z(t.in_a)], p.ra, -v.inverse_mass_a, -v.inverse_inertia_a, P);
-      warm(mirrors[z(t.in_b)], p.rb, v.inverse_mass_b, v.inverse_inertia_b, P);
-    }
+  const VelocityConstraint& v = *t.velocity;
+  const b2Vec2 tangent = b2Cross(v.normal, 1.0f);
+  for (int32 k = 0; k < v.count; ++k) {
+    const PointConstraint& p = v.points[k];
+    const b2Vec2 P = p.normal_impulse * v.normal + p.tangent_impulse * tangent;
+    warm(mirrors[z(t.in_a)], p.ra, -v.inverse_mass_a, -v.inverse_inertia_a, P);
+    warm(mirrors[z(t.in_b)], p.rb, v.inverse_mass_b, v.inverse_inertia_b, P);
   }
+}
+
+void Component::set_warm_starts_aside() {
+  for (const Touch& t : outside_.touches) set_warm_start_aside(t);
   for (const Touch& t : outside_.touches) {
     for (const int body : {t.in_a, t.in_b}) {
       Mirror& m = mirrors[z(body)];
       if (solver.is_free(body) && same_bits(m.expected, m.taken)) m.exact = m.alone;
     }
   }
+}
+
+// Corners of joined pieces that touch as they turn do not press while a blow is solved in parts.
+void Component::silence_corners() {
+  for (const Touch& t : outside_.corners) {
+    set_warm_start_aside(t);
+    VelocityConstraint& v = *t.velocity;
+    for (int32 k = 0; k < v.count; ++k) v.points[k].normal_impulse = v.points[k].tangent_impulse = 0;
+    settle(v);
+    hold_a(*t.position);
+    hold_b(*t.position);
+  }
+  coupling_ = Coupling::whole;
 }
 
 void Component::enter_contacts() {

@@ -48,7 +48,7 @@ bool Component::may_divide(const b2SolverData& data) const {
   const auto has_room = [this](const Structure::Impl* s) {
     return s->reports.in_parts + cost_of_parts() <= most_in_parts;
   };
-  return whole() &&
+  return coupling_ != Coupling::partly &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      rests) &&
          !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
@@ -157,6 +157,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
     if (parts_.count > 1) solver.unite(parts_.count);
     solver.divide(parts_.count = count);
   }
+  silence_corners();
   begin_parts();
   for (int k = 0; k < count; ++k) {
     solve_part(h, k == 0, blow);

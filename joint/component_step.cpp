@@ -30,6 +30,7 @@ int joints_in_island(const b2Body& body) {
 
 void Component::clear_outside() {
   outside_.touches.clear();
+  outside_.corners.clear();
   outside_.ties.clear();
 }
 
@@ -52,8 +53,8 @@ bool Component::look(const b2SolverData& data) {
   return masses;
 }
 
-// Whether all that touches or holds its bodies is solved with it: then nothing changes their velocities after
-// the solve.
+// Whether all that touches or holds its bodies is solved with it, but for corners: then nothing else changes
+// their velocities after the solve.
 bool Component::is_whole() const {
   if (!direct() || !outside_.ties.empty()) return false;
   std::size_t sides = 0;  // of contacts, less those of the touches
@@ -63,9 +64,12 @@ bool Component::is_whole() const {
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
       sides += pushes(*e->contact) ? 1 : 0;
   }
-  for (const Touch& t : outside_.touches) {
-    for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
-  }
+  const auto less = [&](const Vector<Touch>& touches) {
+    for (const Touch& t : touches)
+      for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
+  };
+  less(outside_.touches);
+  less(outside_.corners);
   return sides == 0;
 }
 
@@ -128,7 +132,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 
 void Component::first_velocity(const b2SolverData& data) {
   parts_.advanced = false;
-  if (!alone() && is_whole()) coupling_ = Coupling::whole;
+  if (!alone() && is_whole()) coupling_ = outside_.corners.empty() ? Coupling::whole : Coupling::corners;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
   if (expected && outside_.ties.empty() && touched_as_before() && as_before(data)) {
     rest_ = Rest::kept;

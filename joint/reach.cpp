@@ -123,6 +123,8 @@ bool Island::distribute() {
   if (!taken(contacts_.touches(), [](Component& c, const Touch& t) { return c.touch(t); }) ||
       !taken(stock_, [](Component& c, const StockJoint& t) { return c.tie(t); }))
     return false;
+  for (const Touch& t : contacts_.corners())
+    for (Component* c : active_) c->meet_at_corner(t);
   guests_.clear();
   for (Component* c : active_) {
     c->each_guest([&](int body) {

@@ -353,6 +353,31 @@ TEST(SolvedInParts, AmongWhatPushesNothing) {
     EXPECT_EQ(plastic_work(beside), alone) << static_cast<int>(beside);
 }
 
+// What is joined to one piece lies on the next: such corners of a frame touch as they turn, and a blow on it
+// is solved in parts all the same.
+TEST(SolvedInParts, WhereCornersTouch) {
+  const auto plastic_work = [](double hz) {
+    StruckBeam struck(10);
+    Beam& beam = struck.beam;
+    b2Body* bracket =
+        add_box(beam.world, {.x = 0.8, .y = 0.085, .width = 0.4, .height = 0.02, .mass = 5, .group = 0});
+    ElasticPlasticJointDef def;
+    def.Initialize(beam.pieces[1], bracket, vec(0.6, 0.075), {1, 0});
+    beam.structure.create_joint(def);
+    int divided = 0;
+    for (int i = 0; i < hz / 2; ++i) {
+      beam.world.Step(static_cast<float>(1 / hz), 8, 3);
+      divided += beam.structure.report().divided;
+      beam.structure.update();
+    }
+    EXPECT_EQ(divided > 0, hz < 1000) << hz;
+    return beam.structure.energy().dissipated;
+  };
+  const double work = plastic_work(1920);
+  EXPECT_GT(work, 1e3);
+  for (const double hz : {30., 60., 120.}) EXPECT_NEAR(plastic_work(hz), work, 0.1 * work) << hz;
+}
+
 // Impulses of a contact act at one point, though bodies slide on each other in the step: friction took a
 // third of it.
 TEST(SolvedInParts, KeepsAngularMomentum) {
