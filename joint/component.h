@@ -52,10 +52,10 @@ struct Component {
   };
   /// How much of what changes the bodies' velocities the solver solves with them.
   enum class Coupling : char {
-    none,     // nothing touches or holds them but the joints
-    whole,    // all of it
-    corners,  // all but contacts of bodies that share a neighbour
-    partly    // Box2D solves some of it
+    none,    // nothing touches or holds them but the joints
+    whole,   // all of it
+    nearly,  // all but contacts of bodies that share a neighbour, and rows of stock joints
+    partly   // Box2D solves some of it
   };
   enum class Rest : char {
     none,
@@ -82,6 +82,11 @@ struct Component {
       double gap = 0;                  // m, since the step's start
     };
     Vector<OfContact> sums;
+    struct OfLink {
+      Rows impulse{};   // N s, N m s
+      double work = 0;  // on the bodies, J
+    };
+    Vector<OfLink> links;
 
     void keep(Tape& tape) {
       tape(count, since_blow, goes_on);
@@ -217,7 +222,7 @@ struct Component {
   void read_touches();
   void steady(Contact& contact) const;
   void enter_contacts();
-  void enter_ties();
+  void enter_ties(int parts = 1);
   void return_contacts();
   void return_ties();
   bool is_anchored() const;

@@ -28,7 +28,8 @@ void Component::set_ties_aside(const b2SolverData& data) {
   for (const StockJoint& t : outside_.ties) {
     Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const Place at_a = place_of(a), at_b = place_of(b);
-    const StockRows rows = rows_of(*t.joint, at_a, at_b, near, double{data.step.dt});
+    const double h = data.step.dt;
+    const StockRows rows = rows_of(*t.joint, at_a, at_b, near, h, h);
     for (std::size_t k = 0; k < rows.count; ++k) {
       Joint j;
       j.J = rows.links[k].J;
@@ -46,15 +47,18 @@ void Component::set_ties_aside(const b2SolverData& data) {
   }
 }
 
-void Component::enter_ties() {
+// As one of so many parts of a step.
+void Component::enter_ties(int parts) {
   outside_.links.clear();
   const b2Vec2 near = origin.in_floats();
   for (StockJoint& t : outside_.ties) {
-    t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], near, solver.step());
+    t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], near,
+                     parts * solver.step(), solver.step());
     for (std::size_t k = 0; k < t.rows.count; ++k) {
       Link& link = outside_.links.emplace_back(t.rows.links[k]);
       link.a = t.in_a;
       link.b = t.in_b;
+      for (double& impulse : link.impulse) impulse /= parts;
     }
   }
 }

@@ -48,7 +48,8 @@ bool Component::may_divide(const b2SolverData& data) const {
   const auto has_room = [this](const Structure::Impl* s) {
     return s->reports.in_parts + cost_of_parts() <= most_in_parts;
   };
-  return coupling_ != Coupling::partly &&
+  const auto has_rows = [](const StockJoint& t) { return t.rows.count > 0; };
+  return coupling_ != Coupling::partly && std::all_of(outside_.ties.begin(), outside_.ties.end(), has_rows) &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      rests) &&
          !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
@@ -186,6 +187,7 @@ void Component::begin_parts() {
   }
   read_touches();
   parts_.sums.assign(outside_.contacts.size(), {});
+  parts_.links.clear();
   for (Contact& c : outside_.contacts) {
     c.normal /= parts_.count;
     c.tangent /= parts_.count;
@@ -237,6 +239,10 @@ void Component::solve_part(double h, bool first, bool blow) {
       c.bounce = -parts_.sums[k].gap / h;
     }
   }
+  enter_ties(parts_.count);
+  for (std::size_t k = 0; k < outside_.links.size() && !first && outside_.links.size() == solver.links.size();
+       ++k)
+    outside_.links[k].impulse = solver.links[k].impulse;
   solver.touch(outside_.links, outside_.contacts);
   if (first && blow) {
     solver.strike(closing());
@@ -252,6 +258,17 @@ void Component::solve_part(double h, bool first, bool blow) {
     sum.tangent += c.tangent;
     sum.work += work(t, p, c.normal, c.tangent) / 2;
   });
+  parts_.links.resize(solver.links.size());
+  for (std::size_t k = 0; k < solver.links.size(); ++k) {
+    const Joint& j = solver.joints[solver.own() + k];
+    const Rows v0 = relative_velocity(j, solver.before[z(j.a)], solver.before[z(j.b)]);
+    const Rows v = relative_velocity(j, solver.bodies[z(j.a)].v, solver.bodies[z(j.b)].v);
+    Parts::OfLink& sum = parts_.links[k];
+    for (unsigned i = 0; i < 3; ++i) {
+      sum.impulse[i] += j.impulse[i];
+      sum.work -= j.impulse[i] * (v0[i] + v[i]) / 2;
+    }
+  }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Vec3 v = into_world(solver.places[i].turn, solver.bodies[i].v);
     parts_.bodies[i].sum += 0.5 * (mirrors[i].exact + v);
@@ -273,7 +290,9 @@ void Component::end_parts(const b2SolverData& data) {
     solver.contacts[k].normal = parts_.sums[k].normal;
     solver.contacts[k].tangent = parts_.sums[k].tangent;
   }
+  for (std::size_t k = 0; k < solver.links.size(); ++k) solver.links[k].impulse = parts_.links[k].impulse;
   return_contacts();
+  return_ties();
   const double rate = 1 / double{data.step.dt};
   parts_.goes_on = parts_.since_blow < blow_time && normals_held() && (snapped_ || is_strained() || throws());
   double lost = 0;
@@ -318,6 +337,18 @@ void Component::book_parts() {
     contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
+  for (std::size_t k = 0; k < parts_.links.size(); ++k) {
+    const Joint& j = solver.joints[solver.own() + k];
+    const Parts::OfLink& sum = parts_.links[k];
+    const auto began = [this](int i) {
+      const Vec3 v = solver.is_free(i) ? parts_.bodies[z(i)].before : Vec3{};
+      return into_own_frame(solver.places[z(i)].turn, v.x, v.y, v.w);
+    };
+    const Rows v0 = relative_velocity(j, began(j.a), began(j.b));
+    const Rows v = relative_velocity(j, solver.bodies[z(j.a)].v, solver.bodies[z(j.b)].v);
+    contacts += sum.work;
+    for (unsigned i = 0; i < 3; ++i) contacts += sum.impulse[i] * (v0[i] + v[i]) / 2;
+  }
   solver.book_parts(contacts, weight);
 }
 

@@ -54,13 +54,14 @@ bool Component::look(const b2SolverData& data) {
 }
 
 // Whether all that touches or holds its bodies is solved with it, but for corners: then nothing else changes
-// their velocities after the solve.
+// their velocities after the solve. A stock joint has no rows where its two anchors are one.
 bool Component::is_whole() const {
-  if (!direct() || !outside_.ties.empty()) return false;
+  if (!direct()) return false;
   std::size_t sides = 0;  // of contacts, less those of the touches
+  int joints = 0;         // likewise, of joints
   for (const Mirror& m : mirrors) {
     if (!m.present || m.type != b2_dynamicBody) continue;
-    if (m.body->GetJointList() != m.joints && joints_in_island(*m.body) != m.joined) return false;
+    if (m.body->GetJointList() != m.joints) joints += joints_in_island(*m.body) - m.joined;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
       sides += pushes(*e->contact) ? 1 : 0;
   }
@@ -70,7 +71,9 @@ bool Component::is_whole() const {
   };
   less(outside_.touches);
   less(outside_.corners);
-  return sides == 0;
+  for (const StockJoint& t : outside_.ties)
+    for (const int body : {t.in_a, t.in_b}) joints -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
+  return sides == 0 && joints == 0;
 }
 
 void Component::disturb() {
@@ -132,7 +135,8 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 
 void Component::first_velocity(const b2SolverData& data) {
   parts_.advanced = false;
-  if (!alone() && is_whole()) coupling_ = outside_.corners.empty() ? Coupling::whole : Coupling::corners;
+  if (!alone() && is_whole())
+    coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
   if (expected && outside_.ties.empty() && touched_as_before() && as_before(data)) {
     rest_ = Rest::kept;

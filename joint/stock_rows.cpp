@@ -54,10 +54,11 @@ Arm arm(b2Body* body, const b2Vec2& anchor) {
   return {double{anchor.x} - body->GetLocalCenter().x, double{anchor.y} - body->GetLocalCenter().y};
 }
 
-/// Rows under construction. The rate of a gap C is J v, so b = C/h closes it by the end of the step.
+/// Rows under construction. The rate of a gap C is J v, so b = C/h closes it by the end of the step, of which
+/// this may be a part: what was open before is closed no faster then.
 class Draft {
  public:
-  Draft(b2Joint& joint, double h) : joint_(joint), h_(h) {}
+  Draft(b2Joint& joint, double h, double part) : joint_(joint), h_(part), closing_time_(h) {}
 
   /// Rows along and across an axis that is fixed to A, or that runs from anchor to anchor, and of rotation.
   void locate(const Place& a, const Place& b, const Arm& ra, const Arm& rb, const Turn& axis,
@@ -83,8 +84,8 @@ class Draft {
 
   /// Keeps a gap C at 0.
   void hold(unsigned row, double C) {
-    rows.near = rows.near && std::abs(C) <= closable(row, h_);
-    set(row, unlimited, closing(row, C) / h_, unlimited, unlimited);
+    rows.near = rows.near && std::abs(C) <= closable(row, closing_time_);
+    set(row, unlimited, closing(row, C) / closing_time_, unlimited, unlimited);
   }
   /// With no more than so much force or moment.
   void drive(unsigned row, double speed, double most) {
@@ -137,8 +138,8 @@ class Draft {
   }
   // The rate at which the way C that is left to a limit may close, or has to open again.
   double way(unsigned row, double C) {
-    rows.near = rows.near && C >= -closable(row, h_);
-    return (C > 0 ? C : closing(row, C)) / h_;
+    rows.near = rows.near && C >= -closable(row, closing_time_);
+    return C > 0 ? C / h_ : closing(row, C) / closing_time_;
   }
   void set(unsigned row, double G, double bias, double cap, double cap_reverse) {
     Link& link = rows.links[rows.count - 1];
@@ -149,7 +150,7 @@ class Draft {
   }
 
   b2Joint& joint_;
-  double h_;
+  double h_, closing_time_;
 };
 
 struct Places {
@@ -294,8 +295,9 @@ void draft(b2PulleyJoint& j, const Places& at, Draft& d) {
 
 }  // namespace
 
-StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h) {
-  Draft d(joint, h);
+StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h,
+                  double part) {
+  Draft d(joint, h, part);
   as_it_is(joint, [&](auto& j) { draft(j, {a, b, origin}, d); });
   // What is far apart is not closed by velocities.
   for (std::size_t k = 0; k < d.rows.count && !d.rows.near; ++k) {

@@ -378,6 +378,50 @@ TEST(SolvedInParts, WhereCornersTouch) {
   for (const double hz : {30., 60., 120.}) EXPECT_NEAR(plastic_work(hz), work, 0.1 * work) << hz;
 }
 
+// What stock joints hold a beam by, or hang on it, is solved with the parts: a weight on a rod or a rope, a
+// wheel on its spring, a motor that holds its torque.
+TEST(SolvedInParts, WithStockJoints) {
+  enum class Tie { rod, rope, wheel, motor };
+  const auto plastic_work = [](Tie tie, double hz) {
+    StruckBeam struck(10);
+    Beam& beam = struck.beam;
+    b2Body* hung = add_box(beam.world, {.x = 1, .y = -1, .mass = 200, .group = -1});
+    b2Body* piece = beam.pieces[2];
+    if (tie == Tie::rod || tie == Tie::rope) {
+      b2DistanceJointDef def;
+      def.Initialize(piece, hung, vec(1, 0), vec(1, -1));
+      if (tie == Tie::rope) def.minLength = 0;
+      def.maxLength = def.length;
+      beam.world.CreateJoint(&def);
+    } else if (tie == Tie::wheel) {
+      b2WheelJointDef def;
+      def.Initialize(piece, hung, vec(1, -1), {0, 1});
+      def.stiffness = 2e5f, def.damping = 2e3f;
+      beam.world.CreateJoint(&def);
+    } else {
+      b2RevoluteJointDef def;
+      def.Initialize(piece, hung, vec(1, 0));
+      def.enableMotor = true;
+      def.maxMotorTorque = 1e4f;
+      beam.world.CreateJoint(&def);
+    }
+    int divided = 0;
+    for (int i = 0; i < hz / 2; ++i) {
+      beam.world.Step(static_cast<float>(1 / hz), 8, 3);
+      divided += beam.structure.report().divided;
+      beam.structure.update();
+    }
+    EXPECT_EQ(divided > 0, hz < 1000) << hz;
+    return beam.structure.energy().dissipated;
+  };
+  for (const Tie tie : {Tie::rod, Tie::rope, Tie::wheel, Tie::motor}) {
+    const double work = plastic_work(tie, 1920);
+    EXPECT_GT(work, 1e3);
+    for (const double hz : {30., 60., 120.})
+      EXPECT_NEAR(plastic_work(tie, hz), work, 0.1 * work) << static_cast<int>(tie) << ", " << hz;
+  }
+}
+
 // Impulses of a contact act at one point, though bodies slide on each other in the step: friction took a
 // third of it.
 TEST(SolvedInParts, KeepsAngularMomentum) {
