@@ -73,6 +73,7 @@ struct Component {
       Vec3 before;        // at the step's start
       Vec3 given;         // by gravity and loads in a part
       Vec3 sum;           // of the means of all parts
+      Vec3 mean;          // of the step: by which it comes where it is
       double energy = 0;  // that a blow gives it, J
     };
     Vector<OfBody> bodies;
@@ -244,6 +245,7 @@ struct Component {
   void carry_arms(double h);
   void solve_part(double h, bool first, bool blow);
   void end_parts(const b2SolverData& data);
+  double go_on_with_means();
   double work(const Touch& touch, const PointConstraint& at, double normal, double tangent) const;
   /// Calls visit(row, touch, point) for each contact that is a row.
   template <class Visit>

@@ -14,8 +14,10 @@
 #include <utility>
 
 #include "component.h"
+#include "contact_rows.h"
 #include "frames.h"
 #include "structure.h"
+#include "whole.h"
 
 namespace ductile::dynamics {
 
@@ -282,9 +284,7 @@ void Component::solve_part(double h, bool first, bool blow) {
 }
 
 // Box2D moves the bodies by what it finds here, and has a step of position iterations to get their
-// velocities. Those belong to the middle of a part. Where whole steps follow, bodies go on with their mean
-// velocities, which belong to the middle of this one: else all forces would act half a step too early from
-// then on, and a flow that is braked by a cap would be v h/2 short. What rings within the step is lost then.
+// velocities. Those belong to the middle of a part.
 void Component::end_parts(const b2SolverData& data) {
   for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
     solver.contacts[k].normal = parts_.sums[k].normal;
@@ -294,20 +294,17 @@ void Component::end_parts(const b2SolverData& data) {
   return_contacts();
   return_ties();
   const double rate = 1 / double{data.step.dt};
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
+    parts_.bodies[i].mean = {rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)};
+  }
   parts_.goes_on = parts_.since_blow < blow_time && normals_held() && (snapped_ || is_strained() || throws());
-  double lost = 0;
+  const double lost = parts_.goes_on ? 0 : go_on_with_means();
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
-    const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
-    const Vec3 mean{rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)};
-    if (!parts_.goes_on) {
-      const Body& b = solver.bodies[i];
-      lost += (dot(momentum(b, m.exact), m.exact) - dot(momentum(b, mean), mean)) / 2;
-      m.exact = mean;
-    }
     m.given = in_floats(m.exact);
     m.left = box2d_pose(i);
-    if (m.present) data.velocities[m.island_index] = in_floats(mean);
+    if (m.present) data.velocities[m.island_index] = in_floats(parts_.bodies[i].mean);
   }
   if (solver.keeps_ledger) {
     book_parts();
@@ -316,6 +313,35 @@ void Component::end_parts(const b2SolverData& data) {
   for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
   }
+}
+
+// Where whole steps follow, bodies go on with their mean velocities, which belong to the middle of this one:
+// else all forces would act half a step too early from then on, and a flow that is braked by a cap would be
+// v h/2 short. What rings within the step is lost then. But the angular momentum of what hung together in the
+// step, and nothing held, is that of the parts' last velocities where bodies are now; the means belong to
+// other places. So all of it turns as one about its centre of mass by what they miss: its momentum stays, and
+// no other motion that gives it back takes less energy. Returns what is lost, J.
+double Component::go_on_with_means() {
+  write_contacts(solver);  // which pressed in some part
+  find_wholes(solver);
+  double lost = 0;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Body& b = solver.bodies[i];
+    const Pose& at = solver.places[i].pose;
+    const Vec3 mean = parts_.bodies[i].mean, less = mirrors[i].exact - mean;
+    Whole& whole = whole_of(solver, static_cast<int>(i));
+    whole.moment += b.mass * ((at.x - whole.x) * less.y - (at.y - whole.y) * less.x) + b.inertia * less.w;
+    lost += dot(momentum(b, mirrors[i].exact), mirrors[i].exact) / 2;
+    mirrors[i].exact = mean;
+  }
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Pose& at = solver.places[i].pose;
+    const Whole& whole = whole_of(solver, static_cast<int>(i));
+    Vec3& v = mirrors[i].exact;
+    if (!whole.held) v += whole.moment / whole.inertia * Vec3{whole.y - at.y, at.x - whole.x, 1};
+    lost -= dot(momentum(solver.bodies[i], v), v) / 2;
+  }
+  return lost;
 }
 
 // An observer of the whole step counts impulses times the mean of the velocities before and after it.

@@ -72,6 +72,13 @@ void read_contacts(System& system) {
   }
 }
 
+void write_contacts(System& system) {
+  for (std::size_t k = 0; k < system.contacts.size(); ++k) {
+    const Contact& c = system.contacts[k];
+    system.joints[system.first_contact() + k].impulse = {-c.normal, c.tangent, 0};
+  }
+}
+
 Lag lag_friction(System& system, int round, bool of_open) {
   Lag lag;
   double largest = 0;

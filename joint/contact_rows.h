@@ -29,6 +29,9 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
 /// Takes the impulses of the last solve.
 void read_contacts(System& system);
 
+/// The reverse: rows have the impulses of the contacts.
+void write_contacts(System& system);
+
 /// After a solve: caps of friction from its normal impulses, averaged with those before where three rounds
 /// were not enough; or of those contacts alone that rub and do not press. Whether the solve is to be done
 /// again, and whether H has other rows.
