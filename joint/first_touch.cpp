@@ -197,27 +197,70 @@ void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& g
   pay(guest, guest.GetWorldCenter() - from, gravity);
 }
 
-/// Whether Box2D let the piece meet a bullet alone in the last step.
-bool met_alone(const b2Contact& contact, const Mirror& piece) {
-  return of(contact, b2Contact_m_toiCount{}) > 0 && !same(piece.left, pose_of(*piece.body));
+/// A body at the end of a step in which nothing changed its velocity, with its way there.
+void set_on_way(b2Body& body, const b2Position& at, const b2Velocity& v, float h) {
+  b2Sweep& sweep = of(body, b2Body_m_sweep{});
+  body.SetTransform(at.c - b2Mul(b2Rot(at.a), sweep.localCenter), at.a);
+  sweep.c = at.c;
+  sweep.c0 = at.c - h * v.v;
+  sweep.a0 = at.a - h * v.w;
+  sweep.alpha0 = 0;
+  body.SetLinearVelocity(v.v);
+  body.SetAngularVelocity(v.w);
 }
 
-// The guest's share of an impact: what the piece has of it, the other way. Their sweeps begin where they met.
-void undo_impact(const Mirror& piece, b2Body& guest) {
-  const b2Vec2 P = piece.body->GetMass() * (piece.body->GetLinearVelocity() - piece.given.v);
-  const float moment = central_inertia(*piece.body) * (piece.body->GetAngularVelocity() - piece.given.w) +
-                       b2Cross(of(*piece.body, b2Body_m_sweep{}).c0 - of(guest, b2Body_m_sweep{}).c0, P);
-  guest.SetLinearVelocity(guest.GetLinearVelocity() + 1 / guest.GetMass() * P);
-  if (const float inertia = central_inertia(guest); inertia > 0)
-    guest.SetAngularVelocity(guest.GetAngularVelocity() + moment / inertia);
+/// Whether Box2D let the piece meet a bullet alone in the last step: as the two that it knew to meet, or
+/// beside those. What only touched then may not do so any more; unless it met something else, that is why it
+/// has moved.
+bool met_alone(const b2Contact& contact, const Mirror& piece, b2Body& guest) {
+  if (same(piece.left, pose_of(*piece.body))) return false;
+  if (of(contact, b2Contact_m_toiCount{}) > 0) return true;
+  if (!guest.IsBullet() || !(of(guest, b2Body_m_sweep{}).alpha0 > 0)) return false;
+  if (contact.IsTouching()) return true;
+  for (b2ContactEdge* e = piece.body->GetContactList(); e != nullptr; e = e->next)
+    if (e->other != &guest && of(*e->contact, b2Contact_m_toiCount{}) > 0) return false;
+  return true;
 }
 
-void put_back(const Mirror& piece) {
-  b2Sweep& sweep = of(*piece.body, b2Body_m_sweep{});
-  piece.body->SetTransform(piece.left.c - b2Mul(b2Rot(piece.left.a), sweep.localCenter), piece.left.a);
-  sweep.c = sweep.c0 = piece.left.c;
-  piece.body->SetLinearVelocity(piece.given.v);
-  piece.body->SetAngularVelocity(piece.given.w);
+/// A bullet that met pieces alone.
+struct Alone {
+  b2Body* guest;
+  std::vector<const Mirror*> pieces;
+  float share;  // of its motion until Box2D let it meet the last of them
+};
+
+// The bullet goes on to the end of the step as if it had met none. What pieces have of its impacts it has the
+// other way, whenever these were and however often: their momenta, their moments and, as an impact moves both
+// for the rest of the step, their ways. Only how it is turned is that of the last one. Before each Box2D puts
+// the two apart, and the impulses act there: a bullet that is farther off its way has bounced in between.
+void undo_impacts(Alone& alone, float h) {
+  b2Body& guest = *alone.guest;
+  const b2Sweep met = of(guest, b2Body_m_sweep{});
+  const float mass = guest.GetMass(), inertia = central_inertia(guest);
+  b2Vec2 momentum(0, 0), way(0, 0);
+  float moment = 0, pieces = 0;
+  for (const Mirror* piece : alone.pieces) {
+    const b2Body& body = *piece->body;
+    const b2Vec2 at = of(*piece->body, b2Body_m_sweep{}).c, v = body.GetLinearVelocity();
+    const float m = body.GetMass();
+    pieces += m;
+    momentum += m * (v - piece->given.v);
+    way += m * (at - piece->left.c);
+    moment += central_inertia(body) * (body.GetAngularVelocity() - piece->given.w) +
+              m * (b2Cross(at - met.c, v) - b2Cross(piece->left.c - met.c, piece->given.v));
+  }
+  const float left = (1 - met.alpha0) * h;
+  b2Velocity v{guest.GetLinearVelocity() + 1 / mass * momentum, guest.GetAngularVelocity()};
+  const b2Vec2 end = met.c + 1 / mass * way;
+  if (inertia > 0 && !alone.pieces.empty()) {
+    b2Vec2 put_apart = met.c0 - (end - left * v.v);
+    const float most = 3 * b2_linearSlop * pieces / (pieces + mass), length = put_apart.Length();
+    if (length > most) put_apart *= most / length;
+    v.w += (moment - b2Cross(way, v.v) - mass * b2Cross(put_apart, v.v - alone.pieces.front()->given.v)) /
+           inertia;
+  }
+  alone.share = met.alpha0;
+  set_on_way(guest, {end, met.a0 + left * v.w}, v, h);
 }
 
 /// The bodies that hang together by joints.
@@ -333,6 +376,27 @@ void Component::shift(const b2Body& body, const b2Vec2& way) {
   rest_ = Rest::none;
 }
 
+// Of all bullets that met pieces alone. Of several that met the same piece the first has it all.
+std::vector<Alone> undo_impacts_alone(std::span<const Pool::Owned<Component>> components, const b2World& in) {
+  std::vector<Alone> all;
+  std::vector<const Mirror*> met;
+  for (const auto& c : components) {
+    each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
+      if (is_joined(&body) || !met_alone(contact, piece, body)) return;
+      auto at = std::find_if(all.begin(), all.end(), [&](const Alone& a) { return a.guest == &body; });
+      if (at == all.end()) at = all.insert(at, {&body, {}, 0});
+      if (std::find(met.begin(), met.end(), &piece) != met.end()) return;  // at another point, or by another
+      at->pieces.push_back(&piece);
+      met.push_back(&piece);
+    });
+  }
+  if (all.empty()) return all;
+  const float h = 1 / of(in, b2World_m_inv_dt0{});
+  for (Alone& a : all) undo_impacts(a, h);
+  for (const Mirror* m : met) set_on_way(*m->body, m->left, m->given, h);
+  return all;
+}
+
 void Island::meet_guests(b2World& in) {
   struct Meeting {
     b2Body *body, *piece;
@@ -342,21 +406,15 @@ void Island::meet_guests(b2World& in) {
     bool straight;  // back along the motion; or out along the normal
   };
   std::vector<Meeting> meetings;
-  std::vector<const Mirror*> met;  // pieces that a bullet met alone
+  const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& body) {
       b2Body& piece = *mirror.body;
       const bool guest = !is_joined(&body);
+      const bool alone = std::any_of(all_alone.begin(), all_alone.end(),
+                                     [&body](const Alone& a) { return a.guest == &body; });
       const b2Sweep& s = of(body, b2Body_m_sweep{});
-      if (guest && met_alone(contact, mirror)) {
-        meetings.push_back({&body, &piece, &contact, s, {.share = 0}, true});
-        if (std::find(met.begin(), met.end(), &mirror) != met.end())
-          return;  // at another point, or by another
-        undo_impact(mirror, body);
-        met.push_back(&mirror);
-        return;
-      }
-      if (contact.IsTouching() || !body.IsAwake() || (guest && !moves(s))) return;
+      if ((contact.IsTouching() && !alone) || !body.IsAwake() || (guest && !moves(s))) return;
       if (!guest && piece.IsAwake() && contact.GetFixtureA()->GetBody() == &piece)
         return;  // of two pieces, once
       // Where both went the same way, the piece is now on the body's way, and they never met; where they
@@ -370,7 +428,7 @@ void Island::meet_guests(b2World& in) {
       const Way way = way_to(contact, piece, body, seen);
       if (!(way.share < 1)) return;
       // What hangs together turns as it swings, and what touches something has not gone straight on.
-      const bool straight = guest && !is_touching(body);
+      const bool straight = alone || (guest && !is_touching(body));
       b2Transform there;
       seen.GetTransform(&there, way.share);
       if (!straight || has_room(in, body, there)) {
@@ -380,7 +438,12 @@ void Island::meet_guests(b2World& in) {
       }
     });
   }
-  for (const Mirror* m : met) put_back(*m);
+  for (const Alone& a : all_alone) {
+    // Where its way grazes them by less than rounding, it is where Box2D let them meet.
+    const auto meets = [&a](const Meeting& m) { return m.body == a.guest; };
+    if (std::none_of(meetings.begin(), meetings.end(), meets))
+      put_back(*a.guest, of(*a.guest, b2Body_m_sweep{}), a.share, in.GetGravity());
+  }
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {

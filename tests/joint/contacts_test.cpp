@@ -503,6 +503,43 @@ TEST(FirstTouch, OfABulletWithoutTheStructureIsUndone) {
   }
 }
 
+// Where several pieces were met, as one that straddles a seam does, all of them have their share of the
+// bullet's momentum: it kept what the others had of it, at a place that its last impact had moved it to, and
+// went through in the next step.
+TEST(FirstTouch, OfABulletWithSeveralPiecesIsUndone) {
+  for (const bool round : {false, true}) {
+    for (const double across : {0., 2.}) {
+      for (int k = 0; k <= 40; ++k) {
+        Plate plate(10, 0.5);
+        plate.beam.world.SetGravity({0, 0});
+        b2Body& bullet = *plate.block;
+        if (round) {
+          b2CircleShape disc;
+          disc.m_radius = 0.25f;
+          bullet.DestroyFixture(bullet.GetFixtureList());
+          bullet.CreateFixture(&disc, 10 * plate.beam.pieces.front()->GetMass() / (disc.m_radius * b2_pi));
+        }
+        bullet.SetTransform(vec(4.8 + 0.01 * k, bullet.GetPosition().y), 0);
+        bullet.SetLinearVelocity(vec(across, -60));
+        bullet.SetBullet(true);
+        plate.beam.world.Step(static_cast<float>(dt), 8, 3);
+        EXPECT_GT(bullet.GetLinearVelocity().y, -59.0f);  // it has met some
+        plate.beam.structure.update();
+        const testing::ScopedTrace at(__FILE__, __LINE__,
+                                      testing::Message() << round << ", " << across << ", " << k);
+        EXPECT_NEAR(bullet.GetLinearVelocity().y, -60, 1e-3);
+        EXPECT_NEAR(bullet.GetLinearVelocity().x, across, 1e-3);
+        EXPECT_NEAR(0.25 * bullet.GetAngularVelocity(), 0, 0.01 * 60);  // of where it was put apart
+        EXPECT_NEAR(bullet.GetPosition().y - 0.25, Plate::def.height / 2, 6 * b2_linearSlop);
+        for (const b2Body* piece : plate.beam.pieces) {
+          EXPECT_LT(piece->GetLinearVelocity().Length(), 1e-4);
+          EXPECT_NEAR(piece->GetPosition().y, 0, 1e-6);
+        }
+      }
+    }
+  }
+}
+
 // What turns onto a deck at one corner is put back to where that touched, not to where its step began: it
 // went no further in any step, with its velocity, for ever.
 TEST(FirstTouch, LeavesNothingStandingInTheAir) {
