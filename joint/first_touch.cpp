@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <unordered_set>
 #include <vector>
 
@@ -336,9 +337,16 @@ void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
   }
 }
 
+// Of a step: each is looked for once.
+const Group& group_of(b2Body& body, std::deque<Group>& groups) {
+  for (const Group& g : groups)
+    if (g.has(&body)) return g;
+  return groups.emplace_back(body);
+}
+
 // Two groups that overlap where a body met a piece go apart along the normal there.
-void move_apart(const b2World& world, b2Body& body, b2Body& piece, const b2Contact& contact,
-                const b2Sweep& motion, const b2Vec2& normal) {
+void move_apart(const b2World& world, std::deque<Group>& groups, b2Body& body, b2Body& piece,
+                const b2Contact& contact, const b2Sweep& motion, const b2Vec2& normal) {
   const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
                      contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
   const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
@@ -348,9 +356,9 @@ void move_apart(const b2World& world, b2Body& body, b2Body& piece, const b2Conta
   along.alpha0 = 0;
   const b2Vec2 way = (1 - way_to(contact, piece, body, along).share) * from * normal;
   if (way.LengthSquared() == 0) return;
-  const Group one(body);
+  const Group& one = group_of(body, groups);
   if (one.has(&piece)) return;
-  const Group other(piece);
+  const Group& other = group_of(piece, groups);
   if (one.is_held && other.is_held) return;
   float share = share_of_way(one, other);
   const auto has_room = [&] {
@@ -444,6 +452,7 @@ void Island::meet_guests(b2World& in) {
     if (std::none_of(meetings.begin(), meetings.end(), meets))
       put_back(*a.guest, of(*a.guest, b2Body_m_sweep{}), a.share, in.GetGravity());
   }
+  std::deque<Group> groups;
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {
@@ -451,7 +460,7 @@ void Island::meet_guests(b2World& in) {
              (o.way.share < m.way.share || (o.way.share == m.way.share && &o < &m));
     };
     if (!m.straight) {
-      move_apart(in, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
+      move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
       put_back(*m.body, m.motion, m.way.share, in.GetGravity());
     }
