@@ -72,7 +72,6 @@ void Component::return_ties() {
   }
 }
 
-// Whether what does not give holds a body of the structure.
 bool Component::is_anchored() const {
   const auto anchors = [this](const StockJoint& t) {
     return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&

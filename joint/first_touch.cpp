@@ -373,6 +373,21 @@ void move_apart(const b2World& world, std::deque<Group>& groups, b2Body& body, b
   if (share < 1) other.move((share - 1) * way, world.GetGravity());
 }
 
+// A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
+// is where it was.
+void share_way(const b2World& world, std::deque<Group>& groups, b2Body& guest, b2Body& piece,
+               const b2Vec2& way) {
+  const Component* component = Member::component_of(piece);
+  if (component == nullptr || component->is_anchored()) return;
+  const Group &one = group_of(guest, groups), &other = group_of(piece, groups);
+  const b2Vec2 on = (share_of_way(one, other) - 1) * way;
+  if (on.LengthSquared() == 0 || one.is_held || one.bodies.size() > 1 || !one.has_room(world, on) ||
+      !other.has_room(world, on))
+    return;
+  one.move(on, world.GetGravity());
+  other.move(on, world.GetGravity());
+}
+
 }  // namespace
 
 // In doubles, as Box2D's floats would strain stiff rows.
@@ -462,7 +477,9 @@ void Island::meet_guests(b2World& in) {
     if (!m.straight) {
       move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
+      const b2Vec2 from = m.body->GetWorldCenter();
       put_back(*m.body, m.motion, m.way.share, in.GetGravity());
+      share_way(in, groups, *m.body, *m.piece, m.body->GetWorldCenter() - from);
     }
   }
 }
