@@ -81,9 +81,11 @@ struct Component {
       double normal = 0, tangent = 0;  // N s
       double work = 0;                 // on the bodies, J
       double gap = 0;                  // m, since the step's start
+      b2Vec2 ra{0, 0}, rb{0, 0};       // at the step's start
     };
     Vector<OfContact> sums;
     struct OfLink {
+      Jacobian J;       // at the step's start
       Rows impulse{};   // N s, N m s
       double work = 0;  // on the bodies, J
     };

@@ -189,6 +189,10 @@ void Component::begin_parts() {
   }
   read_touches();
   parts_.sums.assign(outside_.contacts.size(), {});
+  each_point([this](std::size_t k, const Touch&, const PointConstraint& p) {
+    parts_.sums[k].ra = p.ra;
+    parts_.sums[k].rb = p.rb;
+  });
   parts_.links.clear();
   for (Contact& c : outside_.contacts) {
     c.normal /= parts_.count;
@@ -266,6 +270,7 @@ void Component::solve_part(double h, bool first, bool blow) {
     const Rows v0 = relative_velocity(j, solver.before[z(j.a)], solver.before[z(j.b)]);
     const Rows v = relative_velocity(j, solver.bodies[z(j.a)].v, solver.bodies[z(j.b)].v);
     Parts::OfLink& sum = parts_.links[k];
+    if (first) sum.J = j.J;
     for (unsigned i = 0; i < 3; ++i) {
       sum.impulse[i] += j.impulse[i];
       sum.work -= j.impulse[i] * (v0[i] + v[i]) / 2;
@@ -344,7 +349,8 @@ double Component::go_on_with_means() {
   return lost;
 }
 
-// An observer of the whole step counts impulses times the mean of the velocities before and after it.
+// An observer of the whole step counts impulses, where they acted when it began, times the mean of the
+// velocities before and after it.
 void Component::book_parts() {
   double contacts = 0, weight = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -354,8 +360,9 @@ void Component::book_parts() {
     weight +=
         b.mass * (body.given.x * beyond.x + body.given.y * beyond.y) + b.inertia * body.given.w * beyond.w;
   }
-  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+  each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Parts::OfContact& sum = parts_.sums[k];
+    p.ra = sum.ra, p.rb = sum.rb;
     contacts += sum.work - work(t, p, sum.normal, sum.tangent) / 2;
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
@@ -364,16 +371,19 @@ void Component::book_parts() {
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   for (std::size_t k = 0; k < parts_.links.size(); ++k) {
-    const Joint& j = solver.joints[solver.own() + k];
     const Parts::OfLink& sum = parts_.links[k];
-    const auto began = [this](int i) {
-      const Vec3 v = solver.is_free(i) ? parts_.bodies[z(i)].before : Vec3{};
-      return into_own_frame(solver.places[z(i)].turn, v.x, v.y, v.w);
+    Joint j;
+    j.J = sum.J;
+    const auto twice_mean = [this](int i) {
+      if (!solver.is_free(i)) return Vec3{};
+      const Parts::OfBody& body = parts_.bodies[z(i)];
+      const Vec3 v = body.before + mirrors[z(i)].exact;
+      return into_own_frame(turn_of(body.start.angle), v.x, v.y, v.w);
     };
-    const Rows v0 = relative_velocity(j, began(j.a), began(j.b));
-    const Rows v = relative_velocity(j, solver.bodies[z(j.a)].v, solver.bodies[z(j.b)].v);
+    const Joint& row = solver.joints[solver.own() + k];
+    const Rows v = relative_velocity(j, twice_mean(row.a), twice_mean(row.b));
     contacts += sum.work;
-    for (unsigned i = 0; i < 3; ++i) contacts += sum.impulse[i] * (v0[i] + v[i]) / 2;
+    for (unsigned i = 0; i < 3; ++i) contacts += sum.impulse[i] * v[i] / 2;
   }
   solver.book_parts(contacts, weight);
 }

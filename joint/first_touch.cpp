@@ -15,7 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <memory>
 #include <unordered_set>
 #include <vector>
 
@@ -338,15 +338,15 @@ void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
 }
 
 // Of a step: each is looked for once.
-const Group& group_of(b2Body& body, std::deque<Group>& groups) {
-  for (const Group& g : groups)
-    if (g.has(&body)) return g;
-  return groups.emplace_back(body);
+const Group& group_of(b2Body& body, std::vector<std::unique_ptr<Group>>& groups) {
+  for (const auto& g : groups)
+    if (g->has(&body)) return *g;
+  return *groups.emplace_back(std::make_unique<Group>(body));
 }
 
 // Two groups that overlap where a body met a piece go apart along the normal there.
-void move_apart(const b2World& world, std::deque<Group>& groups, b2Body& body, b2Body& piece,
-                const b2Contact& contact, const b2Sweep& motion, const b2Vec2& normal) {
+void move_apart(const b2World& world, std::vector<std::unique_ptr<Group>>& groups, b2Body& body,
+                b2Body& piece, const b2Contact& contact, const b2Sweep& motion, const b2Vec2& normal) {
   const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
                      contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
   const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
@@ -375,8 +375,8 @@ void move_apart(const b2World& world, std::deque<Group>& groups, b2Body& body, b
 
 // A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
 // is where it was.
-void share_way(const b2World& world, std::deque<Group>& groups, b2Body& guest, b2Body& piece,
-               const b2Vec2& way) {
+void share_way(const b2World& world, std::vector<std::unique_ptr<Group>>& groups, b2Body& guest,
+               b2Body& piece, const b2Vec2& way) {
   const Component* component = Member::component_of(piece);
   if (component == nullptr || component->is_anchored()) return;
   const Group &one = group_of(guest, groups), &other = group_of(piece, groups);
@@ -467,7 +467,7 @@ void Island::meet_guests(b2World& in) {
     if (std::none_of(meetings.begin(), meetings.end(), meets))
       put_back(*a.guest, of(*a.guest, b2Body_m_sweep{}), a.share, in.GetGravity());
   }
-  std::deque<Group> groups;
+  std::vector<std::unique_ptr<Group>> groups;
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {
