@@ -62,7 +62,8 @@ double Newton::target(const System& system, const Evaluation& at) const {
 // Solving ODEs II, IV.8, decide so about Jacobians).
 // 1. Nothing is gained where it is of the present tangents.
 // 2. A row that changed its regime costs a round of conjugate gradients; otherwise the contraction predicts
-//    how many are left.
+//    how many are left. It does so in each step from then on, and no step by itself would pay for a factor:
+//    what was lost so in the steps before counts as well.
 // 3. What rows that changed their regime ask for is but a guess, as rounding may deny conjugate directions:
 //    one round more than that is enough.
 bool Newton::worth_refactoring(const System& system, const Hessian& hessian, const Evaluation& at,
@@ -72,7 +73,7 @@ bool Newton::worth_refactoring(const System& system, const Hessian& hessian, con
   const double left2 = target(system, at), contraction = std::log(contraction_);
   const double by_rate =
       at.gradient2 <= contraction_ * left2 ? 1 : std::ceil(std::log(at.gradient2 / left2) / contraction);
-  const double expected = at.changed > 0 ? at.changed + 1.0 : by_rate;
+  const double expected = at.changed > 0 ? at.changed + 1.0 + (round.used == 0 ? lost_ : 0) : by_rate;
   return (expected - 1) * hessian.iteration_work(system.joints.size()) >
          hessian.factor_work(system.joints.size());
 }
@@ -226,6 +227,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     if (refactor) {
       hessian.factor_tangents(system, round.short_step);
       ++report.factorisations;
+      lost_ = 0;
       at.changed = 0;
       round.used = 0;
       round.first2 = at.gradient2;
@@ -269,6 +271,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
       contraction_ = std::clamp(round.used == 1 ? by : std::pow(by, 1.0 / round.used), 1.2, 1e17);
     }
   }
+  lost_ = at.changed > 0 && round.used == round.number ? lost_ + std::max(0, round.number - 1) : 0;
   if (!(at.gradient2 <= target(system, at) || settled)) at = solve_by_interior_point(system, hessian, report);
   report.rounds += round.number;
   // Where impulses cancel, the last bits of them may be all that is left: they are no lack of balance.

@@ -67,7 +67,7 @@ class Newton {
   Solution solve(System& system, Hessian& hessian, const Evaluation& last, const LinearPrediction* prediction,
                  SolveReport& report);
   std::size_t bytes() const;
-  void keep(Tape& tape) { tape(contraction_); }
+  void keep(Tape& tape) { tape(contraction_, lost_); }
 
   /// One momentum per body, the gradient's own, for who needs it while that is not known.
   std::span<Vec3> scratch() { return g_; }
@@ -95,6 +95,8 @@ class Newton {
   double left2_ = 0, pushed2_ = 0;
   /// |∇f|² falls by so many times in a round with a factor of an earlier step.
   double contraction_ = 1e6;
+  /// Rounds that the last steps took in vain, as the factor is not of the rows that flow in them.
+  double lost_ = 0;
 };
 
 }  // namespace ductile::dynamics

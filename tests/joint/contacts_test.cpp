@@ -902,6 +902,18 @@ TEST(ContactCost, ABlockThatRestsAddsNoRounds) {
   EXPECT_EQ(counts[1].bounds_hit, 0);
 }
 
+// However the blocks land: what slides for the last time when H was factored would cost a round in each step
+// for good, and no step by itself would pay for a factor.
+TEST(ContactCost, AFactorOfARowThatSlidNoMoreIsRenewed) {
+  bench::Built built(bench::frame(15, 15), bench::Built::ours, 9.81);
+  bench::load_roof(built, 15);
+  for (int i = 0; i < 2; ++i) built.step();
+  bench::calm(built);
+  const StepReport counts = sum_of(built);
+  EXPECT_LE(counts.rounds, 1.1 * counts.solves);
+  EXPECT_LE(counts.factorisations, 0.01 * counts.solves);
+}
+
 // Of steel that damps, a frame under load comes to rest, and nothing is solved any more.
 TEST(ContactCost, ALoadedFrameComesToRest) {
   bench::Layout layout = bench::frame(15, 15);
