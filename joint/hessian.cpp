@@ -139,13 +139,12 @@ void Hessian::assemble(const System& system, bool turn_inertias) {
     d[8] = b.inertia > 0 ? b.inertia : 1;
   }
   for (const Joint& j : system.joints) {
-    const JointRecord& r = system.record(j);
-    const Coupling& D = r.tangent;
+    const Coupling& D = system.record(j).tangent;
     const JacobianRows a = of_body(rows_of_a(j.J), system.bodies[z(j.a)]);
     const JacobianRows b = of_body(rows_of_b(j.J), system.bodies[z(j.b)]);
-    const auto scaled = [&r, &D](const JacobianRows& rows) {
+    const auto scaled = [&D](const JacobianRows& rows) {
       JacobianRows d{D.nn * rows.u, D.qq * rows.v, D.mm * rows.w};
-      if (r.law.surface != nullptr) {
+      if (D.nq != 0 || D.nm != 0 || D.qm != 0) {
         d.u += D.nq * rows.v + D.nm * rows.w;
         d.v += D.nq * rows.u + D.qm * rows.w;
         d.w += D.nm * rows.u + D.qm * rows.v;

@@ -7,6 +7,13 @@
 // so
 //   Δs₁ = D (lack + J Δv + τ⁺ − τ⁻ + (z⁺/p⁺ − z⁻/p⁻) Δc)
 // Row 1 follows row 0 and is not followed by it: ds/dx of the two is not symmetric.
+// Where that leads nowhere, row 0 is led by the slip of row 1, too, as if what slides by z = z⁺ + z⁻ were to
+// part by μz; and less what parts so by a slip z₀ that is given:
+//   y₀ = J v + b − s₀/G − (what row 0 slips by) − μ (z⁺ + z⁻ − z₀)
+// For z₀ = z⁺ + z⁻ that is Coulomb's law (De Saxcé and Feng 1998), and for any z₀ that stays a convex
+// problem, in which friction is within its caps. D is then the inverse of
+//   C = diag(1/D₀, 1/D₁ of the row alone) + μ (μ w⁺ + μ w⁻, w⁺ − w⁻; w⁺ − w⁻, 0)      w = z/(p + ηz)
+// whose determinant and whose adjugate times a bound's (μ, ±1) are sums of positive terms.
 // Both caps of a row are one Pair. A cap that is infinite has z = 0, p = `far` and no μ: it takes part in
 // nothing, without being asked for. In D, 1/G is at least least_compliance().
 #pragma once
@@ -14,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "interior_round.h"
 #include "pair.h"
@@ -27,6 +35,7 @@ class CappedRows {
   void enter(const Joint& joint, const JointRecord& record, const Rows& s, const Rows& m_eff, double inside,
              double energy) {
     friction_ = 0;
+    parts_ = false;
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       r = {};
@@ -87,9 +96,15 @@ class CappedRows {
   }
   /// They stay what they are.
   void stop_following() { friction_ = 0; }
-  /// After eliminate(): ds₁/dx₀.
+  /// They go on to follow, and what slides parts, but for what it slides by now.
+  void part() {
+    parts_ = friction_ > 0;
+    slip_ = std::abs(rows_[1].z[0] - rows_[1].z[1]);
+  }
+  /// After eliminate(): ds₁/dx₀, where that is not ds₀/dx₁.
   double follows() const {
     const Row& r = rows_[1];
+    if (parts_) return 0;
     return -friction_ * r.D * (r.weight[0] - r.weight[1]) * rows_[0].D;
   }
 
@@ -100,7 +115,7 @@ class CappedRows {
       const Pair products = r.z * r.p;
       d.products += products[0] + products[1];
       if (r.G == 0) continue;
-      r.lack = x[i] - r.s * r.compliance - (r.z[0] - r.z[1]);
+      r.lack = x[i] - r.s * r.compliance - (r.z[0] - r.z[1]) - (i == 0 ? parting() : 0);
       d.lack += r.G * r.lack * r.lack / 2;
       d.rounding += r.last_bits * r.s * r.s;
     }
@@ -113,6 +128,7 @@ class CappedRows {
       r.weight = r.z / (r.p + r.hardening * r.z);
       r.D = 1 / (r.give + (r.weight[0] + r.weight[1]));
     }
+    if (parts_) return eliminate_both();
     return {.nn = rows_[0].D, .qq = rows_[1].D, .mm = rows_[2].D};
   }
 
@@ -126,12 +142,14 @@ class CappedRows {
       const double leads = i == 1 ? -friction_ * ds[0] : 0;
       ds[i] = r.D * (r.lack + (r.aim[0] - r.aim[1]) + leads * (r.weight[0] - r.weight[1]));
     }
+    if (parts_) std::tie(ds[0], ds[1]) = answer(asked(0, 0));
     return ds;
   }
 
   /// The direction, where the rows' velocities change by so much.
   void direct(const Rows& change, Direction& direction) {
-    for (unsigned i = 0; i < 3; ++i) {
+    if (parts_) direct_both(change, direction);
+    for (unsigned i = parts_ ? 2 : 0; i < 3; ++i) {
       Row& r = rows_[i];
       const double leads = i == 1 ? -friction_ * rows_[0].ds : 0;
       // Δs less what its cap changes by, solved for: as a difference its last bits, times z/p, would be slip.
@@ -158,7 +176,7 @@ class CappedRows {
     unsigned regime = 0;
     for (unsigned i = 0; i < 3; ++i) {
       const Row& r = rows_[i];
-      if (r.z[0] * r.G > r.p[0]) regime |= 1u << i;
+      if ((r.z[0] + (i == 0 ? parting() : 0)) * r.G > r.p[0]) regime |= 1u << i;
       if (r.z[1] * r.G > r.p[1]) regime |= 8u << i;
     }
     return regime;
@@ -166,6 +184,50 @@ class CappedRows {
 
  private:
   static constexpr double far = 1e300;
+  using Two = std::tuple<double, double>;
+
+  double parting() const { return parts_ ? friction_ * (rows_[1].z[0] + rows_[1].z[1] - slip_) : 0; }
+  Coupling eliminate_both() {
+    const Row &n = rows_[0], &t = rows_[1];
+    const double mu = friction_, first = n.give + (n.weight[0] + n.weight[1]);
+    const double both = t.weight[0] + t.weight[1];
+    const double determinant =
+        first * (t.give + both) + mu * mu * (t.give * both + 4 * t.weight[0] * t.weight[1]);
+    D_ = {.nn = (t.give + both) / determinant,
+          .qq = (first + mu * mu * both) / determinant,
+          .mm = rows_[2].D,
+          .nq = -mu * (t.weight[0] - t.weight[1]) / determinant};
+    for (int side : {0, 1}) {
+      const double other = t.weight[1 - side];
+      along_n_[side] = mu * (t.give + 2 * other) / determinant;
+      along_t_[side] = (side == 0 ? 1 : -1) * (first + 2 * mu * mu * other) / determinant;
+    }
+    return D_;
+  }
+  // What rows 0 and 1 have to answer, where their velocities change by so much.
+  Two asked(double change_n, double change_t) const {
+    const Row &n = rows_[0], &t = rows_[1];
+    return {n.lack + change_n + (n.aim[0] - n.aim[1]) + friction_ * (t.aim[0] + t.aim[1]),
+            t.lack + change_t + (t.aim[0] - t.aim[1])};
+  }
+  Two answer(const Two& y) const {
+    const auto [n, t] = y;
+    return {D_.nn * n + D_.nq * t, D_.nq * n + D_.qq * t};
+  }
+  void direct_both(const Rows& change, Direction& direction) {
+    Row &n = rows_[0], &t = rows_[1];
+    const Two y = asked(change[0], change[1]);
+    std::tie(n.ds, t.ds) = answer(y);
+    // By what both bounds of friction come nearer: as differences their last bits, times z/p, would be slip.
+    const Pair along_n{n.ds, -n.ds}, along_t = std::get<0>(y) * along_n_ + std::get<1>(y) * along_t_;
+    n.dz = n.weight * along_n - n.aim;
+    n.dp = n.hardening * n.dz - along_n;
+    t.dz = t.weight * along_t - t.aim;
+    t.dp = t.hardening * t.dz - along_t;
+    for (const Row* r : {&n, &t})
+      for (int side : {0, 1}) direction.see(r->p[side], r->z[side], r->dp[side], r->dz[side]);
+  }
+
   struct Row {
     Pair p{far, far}, z{}, dp{}, dz{};
     Pair weight{}, aim{};  // z/(p + ηz) and τ
@@ -177,7 +239,11 @@ class CappedRows {
     double last_bits = 0;  // times s²: what rounding of s makes of the gap
   };
   std::array<Row, 3> rows_;
-  double friction_ = 0;  // μ, where row 1 follows row 0
+  double friction_ = 0;         // μ, where row 1 follows row 0
+  bool parts_ = false;          // where row 0 follows row 1, too
+  double slip_ = 0;             // but for this slip
+  Coupling D_;                  // of both
+  Pair along_n_{}, along_t_{};  // bound by bound (μ, ±1) C⁻¹
 };
 
 }  // namespace ductile::dynamics

@@ -285,7 +285,13 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
   int short_steps = 0;                                // one after the other
   double last_lack = infinity;
   const double first_scale = scale;
+  int slip_rounds = 0;  // in which what slides parts, but for its slip in the same round
   for (int round = 0, idle = 0, careful = 0;; ++round) {
+    if (slip_rounds > 0) {
+      slip_rounds = earlier[1] > tunables.slip_goal * scale ? slip_rounds - 1 : 0;
+      each_friction(system, [this](std::size_t k, double) { caps_[k].part(); });
+      outcome.gap = infinity;
+    }
     const Distance now = measure(system);
     // Rounding is what gains nothing any more where lack is all that there is left.
     idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
@@ -301,15 +307,21 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     }
     if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
-    // Friction that follows is factored without pivoting between bodies. A step along a good direction
-    // shortens what is lacking; where it does not, or is short, caps stay, if they are of any use.
+    // Friction that follows is factored without pivoting between bodies: at the end caps stay. A step along a
+    // good direction shortens what is lacking. Where it does not, or is short, or two rounds have gained
+    // nothing, there is no way on to where Coulomb's law holds, and caps that stayed would be those of other
+    // normal impulses than the ones that are found with them: what slides parts from then on. Far from
+    // compatible one short step, or what is gained, tells nothing yet.
     const bool stands = now.products > 0.8 * earlier[0];
-    if (follows && (now.gap() <= tunables.friction_goal * scale || short_steps == 2 ||
-                    (stands && now.gap() <= tunables.tolerance * scale) ||
-                    now.lack > 4 * last_lack + tunables.tolerance * scale)) {
+    const bool ends =
+        now.gap() <= tunables.friction_goal * scale || (stands && now.gap() <= tunables.tolerance * scale);
+    const bool halts = now.lack < now.products ? stands || short_steps > 0 : short_steps == 2;
+    if (follows && (ends || halts || now.lack > 4 * last_lack + tunables.tolerance * scale)) {
       if (scale > 10 * first_scale) return false;
       follows = false;
-      each_friction(system, [this](std::size_t k, double) { caps_[k].stop_following(); });
+      slip_rounds = ends ? 0 : tunables.slip_rounds;
+      each_friction(system,
+                    [&](std::size_t k, double) { ends ? caps_[k].stop_following() : caps_[k].part(); });
       outcome.gap = infinity;
       idle = 0;
     }

@@ -24,7 +24,12 @@ struct InteriorPointTunables {
   /// Likewise: the gap from which caps of friction stay what they are. They are known well by then, and what
   /// is left is symmetric, and so more accurate.
   double friction_goal = 1e-15;
-  /// Likewise: the gap that will do, where rounding does not let it become less.
+  /// Likewise, Σ z p, where following leads nowhere: until then what slides parts less its slip of the same
+  /// round. Velocities are known to a thousandth of themselves by then, and what parts does so by no more.
+  double slip_goal = 1e-6;
+  /// As long as that takes no more rounds than these.
+  int slip_rounds = 30;
+  /// Of |v − v*|²_M + |v|²_M: the gap that will do, where rounding does not let it become less.
   double tolerance = 1e-12;
   /// Share of the bounds that the impulses of the last step are drawn within: further out, the first rounds
   /// go but small steps.

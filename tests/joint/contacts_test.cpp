@@ -937,6 +937,58 @@ TEST(ContactCost, APileTakesAFewRoundsAPush) {
   EXPECT_EQ(counts.bounds_hit, 0);
 }
 
+// Beams of eight pieces that fall onto each other. Friction of so many contacts that press on each other is
+// found by one solve, and not by eight that end no nearer to it than the first; blows are solved in parts.
+TEST(ContactCost, APileOfBeamsTakesOneSolveAStep) {
+  b2World world({0, -9.81f});
+  Structure structure(world);
+  add_box(world,
+          {.x = 0, .y = -1, .width = 80, .height = 2, .type = b2_staticBody, .group = 0, .friction = 0.5});
+  constexpr double height = 0.2, area = height * height, E = 210e9, fy = 235e6;
+  for (int r = 0; r < 9; ++r) {
+    const b2Vec2 from(static_cast<float>(0.3 * (r % 3) - 3), static_cast<float>(1 + 0.6 * r));
+    b2Vec2 axis(6, static_cast<float>(0.3 * (r % 2)));
+    const double length = double{axis.Normalize()} / 8;
+    b2Body* last = nullptr;
+    for (int i = 0; i < 8; ++i) {
+      const b2Vec2 at = from + static_cast<float>((i + 0.5) * length) * axis;
+      b2Body* piece = add_box(world, {.x = at.x,
+                                      .y = at.y,
+                                      .width = length,
+                                      .height = height,
+                                      .mass = 7850 * height * length,
+                                      .angle = std::atan2(axis.y, axis.x),
+                                      .group = 0,
+                                      .friction = 0.5});
+      if (last != nullptr) {
+        ElasticPlasticJointDef def;
+        def.Initialize(last, piece, from + static_cast<float>(i * length) * axis, axis);
+        const double N = fy * area, M = fy * height * area / 4;
+        def.rows[axial] = {.stiffness = E * area / length, .damping_ratio = 0.05, .cap = N, .cap_reverse = N};
+        def.rows[shear] = {.cap = N / std::sqrt(3.), .cap_reverse = N / std::sqrt(3.)};
+        def.rows[rotation] = {
+            .stiffness = E * area * area / 12 / length, .damping_ratio = 0.05, .cap = M, .cap_reverse = M};
+        structure.create_joint(def);
+      }
+      last = piece;
+    }
+  }
+  int most = 0, touching = 0;
+  for (int i = 0; i < 300; ++i) {
+    world.Step(static_cast<float>(dt), 8, 3);
+    const StepReport report = structure.report();
+    structure.update();
+    EXPECT_EQ(report.bounds_hit, 0);
+    if (report.divided == 0) most = std::max(most, report.factorisations);
+    int now = 0;
+    for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext())
+      now += c->IsTouching() ? 1 : 0;
+    touching = std::max(touching, now);
+  }
+  EXPECT_GT(touching, 100);
+  EXPECT_LE(most, 150);
+}
+
 // A load that rests lets the structure sleep, and is woken with it.
 TEST(Contacts, Sleep) {
   Beam beam(light);
