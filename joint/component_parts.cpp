@@ -27,6 +27,7 @@ constexpr double part = 1 / 1920.0;           // s
 constexpr double blow_time = 0.05;            // s that waves are followed for
 constexpr double strained = 0.25;             // of a capacity
 constexpr double most_turn_of_normals = 0.5;  // rad in a step
+constexpr double most_turn_of_whole = 0.05;   // likewise
 
 // A step of 32 parts takes some 8 ms where something strikes a frame of 160 joints, and 45 ms where 158
 // bodies jam among 13 that they touch. So a pair that touches costs as much as eight bodies do, and the sum
@@ -325,7 +326,8 @@ void Component::end_parts(const b2SolverData& data) {
 // v h/2 short. What rings within the step is lost then. But the angular momentum of what hung together in the
 // step, and nothing held, is that of the parts' last velocities where bodies are now; the means belong to
 // other places. So all of it turns as one about its centre of mass by what they miss: its momentum stays, and
-// no other motion that gives it back takes less energy. Returns what is lost, J.
+// no other motion that gives it back takes less energy. But chords of what turns far are so much shorter than
+// its way that this would be a spin of another kind. Returns what is lost, J.
 double Component::go_on_with_means() {
   write_contacts(solver);  // which pressed in some part
   find_wholes(solver);
@@ -343,7 +345,9 @@ double Component::go_on_with_means() {
     const Pose& at = solver.places[i].pose;
     const Whole& whole = whole_of(solver, static_cast<int>(i));
     Vec3& v = mirrors[i].exact;
-    if (!whole.held) v += whole.moment / whole.inertia * Vec3{whole.y - at.y, at.x - whole.x, 1};
+    const double turn = whole.held ? 0 : whole.moment / whole.inertia;
+    if (std::abs(turn) * parts_.count * solver.step() < most_turn_of_whole)
+      v += turn * Vec3{whole.y - at.y, at.x - whole.x, 1};
     lost -= dot(momentum(solver.bodies[i], v), v) / 2;
   }
   return lost;

@@ -1,9 +1,9 @@
 // First touch: bodies that are fast reach far into a piece, or through it, before there is a contact,
 // and the manifold of so deep a touch has a normal of its own. So after each step a guest that met a piece on
 // its way is put back to where it did, and the next step finds a contact as it should be. What has not gone
-// straight on, as it touched something else or hangs on other bodies, goes out of the piece along the normal
-// with which they met. Where both are free to move, their centre of mass stays: a way that only one has would
-// change angular momentum by its cross product with that one's momentum.
+// straight on, as it was struck in a part of the step or hangs on other bodies, goes out of the piece along
+// the normal with which they met. Where both are free to move, their centre of mass stays: a way that only
+// one has would change angular momentum by its cross product with that one's momentum.
 //
 // Box2D does so for bullets, but then lets the two meet alone, the piece without its structure. So a bullet
 // that is near a piece is none while the world steps. One that came near in the step, as it was made or set
@@ -450,8 +450,9 @@ void Island::meet_guests(b2World& in) {
       if (body.IsBullet()) piece.SetAwake(true);
       const Way way = way_to(contact, piece, body, seen);
       if (!(way.share < 1)) return;
-      // What hangs together turns as it swings, and what touches something has not gone straight on.
-      const bool straight = alone || (guest && !is_touching(body));
+      // What hangs together turns as it swings, and what touched something in parts of a step has not gone
+      // straight on.
+      const bool straight = alone || (guest && !(c->advanced() && is_touching(body)));
       b2Transform there;
       seen.GetTransform(&there, way.share);
       if (!straight || has_room(in, body, there)) {
