@@ -245,7 +245,7 @@ struct Component {
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
   void begin_parts();
-  void carry_arms(double h);
+  void carry_arms();
   void solve_part(double h, bool first, bool blow);
   void end_parts(const b2SolverData& data);
   double go_on_with_means();

@@ -201,19 +201,13 @@ void Component::begin_parts() {
   }
 }
 
-// A contact's two impulses act at one point, or friction would take angular momentum as bodies slide. It goes
-// with the corner or the circle that touches the other's face, and turns with corners.
-void Component::carry_arms(double h) {
+// A contact's two impulses act at one point, or friction would take angular momentum as bodies slide: it goes
+// with the corner or the circle that touches the other's face.
+void Component::carry_arms() {
   each_point([&](std::size_t, const Touch& t, PointConstraint& p) {
-    const auto turn = [&](b2Vec2& arm, const b2Fixture& of, int body) {
-      if (of.GetType() == b2Shape::e_circle) return;
-      arm = b2Mul(b2Rot(static_cast<float>(h * mirrors[z(body)].exact.w)), arm);
-    };
-    const b2Manifold::Type type = t.contact->GetManifold()->type;
-    if (type == b2Manifold::e_faceA) turn(p.rb, *t.contact->GetFixtureB(), t.in_b);
-    if (type == b2Manifold::e_faceB) turn(p.ra, *t.contact->GetFixtureA(), t.in_a);
     const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
     const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
+    const b2Manifold::Type type = t.contact->GetManifold()->type;
     const float share = type == b2Manifold::e_faceA ? 1.0f : type == b2Manifold::e_faceB ? 0.0f : 0.5f;
     p.ra += share * apart;
     p.rb -= (1 - share) * apart;
@@ -237,7 +231,7 @@ void Component::solve_part(double h, bool first, bool blow) {
   }
   solver.begin(h);
   if (!first) {
-    carry_arms(h);
+    carry_arms();
     read_touches();
     for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
       Contact& c = outside_.contacts[k];
