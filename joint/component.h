@@ -178,8 +178,8 @@ struct Component {
   int index_of(const b2Body* body) const;
   /// Whether a guest is a piece of another component: one that was of this one, and broke off.
   bool is_of_another(int body) const;
-  /// Whether what does not give holds one of its pieces.
-  bool is_anchored() const;
+  /// Whether joints of its own hold it to something that does not move freely.
+  bool is_held() const;
   /// Between steps one of its pieces was moved with all that hangs on it (first_touch.cpp).
   void shift(const b2Body& piece, const b2Vec2& way);
   /// Whether these bodies are its own or guests, and something between them may be a row.
@@ -230,6 +230,7 @@ struct Component {
   void enter_ties(int parts = 1);
   void return_contacts();
   void return_ties();
+  bool is_anchored() const;
   void solve(const b2SolverData& data);
   void solve_direct();
   void move();

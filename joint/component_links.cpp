@@ -72,15 +72,18 @@ void Component::return_ties() {
   }
 }
 
+bool Component::is_held() const {
+  return std::any_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
+                     [](const Mirror& m) { return !m.guest(); });
+}
+
+// Whether what does not give holds a body of the structure.
 bool Component::is_anchored() const {
   const auto anchors = [this](const StockJoint& t) {
     return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&
            !(mirrors[z(t.in_a)].guest() && mirrors[z(t.in_b)].guest()) && t.joint->GetType() != e_mouseJoint;
   };
-  const auto joined = [](const Mirror& m) { return !m.guest(); };
-  return std::any_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
-                     joined) ||
-         std::any_of(outside_.ties.begin(), outside_.ties.end(), anchors);
+  return is_held() || std::any_of(outside_.ties.begin(), outside_.ties.end(), anchors);
 }
 
 }  // namespace ductile::dynamics

@@ -378,7 +378,7 @@ void move_apart(const b2World& world, std::vector<std::unique_ptr<Group>>& group
 void share_way(const b2World& world, std::vector<std::unique_ptr<Group>>& groups, b2Body& guest,
                b2Body& piece, const b2Vec2& way) {
   const Component* component = Member::component_of(piece);
-  if (component == nullptr || component->is_anchored()) return;
+  if (component == nullptr || component->is_held()) return;
   const Group &one = group_of(guest, groups), &other = group_of(piece, groups);
   const b2Vec2 on = (share_of_way(one, other) - 1) * way;
   if (on.LengthSquared() == 0 || one.is_held || one.bodies.size() > 1 || !one.has_room(world, on) ||
