@@ -34,6 +34,25 @@ constexpr double most_turn_of_whole = 0.05;   // likewise
 // over all that a structure solves in parts in one step is bounded; the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
+// A gap that no step closes, m.
+constexpr double out_of_reach = 4 * b2_maxTranslation;
+
+// Whether a point, from the centre of mass of a body that is turned so far, is beyond the end of a polygon's
+// face with this normal.
+bool is_beside(const b2Fixture& fixture, const b2Vec2& normal, const b2Vec2& arm, double angle) {
+  if (fixture.GetType() != b2Shape::e_polygon) return false;
+  const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
+  const b2Vec2 along = b2Cross(normal, 1.0f);
+  float first = b2_maxFloat, last = -b2_maxFloat;
+  for (int32 i = 0; i < polygon.m_count; ++i) {
+    first = std::min(first, b2Dot(along, polygon.m_vertices[i]));
+    last = std::max(last, b2Dot(along, polygon.m_vertices[i]));
+  }
+  const b2Vec2 point = b2MulT(b2Rot(static_cast<float>(angle)), arm) + fixture.GetBody()->GetLocalCenter();
+  const float at = b2Dot(along, point), skin = polygon.m_radius;
+  return at < first - skin || at > last + skin;
+}
+
 // N/m or N m/rad: of a rigid row, what a part resolves.
 double resolved_stiffness(const JointRecord& r, unsigned i) {
   return is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i];
@@ -202,15 +221,19 @@ void Component::begin_parts() {
 }
 
 // A contact's two impulses act at one point, or friction would take angular momentum as bodies slide: it goes
-// with the corner or the circle that touches the other's face.
+// with the corner or the circle that touches the other's face. What has slid off that touches no more.
 void Component::carry_arms() {
-  each_point([&](std::size_t, const Touch& t, PointConstraint& p) {
+  each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
     const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
-    const b2Manifold::Type type = t.contact->GetManifold()->type;
-    const float share = type == b2Manifold::e_faceA ? 1.0f : type == b2Manifold::e_faceB ? 0.0f : 0.5f;
+    const b2Manifold& manifold = *t.contact->GetManifold();
+    const bool on_a = manifold.type == b2Manifold::e_faceA, on_b = manifold.type == b2Manifold::e_faceB;
+    const float share = on_a ? 1.0f : on_b ? 0.0f : 0.5f;
     p.ra += share * apart;
     p.rb -= (1 - share) * apart;
+    if ((on_a && is_beside(*t.contact->GetFixtureA(), manifold.localNormal, p.ra, a.angle)) ||
+        (on_b && is_beside(*t.contact->GetFixtureB(), manifold.localNormal, p.rb, b.angle)))
+      parts_.sums[k].gap = out_of_reach;
   });
 }
 
