@@ -34,8 +34,8 @@ constexpr double most_turn_of_whole = 0.05;   // likewise
 // over all that a structure solves in parts in one step is bounded; the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
-// A gap that no step closes, m.
-constexpr double out_of_reach = 4 * b2_maxTranslation;
+// A gap so wide, m.
+constexpr double no_step_closes = 4 * b2_maxTranslation;
 
 // Whether a point, from the centre of mass of a body that is turned so far, is beyond the end of a polygon's
 // face with this normal.
@@ -233,7 +233,7 @@ void Component::carry_arms() {
     p.rb -= (1 - share) * apart;
     if ((on_a && is_beside(*t.contact->GetFixtureA(), manifold.localNormal, p.ra, a.angle)) ||
         (on_b && is_beside(*t.contact->GetFixtureB(), manifold.localNormal, p.rb, b.angle)))
-      parts_.sums[k].gap = out_of_reach;
+      parts_.sums[k].gap = no_step_closes;
   });
 }
 
