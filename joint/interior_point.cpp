@@ -285,6 +285,7 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
   int short_steps = 0;                                // one after the other
   double last_lack = infinity;
   const double first_scale = scale;
+  double rounding = 0;  // where the gap was least
   int slip_rounds = 0;  // in which what slides parts, but for its slip in the same round
   for (int round = 0, idle = 0, careful = 0;; ++round) {
     if (slip_rounds > 0) {
@@ -297,6 +298,7 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
     if (now.gap() < outcome.gap) {
       outcome.gap = now.gap();
+      rounding = now.rounding;
       goal_gap = tunables.goal * scale + now.rounding;
       outcome.tolerance = tunables.tolerance * scale + now.rounding;
       best_ = impulses_;
@@ -355,6 +357,8 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     move(step);
     scale = balance(system);
   }
+  // What all rounds have left may be a few times as much as rounding was thought to make.
+  outcome.tolerance += 7 * rounding;
   return outcome.gap <= outcome.tolerance;
 }
 
