@@ -114,4 +114,12 @@ void settle(VelocityConstraint& c) {
   }
 }
 
+void silence(const Touch& t) {
+  for (int32 k = 0; k < t.velocity->count; ++k)
+    t.velocity->points[k].normal_impulse = t.velocity->points[k].tangent_impulse = 0;
+  settle(*t.velocity);
+  hold_a(*t.position);
+  hold_b(*t.position);
+}
+
 }  // namespace ductile::dynamics

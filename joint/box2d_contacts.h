@@ -76,7 +76,7 @@ class IslandContacts {
   /// Whether what holds the body was looked for: `follow` was called.
   bool is_followed(const b2Body& body) const;
   std::span<const Touch> touches() const { return touches_; }
-  /// Of those, such as choose() left out as their bodies share a neighbour.
+  /// Those that choose() left out, as their bodies share a neighbour.
   std::span<const Touch> corners() const { return corners_; }
   void clear() {
     touches_.clear();
@@ -114,6 +114,9 @@ void settle(VelocityConstraint& constraint);
 /// The island's body moves by no contact in the iterations of positions.
 inline void hold_a(PositionConstraint& p) { p.inverse_mass_a = p.inverse_inertia_a = 0; }
 inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia_b = 0; }
+
+/// The contact presses nothing in this step.
+void silence(const Touch& touch);
 
 template <class Follow>
 void IslandContacts::follow_front(const Follow& follow) {

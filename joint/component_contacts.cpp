@@ -70,13 +70,8 @@ void Component::set_warm_starts_aside() {
 void Component::silence_corners() {
   for (const Touch& t : outside_.corners) {
     set_warm_start_aside(t);
-    VelocityConstraint& v = *t.velocity;
-    for (int32 k = 0; k < v.count; ++k) v.points[k].normal_impulse = v.points[k].tangent_impulse = 0;
-    settle(v);
-    hold_a(*t.position);
-    hold_b(*t.position);
+    silence(t);
   }
-  coupling_ = Coupling::whole;
 }
 
 void Component::enter_contacts() {
@@ -172,20 +167,19 @@ void Component::read_touches() {
 // Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
 // be brought back.
 void Component::return_contacts() {
-  static const Contact nothing;
   const bool anchored = is_anchored();
   auto row = solver.contacts.begin();
   for (const Touch& t : outside_.touches) {
+    if (t.at_seam) {
+      silence(t);
+      continue;
+    }
     for (int32 k = 0; k < t.velocity->count; ++k) {
-      const Contact& c = t.at_seam ? nothing : *row++;
+      const Contact& c = *row++;
       t.velocity->points[k].normal_impulse = static_cast<float>(c.normal);
       t.velocity->points[k].tangent_impulse = static_cast<float>(c.tangent);
     }
     settle(*t.velocity);
-    if (t.at_seam) {
-      hold_a(*t.position);
-      hold_b(*t.position);
-    }
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const auto yields = [](const Mirror& m) { return m.guest() && m.type == b2_dynamicBody; };
     if (anchored && !a.guest() && yields(b)) hold_a(*t.position);

@@ -27,14 +27,14 @@ constexpr double part = 1 / 1920.0;           // s
 constexpr double blow_time = 0.05;            // s that waves are followed for
 constexpr double strained = 0.25;             // of a capacity
 constexpr double most_turn_of_normals = 0.5;  // rad in a step
-constexpr double most_turn_of_whole = 0.05;   // likewise
+constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given back where parts end
 
 // A step of 32 parts takes some 8 ms where something strikes a frame of 160 joints, and 45 ms where 158
 // bodies jam among 13 that they touch. So a pair that touches costs as much as eight bodies do, and the sum
 // over all that a structure solves in parts in one step is bounded; the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
-// A gap so wide, m.
+// The gap of what touches no more, which no step closes, m.
 constexpr double no_step_closes = 4 * b2_maxTranslation;
 
 // Whether a point, from the centre of mass of a body that is turned so far, is beyond the end of a polygon's
@@ -70,6 +70,7 @@ bool Component::may_divide(const b2SolverData& data) const {
   const auto has_room = [this](const Structure::Impl* s) {
     return s->reports.in_parts + cost_of_parts() <= most_in_parts;
   };
+  // A distance joint has no rows where its two anchors are one.
   const auto has_rows = [](const StockJoint& t) { return t.rows.count > 0; };
   return coupling_ != Coupling::partly && std::all_of(outside_.ties.begin(), outside_.ties.end(), has_rows) &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
@@ -181,6 +182,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
     solver.divide(parts_.count = count);
   }
   silence_corners();
+  coupling_ = Coupling::whole;
   begin_parts();
   for (int k = 0; k < count; ++k) {
     solve_part(h, k == 0, blow);
@@ -264,9 +266,9 @@ void Component::solve_part(double h, bool first, bool blow) {
     }
   }
   enter_ties(parts_.count);
-  for (std::size_t k = 0; k < outside_.links.size() && !first && outside_.links.size() == solver.links.size();
-       ++k)
-    outside_.links[k].impulse = solver.links[k].impulse;
+  if (!first && outside_.links.size() == solver.links.size()) {
+    for (std::size_t k = 0; k < solver.links.size(); ++k) outside_.links[k].impulse = solver.links[k].impulse;
+  }
   solver.touch(outside_.links, outside_.contacts);
   if (first && blow) {
     solver.strike(closing());
@@ -343,8 +345,9 @@ void Component::end_parts(const b2SolverData& data) {
 // v h/2 short. What rings within the step is lost then. But the angular momentum of what hung together in the
 // step, and nothing held, is that of the parts' last velocities where bodies are now; the means belong to
 // other places. So all of it turns as one about its centre of mass by what they miss: its momentum stays, and
-// no other motion that gives it back takes less energy. But chords of what turns far are so much shorter than
-// its way that this would be a spin of another kind. Returns what is lost, J.
+// no other motion that gives it back takes less energy. What turns far is left with the means: their chords
+// are so much shorter than its way that what they miss would be a spin of another kind. Returns what is lost,
+// J.
 double Component::go_on_with_means() {
   write_contacts(solver);  // which pressed in some part
   find_wholes(solver);

@@ -54,26 +54,24 @@ bool Component::look(const b2SolverData& data) {
 }
 
 // Whether all that touches or holds its bodies is solved with it, but for corners: then nothing else changes
-// their velocities after the solve. A stock joint has no rows where its two anchors are one.
+// their velocities after the solve. Bodies count contacts and joints from both sides.
 bool Component::is_whole() const {
   if (!direct()) return false;
-  std::size_t sides = 0;  // of contacts, less those of the touches
-  int joints = 0;         // likewise, of joints
+  int contacts = 0, joints = 0;
   for (const Mirror& m : mirrors) {
     if (!m.present || m.type != b2_dynamicBody) continue;
     if (m.body->GetJointList() != m.joints) joints += joints_in_island(*m.body) - m.joined;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
-      sides += pushes(*e->contact) ? 1 : 0;
+      contacts += pushes(*e->contact) ? 1 : 0;
   }
-  const auto less = [&](const Vector<Touch>& touches) {
-    for (const Touch& t : touches)
-      for (const int body : {t.in_a, t.in_b}) sides -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
+  const auto sides_of = [this](const auto& all) {
+    int sides = 0;
+    for (const auto& t : all)
+      for (const int body : {t.in_a, t.in_b}) sides += mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
+    return sides;
   };
-  less(outside_.touches);
-  less(outside_.corners);
-  for (const StockJoint& t : outside_.ties)
-    for (const int body : {t.in_a, t.in_b}) joints -= mirrors[z(body)].type == b2_dynamicBody ? 1 : 0;
-  return sides == 0 && joints == 0;
+  return contacts == sides_of(outside_.touches) + sides_of(outside_.corners) &&
+         joints == sides_of(outside_.ties);
 }
 
 void Component::disturb() {

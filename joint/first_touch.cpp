@@ -322,13 +322,13 @@ bool is_touching(const b2Body& body) {
 }
 
 void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
-  float whole = 0, weight = 0;
+  float weight = 0;
   b2Vec2 momentum(0, 0);
   for (const b2Body* b : bodies) {
-    whole += b->GetMass();
     weight += b->GetMass() * b->GetGravityScale();
     momentum += b->GetMass() * b->GetLinearVelocity();
   }
+  const float whole = mass();
   const b2Vec2 slower = price(1 / whole * momentum, way, weight / whole * gravity);
   for (b2Body* b : bodies) {
     b->SetTransform(b->GetPosition() + way, of(*b, b2Body_m_sweep{}).a);
@@ -337,16 +337,18 @@ void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
   }
 }
 
-// Of a step: each is looked for once.
-const Group& group_of(b2Body& body, std::vector<std::unique_ptr<Group>>& groups) {
+using Groups = std::vector<std::unique_ptr<Group>>;
+
+// Each of a step is looked for once.
+const Group& group_of(b2Body& body, Groups& groups) {
   for (const auto& g : groups)
     if (g->has(&body)) return *g;
   return *groups.emplace_back(std::make_unique<Group>(body));
 }
 
 // Two groups that overlap where a body met a piece go apart along the normal there.
-void move_apart(const b2World& world, std::vector<std::unique_ptr<Group>>& groups, b2Body& body,
-                b2Body& piece, const b2Contact& contact, const b2Sweep& motion, const b2Vec2& normal) {
+void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piece, const b2Contact& contact,
+                const b2Sweep& motion, const b2Vec2& normal) {
   const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
                      contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
   const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
@@ -375,8 +377,7 @@ void move_apart(const b2World& world, std::vector<std::unique_ptr<Group>>& group
 
 // A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
 // is where it was.
-void share_way(const b2World& world, std::vector<std::unique_ptr<Group>>& groups, b2Body& guest,
-               b2Body& piece, const b2Vec2& way) {
+void share_way(const b2World& world, Groups& groups, b2Body& guest, b2Body& piece, const b2Vec2& way) {
   const Component* component = Member::component_of(piece);
   if (component == nullptr || component->is_held()) return;
   const Group &one = group_of(guest, groups), &other = group_of(piece, groups);
@@ -402,6 +403,10 @@ void Component::shift(const b2Body& body, const b2Vec2& way) {
 // Of all bullets that met pieces alone. Of several that met the same piece the first has it all.
 std::vector<Alone> undo_impacts_alone(std::span<const Pool::Owned<Component>> components, const b2World& in) {
   std::vector<Alone> all;
+  const b2Contact* met_in_a_sub_step = in.GetContactList();
+  while (met_in_a_sub_step != nullptr && of(*met_in_a_sub_step, b2Contact_m_toiCount{}) == 0)
+    met_in_a_sub_step = met_in_a_sub_step->GetNext();
+  if (met_in_a_sub_step == nullptr) return all;
   std::vector<const Mirror*> met;
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
@@ -468,7 +473,7 @@ void Island::meet_guests(b2World& in) {
     if (std::none_of(meetings.begin(), meetings.end(), meets))
       put_back(*a.guest, of(*a.guest, b2Body_m_sweep{}), a.share, in.GetGravity());
   }
-  std::vector<std::unique_ptr<Group>> groups;
+  Groups groups;
   // The first of what it met.
   for (const Meeting& m : meetings) {
     const auto earlier = [&m](const Meeting& o) {

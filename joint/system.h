@@ -120,7 +120,7 @@ struct Whole {
   double x = 0, y = 0;  // of the centre of mass, m
   double inertia = 0;   // about it, kg m²; 0 of what is held
   double spin = 0;      // rad/s; 0 of what is held
-  double moment = 0;    // N m s: that return_moments() gives it
+  double moment = 0;    // N m s: that it is owed
 };
 
 template <>

@@ -87,6 +87,7 @@ struct Beam {
       rounds += structure.report().rounds;
       factorisations += structure.report().factorisations;
       bounds_hit += structure.report().bounds_hit;
+      divided += structure.report().divided;
       structure.update();
     }
   }
@@ -104,7 +105,7 @@ struct Beam {
   b2Body* wall;
   std::vector<b2Body*> pieces;
   std::vector<ElasticPlasticJoint*> joints;
-  int rounds = 0, factorisations = 0, bounds_hit = 0;
+  int rounds = 0, factorisations = 0, bounds_hit = 0, divided = 0;
 };
 
 /// Both have moved alike, and bear the same: to what another order of elimination rounds.
