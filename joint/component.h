@@ -217,6 +217,7 @@ struct Component {
   bool is_blow() const;
   double closing() const;
   static float closing_speed(const Touch& touch, const PointConstraint& at);
+  static double opening(const Touch& touch, int32 point, double h);
   bool parts(const Joint& joint) const;
   /// By what velocities must change at once for a blow, m/s.
   static constexpr float blow_speed = 0.1f;
