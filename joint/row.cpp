@@ -16,7 +16,7 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
   RowLaw law;
   law.surface = material.surface;
   law.h = h;
-  double shared = 0;  // δ of all rows that share a yield surface, but of the implicit ones
+  double shared = 0;  // δ of the dampers of all rows that share a yield surface, but of the implicit ones
   const auto special = [&](unsigned i) { return material.may_slacken(i) || material.is_driven(i); };
   for (unsigned i = 0; i < 3; ++i) {
     const double limit = rigid_ratio * m_eff[i];
@@ -24,29 +24,30 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
         (material.cap[i] <= 0 && material.cap_reverse[i] <= 0))
       continue;
     double k = material.stiffness[i], c = 0, delta = 1;
+    const double least = i < 2 ? how.delta : how.delta_rotation;
     if (h * h * k < how.rigid_from * m_eff[i]) {
       c = 2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]) + material.damping[i];
-      // Beside implicit Euler, the damper is one of its own.
-      const double least = i < 2 ? how.delta : how.delta_rotation;
-      delta = least < 1 ? std::max(least, c / (k * h)) : 1 + c / (k * h);
+      double of_damper = c / (k * h);
       // Where bodies turn, J of u and v is right to first order only; a damper that is beyond what the row's
       // own frequency lets the step resolve would store what that misses.
-      if (i < 2 && how.delta < 1 && h * h * k > m_eff[i]) delta = std::min(delta, 1.0);
-      if (special(i)) delta = std::max(delta, special_delta);
+      if (i < 2 && least < 1 && h * h * k > m_eff[i]) of_damper = std::min(of_damper, 1.0);
+      if (special(i)) of_damper = std::max(of_damper, special_delta);
+      // Beside implicit Euler, the damper is one of its own.
+      delta = least < 1 ? std::max(least, of_damper) : 1 + of_damper;
       delta = std::min(delta, limit / (h * h * k));
       const bool unresolved = h * h * k > unresolved_ratio * m_eff[i] && !special(i);
-      if (how.delta < 1 && ((unresolved && (how.flow_begins || (i < 2 && how.delta > 0))) ||
-                            (i < 2 && h * h * k > stiff_ratio * m_eff[i]))) {
+      if (least < 1 && ((unresolved && (how.flow_begins || (i < 2 && least > 0))) ||
+                        (i < 2 && h * h * k > stiff_ratio * m_eff[i]))) {
         delta = 1;
       } else {
-        shared = std::max(shared, delta);
+        shared = std::max(shared, std::min(of_damper, delta));
       }
     } else {
       k = limit / (h * h);
     }
     law.spring[i] = k;
     // What the step cannot take of a damper beside a stiff spring is not there.
-    law.damping[i] = how.delta < 1 ? std::min(c, delta * k * h) : c;
+    law.damping[i] = least < 1 ? std::min(c, delta * k * h) : c;
     law.delta[i] = delta;
     law.cap[i] = h * material.cap[i];
     law.cap_reverse[i] = h * material.cap_reverse[i];
@@ -55,7 +56,7 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     const double k = law.spring[i];
     if (!(k > 0)) continue;
     double& delta = law.delta[i];
-    if (material.surface != nullptr && k == material.stiffness[i] && delta != 1) delta = shared;
+    if (material.surface != nullptr && k == material.stiffness[i] && delta != 1) delta = std::max(delta, shared);
     double share = delta, over = 1 - delta;  // of u and of −p in R/k
     if (delta < 1) {
       const bool alone = special(i);
