@@ -164,13 +164,16 @@ bool Component::throws() const {
   return false;
 }
 
-// Contacts kept their normals in this step. What turned far on them would spin on in the next.
+// Contacts kept their normals in this step. What turned far on them would spin on in the next; a wheel may.
 bool Component::normals_held() const {
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    if (std::abs(solver.places[i].pose.angle - parts_.bodies[i].start.angle) > most_turn_of_normals)
-      return false;
-  }
-  return true;
+  const auto turned = [this](int i) {
+    return solver.is_free(i) &&
+           std::abs(solver.places[z(i)].pose.angle - parts_.bodies[z(i)].start.angle) > most_turn_of_normals;
+  };
+  return std::none_of(solver.contacts.begin(), solver.contacts.end(), [&](const Contact& c) {
+    return (turned(c.a) && has_lever(c.ax, c.ay, c.normal_a)) ||
+           (turned(c.b) && has_lever(c.bx, c.by, c.normal_b));
+  });
 }
 
 void Component::solve_in_parts(const b2SolverData& data, bool blow) {

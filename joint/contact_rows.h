@@ -12,6 +12,7 @@
 // material: what integrates, books or projects joints leaves them out (System::own).
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "system.h"
@@ -39,6 +40,11 @@ struct Lag {
   bool again = false, other_rows = false;
 };
 Lag lag_friction(System& system, int round, bool of_open);
+
+/// Whether a body that turns moves its point of contact along the normal: a circle about its centre does not.
+inline bool has_lever(double x, double y, const Turn& normal) {
+  return std::abs(x * normal.s - y * normal.c) > 0.1 * std::hypot(x, y);
+}
 
 /// The cap of friction of a contact's row, N s; 0: no row.
 void set_friction(Joint& joint, JointRecord& record, double cap);

@@ -56,7 +56,8 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     const double k = law.spring[i];
     if (!(k > 0)) continue;
     double& delta = law.delta[i];
-    if (material.surface != nullptr && k == material.stiffness[i] && delta != 1) delta = std::max(delta, shared);
+    if (material.surface != nullptr && k == material.stiffness[i] && delta != 1)
+      delta = std::max(delta, shared);
     double share = delta, over = 1 - delta;  // of u and of −p in R/k
     if (delta < 1) {
       const bool alone = special(i);

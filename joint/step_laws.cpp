@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_rows.h"
 #include "drive.h"
 #include "kinematics.h"
 #include "objective.h"
@@ -55,8 +56,10 @@ void forget_infinite(Joint& j) {
 }  // namespace
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law = make_law(r.material, r.m_eff, h_,
-                   {delta_.value, delta_of_rotation_.value, elastic_ratio, flow_begins_});
+  r.law =
+      make_law(r.material, r.m_eff, h_,
+               {std::min(of_step_ + r.turn_guard.delta, 1.0),
+                std::min(of_step_ + rotation_share * of_contacts_.delta, 1.0), elastic_ratio, flow_begins_});
   take_law(j, r.law);
 }
 
@@ -172,31 +175,49 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
   }
 }
 
+// δ for how far bodies turn in a step, by powers of two, and for half a second at least, so that factors
+// last; whether it is another.
+bool StepLaws::guard(TurnGuard& guard, double turn, double h) const {
+  const double wanted = turn_guard * std::max(0.0, h * turn - free_turn);
+  const double needed = wanted > least_guard ? std::exp2(std::ceil(std::log2(wanted))) : 0;
+  const double last = guard.delta;
+  const bool is_kept = h == h_ && needed <= last && last > 0;
+  guard.unneeded = is_kept && needed <= last / 3 ? guard.unneeded + h : 0;
+  if (!is_kept || guard.unneeded >= delta_time) guard = {needed, 0};
+  return guard.delta != last;
+}
+
 // δ of a step of h seconds. It grows with what makes the last rate a bad guess: another step, and bodies that
-// turn far in a step, in which rows take another direction, but those of rotation: by powers of two, and for
-// half a second at least, so that factors last. Corrections of overlap lift what comes down on an edge, and
-// what vibrates beneath it would throw it again and again: where there are contacts δ of rotation rows grows
-// with the turn as well, to a quarter, as all of it would take half of what an elastic beam throws back.
-bool StepLaws::choose_delta(const System& system, double h) {
+// turn far in a step, in which the rows between them take another direction, but those of rotation.
+// Corrections of overlap lift what comes down on an edge, and what vibrates beneath it would throw it again
+// and again: so where corners of what turns touch, δ of all rotation rows grows with that as well, to a
+// quarter, as all of it would take half of what an elastic beam throws back. A wheel may spin: neither its
+// axle nor the ground beneath it turns with it.
+bool StepLaws::choose_delta(System& system, double h) {
   if (least_delta == 1) return false;
-  double turn = 0;
-  for (std::size_t i = 0; i < system.free; ++i) {
+  const auto turn_of = [&system](int i) {
+    if (!system.is_free(i)) return 0.0;
     // What a load would turn a light piece by, were there no joints, is no turn.
-    const Body& b = system.bodies[i];
-    turn = std::max(turn, std::min(std::abs(b.v_free.w), std::abs(b.v.w)));
-  }
-  const double guard = turn_guard * std::max(0.0, h * turn - free_turn);
-  const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
-  const double of_turn = guard > least_guard ? std::exp2(std::ceil(std::log2(guard))) : 0;
-  const auto choose = [&](Delta& delta, double needed) {
-    const bool is_kept = h == h_ && needed <= delta.of_turn && delta.of_turn > 0;
-    delta.unneeded = is_kept && needed <= delta.of_turn / 3 ? delta.unneeded + h : 0;
-    if (!is_kept || delta.unneeded >= delta_time) delta.of_turn = needed, delta.unneeded = 0;
-    const double value = std::min(of_step + delta.of_turn, 1.0);
-    return std::exchange(delta.value, value) != value;
+    const Body& b = system.bodies[z(i)];
+    return std::min(std::abs(b.v_free.w), std::abs(b.v.w));
   };
-  const bool changed = choose(delta_, of_turn);
-  return choose(delta_of_rotation_, system.contacts.empty() ? 0 : rotation_share * of_turn) || changed;
+  const double of_step = least_delta + (h_ > 0 ? std::abs(std::log(h / h_)) : 0);
+  bool changed = std::exchange(of_step_, of_step) != of_step;
+  double most = 0, of_corners = 0;
+  for (int i = 0; z(i) < system.free; ++i) most = std::max(most, turn_of(i));
+  if (guarded_ || turn_guard * (h * most - free_turn) > least_guard) {
+    guarded_ = false;
+    for (Joint& j : system.own_joints()) {
+      TurnGuard& of_joint = system.record(j).turn_guard;
+      changed |= guard(of_joint, std::max(turn_of(j.a), turn_of(j.b)), h);
+      guarded_ |= of_joint.delta > 0;
+    }
+  }
+  for (const Contact& c : system.contacts) {
+    if (has_lever(c.ax, c.ay, c.normal_a)) of_corners = std::max(of_corners, turn_of(c.a));
+    if (has_lever(c.bx, c.by, c.normal_b)) of_corners = std::max(of_corners, turn_of(c.b));
+  }
+  return guard(of_contacts_, of_corners, h) || changed;
 }
 
 // follow_law() keeps what a row moved by in the last step. Here its velocity is kept.

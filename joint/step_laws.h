@@ -46,7 +46,7 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, known_, flow_begins_, expects_flow_, delta_, delta_of_rotation_, drift_time);
+    tape(h_, known_, flow_begins_, expects_flow_, of_step_, guarded_, of_contacts_, drift_time);
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
@@ -59,20 +59,17 @@ class StepLaws {
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
-  bool choose_delta(const System& system, double h);  // whether it is another
+  bool choose_delta(System& system, double h);  // whether it is another of some row
+  bool guard(TurnGuard& guard, double needed, double h) const;
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
   bool known_ = false;         // the laws are those of h_, caps and stiffness
   bool flow_begins_ = false;   // the laws are of a step in which some row begins to flow
   bool expects_flow_ = false;  // those of the next step are to be
-  struct Delta {
-    double value = 1;     // of the laws
-    double of_turn = 0;   // its part for how far bodies turn
-    double unneeded = 0;  // s that this was more than three times what was needed
-    void keep(Tape& tape) { tape(value, of_turn, unneeded); }
-  };
-  Delta delta_, delta_of_rotation_;  // of axial and shear rows, and of rotation rows
+  double of_step_ = 1;         // δ of all rows for steps that differ
+  bool guarded_ = false;       // some joint has δ for how far its bodies turn
+  TurnGuard of_contacts_;      // of rotation rows
 };
 
 }  // namespace ductile::dynamics

@@ -134,6 +134,17 @@ struct Drift {
 template <>
 inline constexpr bool all_doubles<Drift> = true;
 
+/// δ of axial and shear rows for how far bodies turn in a step (step_laws.h).
+struct TurnGuard {
+  double delta = 0;
+  double unneeded = 0;  // s that this was more than three times what was needed
+
+  void keep(Tape& tape) { tape(delta, unneeded); }
+};
+
+template <>
+inline constexpr bool all_doubles<TurnGuard> = true;
+
 /// The rest of a joint, at the same index.
 struct JointRecord {
   Rows gap{};  // u, v, θ: after find_gaps()
@@ -142,6 +153,7 @@ struct JointRecord {
   Coupling tangent;       // ds/dx that is in H
   int turn_inertia = -1;  // index into System::turn_inertias, of the first
   Drift deferred_drift;
+  TurnGuard turn_guard;
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
@@ -151,7 +163,7 @@ struct JointRecord {
   double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, deferred_drift, plastic, dissipated, stored, drive_rate);
+    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, plastic, dissipated, stored, drive_rate);
   }
 };
 

@@ -408,6 +408,83 @@ TEST(Motion, AnArmThatSwingsFarKeepsItsEnergy) {
   EXPECT_NEAR(std::pow(farthest_in(27) / first, 2), 1, 0.04);
 }
 
+// Rows between bodies that turn far in a step are damped, as they take another direction. Those of others are
+// not: a frictionless wheel may spin on its axle, or lie on a beam, and what swings does not know of it.
+TEST(Motion, AWheelThatSpinsDampsNothing) {
+  for (const bool on_axle : {true, false}) {
+    const auto late_swing = [&](float spin) {
+      Beam beam({.pieces = 8,
+                 .length = 8,
+                 .height = 0.2,
+                 .density = 500,
+                 .youngs_modulus = 1.2e9,
+                 .damping_time = 0});
+      b2BodyDef def;
+      def.type = b2_dynamicBody;
+      def.position = beam.point(on_axle ? 8 : 0.3);
+      if (!on_axle) def.position.y += 0.1f + 0.2f + 0.01f;
+      def.angularVelocity = spin;
+      b2CircleShape circle;
+      circle.m_radius = 0.2f;
+      b2Body* wheel = beam.world.CreateBody(&def);
+      b2Fixture* fixture = wheel->CreateFixture(&circle, 80);
+      fixture->SetFriction(0);
+      fixture->SetSensor(on_axle);
+      if (on_axle) beam.structure.pin(def.position, std::vector<b2Body*>{beam.pieces.back(), wheel});
+      beam.run(4);
+      double lowest = 0, highest = -10;
+      for (int i = 0; i < 60; ++i) {
+        beam.run(1.0 / 60);
+        const double y = beam.pieces.back()->GetPosition().y;
+        lowest = std::min(lowest, y);
+        highest = std::max(highest, y);
+      }
+      return highest - lowest;
+    };
+    const double still = late_swing(0);
+    EXPECT_GT(still, 0.1);
+    for (const float spin : {1.5f, 10.0f, 40.0f})
+      EXPECT_NEAR(late_swing(spin), still, 1e-4 * still) << on_axle << spin;
+  }
+}
+
+// What is elastic swings as if it could not yield.
+TEST(Motion, AYieldSurfaceThatIsNotReachedDampsNothing) {
+  for (const double frequency : {1.0, 2.0}) {
+    const double omega = 2 * pi * frequency, swing = 0.3;  // rad/s, rad
+    const auto left = [&](bool has_surface) {
+      b2World world({0, 0});
+      Structure structure(world);
+      b2BodyDef def;
+      b2Body* ground = world.CreateBody(&def);
+      def.type = b2_dynamicBody;
+      def.position = {0.5f, 0};
+      b2PolygonShape box;
+      box.SetAsBox(0.5f, 0.05f);
+      b2Body* arm = world.CreateBody(&def);
+      arm->CreateFixture(&box, 10);
+      const double inertia = arm->GetInertia() + arm->GetMass() / 4;
+      ElasticPlasticJointDef joint;
+      joint.Initialize(ground, arm, {0, 0}, {1, 0});
+      joint.rows[axial] = {.stiffness = arm->GetMass() * std::pow(2 * pi * 25, 2)};
+      joint.rows[rotation] = {.stiffness = inertia * omega * omega};
+      if (has_surface) joint.interaction = {{1e6, 0}, {0, 1e6}, {-1e6, 0}, {0, -1e6}};
+      structure.create_joint(joint);
+      arm->SetAngularVelocity(static_cast<float>(swing * omega));
+      arm->SetLinearVelocity({0, static_cast<float>(swing * omega / 2)});
+      double farthest = 0;
+      for (int i = 0; i < 12 * 60; ++i) {
+        world.Step(1.0f / 60, 8, 3);
+        structure.update();
+        if (i > 10 * 60) farthest = std::max(farthest, std::abs(double{arm->GetAngle()}));
+      }
+      return farthest;
+    };
+    EXPECT_GT(left(false), 0.8 * swing) << frequency;
+    EXPECT_NEAR(left(true), left(false), 1e-6 * swing) << frequency;
+  }
+}
+
 // The error of x(t) = v/ω sin ωt falls with h². Velocities belong to the middle of a step, so the start at t
 // = 0 is late by h/2, which a peak shows to second order only.
 TEST(Motion, IsOfSecondOrder) {
