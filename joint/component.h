@@ -238,7 +238,7 @@ struct Component {
   // component_parts.cpp
   std::size_t cost_of_parts() const;  // in bodies
   bool may_divide(const b2SolverData& data) const;
-  bool goes_on_in_parts(const b2SolverData& data, bool moved) const;
+  bool goes_on_in_parts(const b2SolverData& data) const;
   bool is_strained() const;
   bool throws() const;
   bool normals_held() const;

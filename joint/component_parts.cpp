@@ -80,8 +80,8 @@ bool Component::may_divide(const b2SolverData& data) const {
          h * solver.fastest() < b2_maxTranslation && h * solver.fastest_turn() < b2_maxRotation;
 }
 
-bool Component::goes_on_in_parts(const b2SolverData& data, bool moved) const {
-  return parts_.count > 1 && !moved && parts_.goes_on && may_divide(data);
+bool Component::goes_on_in_parts(const b2SolverData& data) const {
+  return parts_.count > 1 && parts_.goes_on && may_divide(data);
 }
 
 // Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving: F = v √(k

@@ -174,7 +174,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     start_from(i);
   }
-  const bool in_parts = goes_on_in_parts(data, moved);
+  const bool in_parts = goes_on_in_parts(data);
   if (!in_parts) {
     if (parts_.count > 1) solver.unite(std::exchange(parts_.count, 1));
     parts_.since_blow = 0;
