@@ -70,11 +70,12 @@ struct Component {
     bool advanced = false;  // this step was solved so: poses have moved
     struct OfBody {         // velocities in world axes
       Pose start;
-      Vec3 before;        // at the step's start
-      Vec3 given;         // by gravity and loads in a part
-      Vec3 sum;           // of the means of all parts
-      Vec3 mean;          // of the step: by which it comes where it is
-      double energy = 0;  // that a blow gives it, J
+      Vec3 before;            // at the step's start
+      Vec3 given;             // by gravity and loads in a part
+      Vec3 sum;               // of the means of all parts
+      Vec3 mean;              // of the step: by which it comes where it is
+      double energy = 0;      // that a blow gives it, J
+      bool rebounds = false;  // restitution throws it, or what strikes it, back
     };
     Vector<OfBody> bodies;
     struct OfContact {

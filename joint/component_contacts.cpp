@@ -86,8 +86,9 @@ void Component::enter_contacts() {
 // The speed at which a contact that goes on opens in a step of h s beyond n·v, h/2 of the gap's second
 // derivative at the velocities of the step's start: a face turns under what slides along it, and corners turn
 // about their bodies. Without it a wheel that rolls at v along a piece that turns at ω rises from it by v ω
-// h² in each step, until there is no contact. It is held against a part of Box2D's skin, so that it cannot
-// grow from step to step, and what poses hardly resolve is none, or nothing would come to rest.
+// h² in each step, until there is no contact. What closes is left to Box2D's corrections: pushed apart, a jam
+// would have no solution. What turns far in a step will not do the same in the next, a part of Box2D's skin
+// keeps it from growing from step to step, and what poses hardly resolve is none, or nothing would rest.
 double Component::opening(const Touch& t, int32 point, double h) {
   const PositionConstraint& position = *t.position;
   if (position.type == b2Manifold::e_circles) return 0;
@@ -97,13 +98,15 @@ double Component::opening(const Touch& t, int32 point, double h) {
   const b2Vec2 arm =
       b2Mul(corner.GetTransform().q, position.points[point] - (on_a ? position.center_b : position.center_a));
   const float turn = face.GetAngularVelocity(), own_turn = corner.GetAngularVelocity();
+  constexpr double most_turn = 0.1, most = b2_linearSlop / 2, trifle = 1e-7;  // rad in a step, m
+  const bool is_wheel = arm.LengthSquared() < b2_linearSlop * b2_linearSlop;
+  if (h * std::abs(turn) > most_turn || (h * std::abs(own_turn) > most_turn && !is_wheel)) return 0;
   const b2Vec2 apart = corner.GetWorldCenter() + arm - face.GetWorldCenter();
   const b2Vec2 slide = corner.GetLinearVelocity() + b2Cross(own_turn, arm) - face.GetLinearVelocity();
   const double second = 2 * b2Dot(b2Cross(turn, n), slide) - turn * turn * b2Dot(n, apart) -
                         own_turn * own_turn * b2Dot(n, arm);
-  constexpr double most = b2_linearSlop / 2, trifle = 1e-7;  // m
   const double way = h * h / 2 * second;
-  return std::abs(way) < trifle ? 0 : std::clamp(way, -most, most) / h;
+  return way > trifle ? std::min(way, most) / h : 0;
 }
 
 // Whether the contacts are those that the last step was solved with, and hold the impulses that it found.

@@ -107,10 +107,12 @@ bool Component::snaps_hard() const {
 
 // What a blow gives a struck body, λ²/2m of λ = m_eff v, against what its joints store until they yield,
 // F²/2k. Of a long beam that is v √(ρA EI), and v √(ρA EA) along it, however short its pieces; of rigid rows
-// k is what a part resolves. The solution of the whole step does not know the peak.
+// k is what a part resolves. The solution of the whole step does not know the peak. Nor does it know where a
+// piece is that restitution throws away and springs bring back within the step: it would meet what threw it
+// again and again, from step to step, until nothing is left of the rebound.
 bool Component::strikes_hard() {
   if (snapped_) return true;
-  for (Parts::OfBody& body : parts_.bodies) body.energy = 0;
+  for (Parts::OfBody& body : parts_.bodies) body.energy = 0, body.rebounds = false;
   each_point([this](std::size_t, const Touch& t, const PointConstraint& p) {
     const double speed = -closing_speed(t, p);
     const auto inverse_mass = [this](int i) {
@@ -120,16 +122,23 @@ bool Component::strikes_hard() {
     if (!(speed > blow_speed) || !(both > 0)) return;
     for (const int i : {t.in_a, t.in_b}) {
       if (!solver.is_free(i)) continue;
-      double& energy = parts_.bodies[z(i)].energy;
-      energy = std::max(energy, speed * speed / (both * both) * inverse_mass(i) / 2);
+      Parts::OfBody& body = parts_.bodies[z(i)];
+      body.energy = std::max(body.energy, speed * speed / (both * both) * inverse_mass(i) / 2);
+      body.rebounds |= p.bounce > 0;
     }
   });
   return std::any_of(members.begin(), members.end(), [this](const Member* m) {
     const Joint& j = solver.joints[m->index];
     const JointRecord& r = solver.records[m->index];
     double energy = 0;
-    for (const int i : {j.a, j.b})
-      if (solver.is_free(i)) energy = std::max(energy, parts_.bodies[z(i)].energy);
+    bool rebounds = false;
+    for (const int i : {j.a, j.b}) {
+      if (!solver.is_free(i)) continue;
+      energy = std::max(energy, parts_.bodies[z(i)].energy);
+      rebounds |= parts_.bodies[z(i)].rebounds;
+    }
+    for (unsigned i = 0; i < 3; ++i)
+      if (rebounds && !is_rigid(r, i) && r.law.h * r.law.h * r.law.spring[i] > r.m_eff[i]) return true;
     Rows force;
     for (unsigned i = 0; i < 3; ++i) force[i] = std::sqrt(2 * energy * resolved_stiffness(r, i));
     if (r.law.surface != nullptr) return r.law.surface->usage(force) > strained;

@@ -437,6 +437,38 @@ TEST(SolvedInParts, GoesOnWherePiecesAreMoved) {
   EXPECT_GE(beam.divided, 4);
 }
 
+// A ball that springs throw back rises as high as in fine steps, whatever its restitution: that is between it
+// and a light piece, which the springs bring back at once. In whole steps ball and piece met again and again.
+TEST(SolvedInParts, OfRestitutionOnSprings) {
+  const auto rebound = [](double restitution, double rate) {
+    Beam beam({.pieces = 4,
+               .length = 4,
+               .height = 0.2,
+               .density = 250,
+               .youngs_modulus = 2e9,
+               .damping_time = 0.001});
+    beam.run(0.5, 1 / rate);
+    b2Body* ball =
+        add(beam.world, {.x = 2.5, .bottom = 1, .mass = 1000, .friction = 0, .restitution = restitution});
+    make_wheel(*ball);
+    ball->GetFixtureList()->SetRestitution(static_cast<float>(restitution));
+    double lowest = 9, highest = 0;
+    for (int i = 0; i < 1.4 * rate; ++i) {
+      beam.run(1 / rate, 1 / rate);
+      const double y = ball->GetPosition().y;
+      if (y < lowest) lowest = highest = y;
+      highest = std::max(highest, y);
+    }
+    return highest;
+  };
+  for (const double restitution : {0.2, 0.5, 0.8}) {
+    const double right = rebound(restitution, 3840);
+    EXPECT_GT(right, 0.8);
+    for (const double rate : {60.0, 120.0})
+      EXPECT_NEAR(rebound(restitution, rate), right, 0.1 * right) << restitution << ", " << rate;
+  }
+}
+
 // A wheel without friction that spins by more than half a radian in a step strikes as one that does not: its
 // normals do not turn with it.
 TEST(SolvedInParts, WhileWheelsSpin) {
@@ -847,7 +879,7 @@ TEST(Contacts, StayOnWhatTurns) {
             pressed += e->contact->GetManifold()->points[i].normalImpulse;
         const double right = piece_mass * (10 * std::cos(angle) + 2 * w * v - w * w * H);
         EXPECT_NEAR(pressed / dt, right, 0.002 * right) << wheel << ' ' << w;
-        EXPECT_NEAR(height(), start, 0.04 * b2_linearSlop) << wheel << ' ' << w;
+        EXPECT_NEAR(height(), start, 0.1 * b2_linearSlop) << wheel << ' ' << w;
       }
     }
   }
@@ -903,6 +935,7 @@ TEST(Contacts, GiveNoEnergy) {
       double least = energy();
       for (int i = 0; i < 600; ++i) {
         beam.run(dt);
+        if (beam.structure.report().divided > 0) continue;  // velocities are of the end of a part
         const double now = energy();
         EXPECT_LT(now, least + lifted * scale) << restitution << ", " << mass << ", step " << i;
         least = std::min(least, now);
