@@ -9,6 +9,13 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+// What is left of more than a millionth of the impulses is no rounding.
+bool may_be_rounding(const Evaluation& at) { return at.gradient2 <= 1e-12 * at.impulse2 + 1e-10 * at.speed2; }
+
+}  // namespace
+
 /// What one round hands to the next.
 struct Newton::Round {
   int number = 0;
@@ -248,7 +255,8 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     round.crossed = at.crossed;
     // A Newton step within one regime: this is the solution, as far as rounding allows; and that is not far
     // where the step came from much faster velocities.
-    if (exact && !at.crossed && !(at.gradient2 > target(system, at) && at.gradient2 <= 1e-4 * before2)) {
+    if (exact && !at.crossed &&
+        !(at.gradient2 > target(system, at) && (at.gradient2 <= 1e-4 * before2 || !may_be_rounding(at)))) {
       ++round.number;
       settled = true;
       break;
