@@ -163,7 +163,8 @@ struct JointRecord {
   double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, plastic, dissipated, stored, drive_rate);
+    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, plastic, dissipated, stored,
+         drive_rate);
   }
 };
 
