@@ -98,7 +98,7 @@ double Component::opening(const Touch& t, int32 point, double h) {
   const b2Vec2 arm =
       b2Mul(corner.GetTransform().q, position.points[point] - (on_a ? position.center_b : position.center_a));
   const float turn = face.GetAngularVelocity(), own_turn = corner.GetAngularVelocity();
-  constexpr double most_turn = 0.1, most = b2_linearSlop / 2, trifle = 1e-7;  // rad in a step, m
+  constexpr double most_turn = 0.1, most = b2_linearSlop, trifle = 1e-7;  // rad in a step, m
   const bool is_wheel = arm.LengthSquared() < b2_linearSlop * b2_linearSlop;
   if (h * std::abs(turn) > most_turn || (h * std::abs(own_turn) > most_turn && !is_wheel)) return 0;
   const b2Vec2 apart = corner.GetWorldCenter() + arm - face.GetWorldCenter();
@@ -106,7 +106,7 @@ double Component::opening(const Touch& t, int32 point, double h) {
   const double second = 2 * b2Dot(b2Cross(turn, n), slide) - turn * turn * b2Dot(n, apart) -
                         own_turn * own_turn * b2Dot(n, arm);
   const double way = h * h / 2 * second;
-  return way > trifle ? std::min(way, most) / h : 0;
+  return way > trifle && way < most ? way / h : 0;
 }
 
 // Whether the contacts are those that the last step was solved with, and hold the impulses that it found.
