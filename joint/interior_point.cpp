@@ -309,12 +309,14 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     }
     if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
+    // Rows at the end of their caps may leave friction that follows no step, and caps that stay no way back.
+    const bool stands = now.products > 0.8 * earlier[0];
+    if (follows && stands && now.gap() <= tunables.followed_goal * scale) break;
     // Friction that follows is factored without pivoting between bodies: at the end caps stay. A step along a
     // good direction shortens what is lacking. Where it does not, or is short, or two rounds have gained
     // nothing, there is no way on to where Coulomb's law holds, and caps that stayed would be those of other
     // normal impulses than the ones that are found with them: what slides parts from then on. Far from
     // compatible one short step, or what is gained, tells nothing yet.
-    const bool stands = now.products > 0.8 * earlier[0];
     const bool ends =
         now.gap() <= tunables.friction_goal * scale || (stands && now.gap() <= tunables.tolerance * scale);
     const bool halts = now.lack < now.products ? stands || short_steps > 0 : short_steps == 2;

@@ -24,6 +24,8 @@ struct InteriorPointTunables {
   /// Likewise: the gap from which caps of friction stay what they are. They are known well by then, and what
   /// is left is symmetric, and so more accurate.
   double friction_goal = 1e-15;
+  /// Likewise: the gap that will do where friction that follows gains no more.
+  double followed_goal = 1e-13;
   /// Likewise, Σ z p, where following leads nowhere: until then what slides parts less its slip of the same
   /// round. Velocities are known to a thousandth of themselves by then, and what parts does so by no more.
   double slip_goal = 1e-6;
