@@ -186,4 +186,27 @@ TEST(Simulation, TellsTheMedianTimeOfAStepFromTheTenthOn) {
   EXPECT_GT(run.time_per_step_us(), 0);
   EXPECT_LT(run.time_per_step_us(), 1e5);
 }
+// A block of 2.8 t falls on a clamped beam of twelve pieces: what slides under it sticks at last, and no
+// solve is left unsolved on the way.
+TEST(Simulation, SolvesWhatABlockDoesThatFallsOnABeam) {
+  for (const double height : {18.0, 20.0, 22.0}) {
+    const auto at = [height](double up) { return std::to_string(height + up); };
+    Simulation run(calibrate(parse_scene(R"({"interaction": false, "bodies": [
+        {"name": "L", "type": "static", "outline": [[-2, -1], [0, -1], [0, 1], [-2, 1]]},
+        {"name": "R", "type": "static", "outline": [[6, -1], [8, -1], [8, 1], [6, 1]]},
+        {"name": "beam", "outline": [[0, -0.1], [6, -0.1], [6, 0.1], [0, 0.1]], "depth": 0.1, "material": "S355",
+         "split": {"pieces": 12}},
+        {"name": "block", "outline": [[2.7, )" +
+                                         at(0.1) + "], [3.3, " + at(0.1) + "], [3.3, " + at(0.7) +
+                                         "], [2.7, " + at(0.7) + R"(]], "depth": 1, "material": "S355"}],
+      "joints": [{"between": ["L", "beam"]}, {"between": ["beam", "R"]}]})")),
+                   JointSolver::direct, {.dt = 1.0 / 30});
+    while (run.time() < 4) {
+      run.step();
+      const StepReport& report = run.structure()->report();
+      ASSERT_EQ(report.bounds_hit, report.parted) << height << " m, " << run.time() << " s";
+    }
+  }
+}
+
 }  // namespace
