@@ -87,8 +87,8 @@ void Component::enter_contacts() {
 // derivative at the velocities of the step's start: a face turns under what slides along it, and corners turn
 // about their bodies. Without it a wheel that rolls at v along a piece that turns at ω rises from it by v ω
 // h² in each step, until there is no contact. What closes is left to Box2D's corrections: pushed apart, a jam
-// would have no solution. What turns far in a step will not do the same in the next, a part of Box2D's skin
-// keeps it from growing from step to step, and what poses hardly resolve is none, or nothing would rest.
+// would have no solution. What turns far in a step, or opens by more than Box2D's slop, will not go on as it
+// did, and is left alone. What poses hardly resolve is none, or nothing would rest.
 double Component::opening(const Touch& t, int32 point, double h) {
   const PositionConstraint& position = *t.position;
   if (position.type == b2Manifold::e_circles) return 0;

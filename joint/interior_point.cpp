@@ -309,7 +309,8 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     }
     if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
     if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
-    // Rows at the end of their caps may leave friction that follows no step, and caps that stay no way back.
+    // Where friction that follows can go no further, a small gap will do: caps that stay may lead away from
+    // it, with no way back.
     const bool stands = now.products > 0.8 * earlier[0];
     if (follows && stands && now.gap() <= tunables.followed_goal * scale) break;
     // Friction that follows is factored without pivoting between bodies: at the end caps stay. A step along a

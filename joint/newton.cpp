@@ -255,8 +255,9 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     round.crossed = at.crossed;
     // A Newton step within one regime: this is the solution, as far as rounding allows; and that is not far
     // where the step came from much faster velocities.
-    if (exact && !at.crossed &&
-        !(at.gradient2 > target(system, at) && (at.gradient2 <= 1e-4 * before2 || !may_be_rounding(at)))) {
+    const bool may_gain =
+        at.gradient2 > target(system, at) && (at.gradient2 <= 1e-4 * before2 || !may_be_rounding(at));
+    if (exact && !at.crossed && !may_gain) {
       ++round.number;
       settled = true;
       break;

@@ -47,6 +47,12 @@ Drift beyond_forces(const Joint& j, const JointRecord& r) {
   return sum;
 }
 
+// δ for bodies that turn by so many rad in a step, by powers of two.
+double delta_for(double turn) {
+  const double wanted = turn_guard * std::max(0.0, turn - free_turn);
+  return wanted > least_guard ? std::exp2(std::ceil(std::log2(wanted))) : 0;
+}
+
 // The past may have known what is not finite; this step need not.
 void forget_infinite(Joint& j) {
   for (unsigned i = 0; i < 3; ++i)
@@ -175,12 +181,10 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
   }
 }
 
-// δ for how far bodies turn in a step, by powers of two, and for half a second at least, so that factors
-// last; whether it is another.
-bool StepLaws::guard(TurnGuard& guard, double turn, double h) const {
-  const double wanted = turn_guard * std::max(0.0, h * turn - free_turn);
-  const double needed = wanted > least_guard ? std::exp2(std::ceil(std::log2(wanted))) : 0;
-  const double last = guard.delta;
+// δ for how far bodies turn in a step of h seconds at so many rad/s, kept for half a second at least, so that
+// factors last; whether it is another.
+bool StepLaws::follow_turn(TurnGuard& guard, double turn, double h) const {
+  const double needed = delta_for(h * turn), last = guard.delta;
   const bool is_kept = h == h_ && needed <= last && last > 0;
   guard.unneeded = is_kept && needed <= last / 3 ? guard.unneeded + h : 0;
   if (!is_kept || guard.unneeded >= delta_time) guard = {needed, 0};
@@ -205,11 +209,11 @@ bool StepLaws::choose_delta(System& system, double h) {
   bool changed = std::exchange(of_step_, of_step) != of_step;
   double most = 0, of_corners = 0;
   for (int i = 0; z(i) < system.free; ++i) most = std::max(most, turn_of(i));
-  if (guarded_ || turn_guard * (h * most - free_turn) > least_guard) {
+  if (guarded_ || delta_for(h * most) > 0) {
     guarded_ = false;
     for (Joint& j : system.own_joints()) {
       TurnGuard& of_joint = system.record(j).turn_guard;
-      changed |= guard(of_joint, std::max(turn_of(j.a), turn_of(j.b)), h);
+      changed |= follow_turn(of_joint, std::max(turn_of(j.a), turn_of(j.b)), h);
       guarded_ |= of_joint.delta > 0;
     }
   }
@@ -217,7 +221,7 @@ bool StepLaws::choose_delta(System& system, double h) {
     if (has_lever(c.ax, c.ay, c.normal_a)) of_corners = std::max(of_corners, turn_of(c.a));
     if (has_lever(c.bx, c.by, c.normal_b)) of_corners = std::max(of_corners, turn_of(c.b));
   }
-  return guard(of_contacts_, of_corners, h) || changed;
+  return follow_turn(of_contacts_, of_corners, h) || changed;
 }
 
 // follow_law() keeps what a row moved by in the last step. Here its velocity is kept.

@@ -60,7 +60,7 @@ class StepLaws {
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
   bool choose_delta(System& system, double h);  // whether it is another of some row
-  bool guard(TurnGuard& guard, double needed, double h) const;
+  bool follow_turn(TurnGuard& guard, double turn, double h) const;
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;

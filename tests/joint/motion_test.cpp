@@ -455,17 +455,10 @@ TEST(Motion, AYieldSurfaceThatIsNotReachedDampsNothing) {
     const auto left = [&](bool has_surface) {
       b2World world({0, 0});
       Structure structure(world);
-      b2BodyDef def;
-      b2Body* ground = world.CreateBody(&def);
-      def.type = b2_dynamicBody;
-      def.position = {0.5f, 0};
-      b2PolygonShape box;
-      box.SetAsBox(0.5f, 0.05f);
-      b2Body* arm = world.CreateBody(&def);
-      arm->CreateFixture(&box, 10);
+      b2Body* arm = add_box(world, {.x = 0.5, .height = 0.1, .mass = 1});
       const double inertia = arm->GetInertia() + arm->GetMass() / 4;
       ElasticPlasticJointDef joint;
-      joint.Initialize(ground, arm, {0, 0}, {1, 0});
+      joint.Initialize(add_box(world, {.x = -0.5, .type = b2_staticBody}), arm, {0, 0}, {1, 0});
       joint.rows[axial] = {.stiffness = arm->GetMass() * std::pow(2 * pi * 25, 2)};
       joint.rows[rotation] = {.stiffness = inertia * omega * omega};
       if (has_surface) joint.interaction = {{1e6, 0}, {0, 1e6}, {-1e6, 0}, {0, -1e6}};

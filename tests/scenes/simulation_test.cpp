@@ -186,6 +186,7 @@ TEST(Simulation, TellsTheMedianTimeOfAStepFromTheTenthOn) {
   EXPECT_GT(run.time_per_step_us(), 0);
   EXPECT_LT(run.time_per_step_us(), 1e5);
 }
+
 // A block of 2.8 t falls on a clamped beam of twelve pieces: what slides under it sticks at last, and no
 // solve is left unsolved on the way.
 TEST(Simulation, SolvesWhatABlockDoesThatFallsOnABeam) {
