@@ -25,16 +25,16 @@ void Component::set_ties_aside(const b2SolverData& data) {
     put(place, origin.relative(m.pose_in(data)));
     return place;
   };
-  for (const StockJoint& t : outside_.ties) {
+  for (StockJoint& t : outside_.ties) {
     Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const Place at_a = place_of(a), at_b = place_of(b);
     const double h = data.step.dt;
-    const StockRows rows = rows_of(*t.joint, at_a, at_b, near, h, h);
-    for (std::size_t k = 0; k < rows.count; ++k) {
+    t.rows = rows_of(*t.joint, at_a, at_b, near, h, h);
+    for (std::size_t k = 0; k < t.rows.count; ++k) {
       Joint j;
-      j.J = rows.links[k].J;
+      j.J = t.rows.links[k].J;
       Vec3 for_a, for_b;
-      add_transposed(j, rows.links[k].impulse, for_a, for_b);
+      add_transposed(j, t.rows.links[k].impulse, for_a, for_b);
       const auto take_back = [&](int body, const Place& at, const Vec3& impulse) {
         if (!solver.is_free(body)) return;
         const Body& m = solver.bodies[z(body)];

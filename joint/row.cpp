@@ -36,7 +36,7 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
       delta = least < 1 ? std::max(least, of_damper) : 1 + of_damper;
       delta = std::min(delta, limit / (h * h * k));
       const bool unresolved = h * h * k > unresolved_ratio * m_eff[i] && !special(i);
-      if (least < 1 && ((unresolved && (how.flow_begins || (i < 2 && least > 0))) ||
+      if (least < 1 && ((unresolved && ((how.halts >> i & 1u) != 0 || (i < 2 && least > 0))) ||
                         (i < 2 && h * h * k > stiff_ratio * m_eff[i]))) {
         delta = 1;
       } else {

@@ -54,10 +54,10 @@ inline constexpr double rigid_ratio = 1e9;
 inline constexpr double stiff_ratio = 1e5;
 
 /// Likewise beyond so many m_eff/h² where steps vary or bodies turn far in one: what parts them then is not
-/// what it was in the step before, and springs that no step resolves, ωh ≥ π, would store it. And so all rows
-/// where some row begins to flow: forces that grew from step to step stop growing, and the mean of e₋, 2e and
-/// e₊ follows that by e₊ − e = u₋ − 4(e − R/k). All that bears with what flows would unload by four times
-/// what it was strained too far, the slider would take it up, and could not give it back.
+/// what it was in the step before, and springs that no step resolves, ωh ≥ π, would store it. And so rows
+/// whose force stops growing as one that they bear with begins to flow: the mean of e₋, 2e and e₊ follows
+/// that by e₊ − e = u₋ − 4(e − R/k). They would unload by four times what they were strained too far, the
+/// slider would take it up, and could not give it back.
 inline constexpr double unresolved_ratio = 10;
 
 /// δ at least of rows that go slack or are driven, which carry w over alone: what they did is not what was
@@ -132,7 +132,7 @@ struct Integration {
   double delta = 1;                 // δ at least, of axial and shear rows
   double delta_rotation = 1;        // likewise, of rotation rows
   double rigid_from = rigid_ratio;  // m_eff/h²: stiffer springs are rigid
-  bool flow_begins = false;         // of some row of the structure
+  unsigned halts = 0;               // rows, one bit each, whose forces stop growing in the step
 };
 
 /// The law of rows of effective masses m_eff in a step of h seconds.

@@ -187,6 +187,7 @@ void Solver::advance() {
   gaps_known = false;
   predicted_ = !motion_.swept;
   const double h = step();
+  laws_.move();
   const std::span<Vec3> newest = predicted_ ? prediction_.newest() : std::span<Vec3>{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i < newest.size()) newest[i] = bodies[i].v;
@@ -195,7 +196,6 @@ void Solver::advance() {
     turned_[i] = after_turning(v, h);
   }
   if (predicted_) prediction_.fit();
-  bool begins = false;  // some row to flow
   for (Joint& j : own_joints()) {
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows gap = dynamics::locate(j, places);
@@ -203,10 +203,8 @@ void Solver::advance() {
     carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
-    begins |= j.begins_to_flow();
     j.flowed = static_cast<std::uint8_t>(flowing(j.regime));
   }
-  if (begins) laws_.expect_flow();
   remember_turn_rates(*this, turned_);
   biases_known = true;
   if (std::exchange(struck_, false)) close_blow(*this);

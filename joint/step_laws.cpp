@@ -19,6 +19,7 @@ constexpr double free_turn = 0.01;  // rad a step
 constexpr double least_guard = 0.05;
 constexpr double rotation_share = 0.25;  // of that δ which rotation rows among contacts have
 constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
+constexpr double halting = 0.25;         // of what a strain grows by in a step
 constexpr double wave_step = 1e-3;  // s: shorter ones resolve waves that rows yield to one after the other
 
 // What loads store in rigid rows, of what their impulses in a step are as kinetic energy: 4e-7 of a
@@ -53,6 +54,15 @@ double delta_for(double turn) {
   return wanted > least_guard ? std::exp2(std::ceil(std::log2(wanted))) : 0;
 }
 
+// Whether the force of a row that grew through both last steps is less than its strain e stands for, by a
+// good part of what it grew by.
+bool halts(const Joint& j, const JointRecord& r, unsigned i, double e) {
+  if (!j.is_newmark(i)) return false;
+  const double mean = j.mean[i], before = 2 * mean - j.moved[i];
+  const double beyond = e - j.impulse[i] / (r.law.h * r.law.spring[i]);
+  return j.moved[i] * before > 0 && beyond * mean > halting * mean * mean;
+}
+
 // The past may have known what is not finite; this step need not.
 void forget_infinite(Joint& j) {
   for (unsigned i = 0; i < 3; ++i)
@@ -62,10 +72,9 @@ void forget_infinite(Joint& j) {
 }  // namespace
 
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
-  r.law =
-      make_law(r.material, r.m_eff, h_,
-               {std::min(of_step_ + r.turn_guard.delta, 1.0),
-                std::min(of_step_ + rotation_share * of_contacts_.delta, 1.0), elastic_ratio, flow_begins_});
+  r.law = make_law(r.material, r.m_eff, h_,
+                   {std::min(of_step_ + r.turn_guard.delta, 1.0),
+                    std::min(of_step_ + rotation_share * of_contacts_.delta, 1.0), elastic_ratio, r.halts});
   take_law(j, r.law);
 }
 
@@ -94,9 +103,9 @@ double StepLaws::deferred_share(double h) {
 // Of what rows are strained beyond their forces no more is deferred than there was of drift.
 double StepLaws::share_of(double drift, double now) { return drift < now ? std::sqrt(drift / now) : 1; }
 
-// What a joint has of drift: all that there is, where a longer step went before.
+// What a joint has of drift: all that there is, where poses moved by a longer step before.
 Drift StepLaws::drift_of(const JointRecord& r, const Drift& now) const {
-  return h_ < r.law.h ? now : r.deferred_drift;
+  return h_ < moved_by_ ? now : r.deferred_drift;
 }
 
 // One share for all rigid rows.
@@ -145,17 +154,19 @@ double StepLaws::most_growth(System& system, double last_h) {
 // comes of it. Nor does any of a row that was implicit and is Newmark's now. It stored the strain at its
 // step's end, where velocities belong to the middle: that of half a step before, which they would ask for,
 // may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
-// than it stores: the strain that it will be half a step on gives less.
+// than it stores: the strain that it will be half a step on gives less. But where its force stopped growing
+// it was strained too far, and what it moved back by is no rate.
 void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_growth) const {
   Rows spring = r.law.spring;
   const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
   const std::array<bool, 3> was_implicit{is_implicit(r, 0), is_implicit(r, 1), is_implicit(r, 2)};
-  const unsigned overdamped = j.overdamped;
+  const unsigned overdamped = j.overdamped, halted = std::exchange(r.halts, 0);
   set_law(j, r);
   for (unsigned i = 0; i < 3; ++i) {
-    // The same force, but none larger than the step: what was rough in a short one would be a blow.
-    j.impulse[i] *= std::min(1.0, longer);
+    // The same force; where sweeps start from it none larger than the step: what was rough in a short one
+    // would be a blow.
+    j.impulse[i] *= least_delta == 1 ? std::min(1.0, longer) : longer;
     const auto strain_by = [&](double by) {
       j.neutral[i] += strain[i] * (1 - by);
       strain[i] *= by;
@@ -164,7 +175,7 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
     j.rate[i] /= longer;
     if (was_implicit[i] && j.is_newmark(i)) {
       j.rate[i] = j.moved[i] = j.mean[i] = 0;
-      if (ahead * strain[i] < 0) strain_by(std::max(0.0, 1 + ahead / strain[i]));
+      if ((halted >> i & 1u) == 0 && ahead * strain[i] < 0) strain_by(std::max(0.0, 1 + ahead / strain[i]));
     }
     // w and w' (row.h) say nothing of each other
     if (((overdamped ^ j.overdamped) >> i & 1u) != 0) j.rate[i] = j.moved[i] = j.mean[i] = 0;
@@ -238,25 +249,27 @@ void StepLaws::rescale(System& system, double by) {
 }
 
 bool StepLaws::begin_flow(System& system) {
-  if (least_delta == 1 || h_ <= wave_step || flow_begins_) return false;
+  if (least_delta == 1 || h_ <= wave_step || some_halt_) return false;
   const std::span<Joint> own = system.own_joints();
   if (std::none_of(own.begin(), own.end(), [](const Joint& j) { return j.begins_to_flow(); })) return false;
-  flow_begins_ = true;
-  bool changed = false;
   for (Joint& j : own) {
     JointRecord& r = system.record(j);
     Rows e;
-    for (unsigned i = 0; i < 3; ++i) e[i] = j.G[i] > 0 ? strain_of_bias(j, i) : 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      e[i] = j.G[i] > 0 ? strain_of_bias(j, i) : 0;
+      r.halts |= (halts(j, r, i, e[i]) ? 1u : 0u) << i;
+    }
+    if (r.halts == 0) continue;
     const Rows G = j.G;
     set_law(j, r);
     for (unsigned i = 0; i < 3; ++i) {
       if (j.G[i] == G[i]) continue;
-      changed = true;
+      some_halt_ = true;
       j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
       j.bias[i] = bias_of_strain(j, i, e[i]);
     }
   }
-  return changed;
+  return some_halt_;
 }
 
 void StepLaws::divide(System& system, double parts) { rescale(system, 1 / parts); }
@@ -269,8 +282,7 @@ void StepLaws::unite(System& system, double parts) {
 }
 
 bool StepLaws::begin(System& system, double h) {
-  const bool flow_begins = std::exchange(expects_flow_, false) && h > wave_step && least_delta < 1;
-  const bool other_laws = std::exchange(flow_begins_, flow_begins) != flow_begins || !known_;
+  const bool other_laws = std::exchange(some_halt_, false) || !known_;
   const bool changed = choose_delta(system, h) || h != h_ || other_laws;
   known_ = true;
   const double last_h = std::exchange(h_, h);

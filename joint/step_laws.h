@@ -25,11 +25,11 @@ class StepLaws {
   /// Laws and biases of a step of h seconds; whether laws are others than those of the last step.
   bool begin(System& system, double h);
   double step() const { return h_; }
-  /// Where some row begins to flow in the step as it was solved: whether laws are others for that, so that it
-  /// is to be solved anew. In steps that resolve waves they are not.
+  /// Poses move by the step.
+  void move() { moved_by_ = h_; }
+  /// Where some row begins to flow in the step as it was solved: whether other rows' forces stop growing by
+  /// that and have other laws, so that it is to be solved anew. In steps that resolve waves they do not.
   bool begin_flow(System& system);
-  /// Rows began to flow in the last step: so they may in the next, which has the same laws.
-  void expect_flow() { expects_flow_ = true; }
   /// Says that the last step was one of h/parts seconds at the same velocities: the next begin() goes on from
   /// it as from one that was as long, with the same δ.
   void divide(System& system, double parts);
@@ -46,7 +46,7 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, known_, flow_begins_, expects_flow_, of_step_, guarded_, of_contacts_, drift_time);
+    tape(h_, moved_by_, known_, some_halt_, of_step_, guarded_, of_contacts_, drift_time);
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
@@ -64,12 +64,12 @@ class StepLaws {
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
-  bool known_ = false;         // the laws are those of h_, caps and stiffness
-  bool flow_begins_ = false;   // the laws are of a step in which some row begins to flow
-  bool expects_flow_ = false;  // those of the next step are to be
-  double of_step_ = 1;         // δ of all rows for steps that differ
-  bool guarded_ = false;       // some joint has δ for how far its bodies turn
-  TurnGuard of_contacts_;      // of rotation rows
+  double moved_by_ = 0;     // s, of the step that poses last moved by
+  bool known_ = false;      // the laws are those of h_, caps and stiffness
+  bool some_halt_ = false;  // some joint has laws for rows whose force stops growing in this step
+  double of_step_ = 1;      // δ of all rows for steps that differ
+  bool guarded_ = false;    // some joint has δ for how far its bodies turn
+  TurnGuard of_contacts_;   // of rotation rows
 };
 
 }  // namespace ductile::dynamics

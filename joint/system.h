@@ -154,6 +154,7 @@ struct JointRecord {
   int turn_inertia = -1;  // index into System::turn_inertias, of the first
   Drift deferred_drift;
   TurnGuard turn_guard;
+  unsigned halts = 0;  // rows, one bit each, whose forces stopped growing in the last step
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
@@ -163,7 +164,7 @@ struct JointRecord {
   double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, plastic, dissipated, stored,
+    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, halts, plastic, dissipated, stored,
          drive_rate);
   }
 };

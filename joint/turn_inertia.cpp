@@ -197,7 +197,7 @@ bool follow_tension(System& system, double h, double last_h) {
   if (last_h > 0 && h != last_h)
     for (TurnInertia& t : system.turn_inertias) scale_rate(t, std::min(h / last_h, last_h / h), spins);
   bool changed = false;
-  Needs needs(system, last_h > 0 ? h * std::max(1.0, h / last_h) : h);
+  Needs needs(system, h);
   for (const Joint& j : system.own_joints()) {
     if (j.block < 0 && !system.turns_each(j)) continue;
     const Need need = needs(j);

@@ -44,10 +44,10 @@
 
 namespace ductile::dynamics {
 
-/// Before a step of h seconds, from the impulses of the last one's tension, in last_h seconds or, where that
-/// is less, in h: inertia that is gained enters at the rate of its whole's spin, and beside that at equal
-/// turn rates, so that no energy comes of it; what is not needed any more goes after half a second, so that
-/// factors last. True where H changed.
+/// Before a step of h seconds, from the impulses that the tension of the last one, which was of last_h, has
+/// in it: inertia that is gained enters at the rate of its whole's spin, and beside that at equal turn rates,
+/// so that no energy comes of it; what is not needed any more goes after half a second, so that factors last.
+/// True where H changed.
 bool follow_tension(System& system, double h, double last_h);
 
 /// After a solve: true where its impulses ask for half as much again as there is, which was raised then, and
