@@ -105,7 +105,12 @@ bool Component::as_before(const b2SolverData& data) const {
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
+  const auto jumps = [&m](const b2Vec2& v, float w) {
+    return !m.guest() &&
+           std::max((v - m.given.v).Length(), m.mass.gyration * std::abs(w - m.given.w)) > blow_speed;
+  };
   if (m.type != b2_dynamicBody || !direct()) {
+    struck_ |= jumps(m.taken.v, m.taken.w);
     m.exact = in_doubles(m.given = m.taken);
     return;
   }
@@ -124,9 +129,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
     m.exact = m.alone;
   } else {
     m.exact = in_doubles(m.taken);
-    const b2Vec2 jump = m.body->GetLinearVelocity() - m.given.v;
-    const float turn = m.mass.gyration * std::abs(m.body->GetAngularVelocity() - m.given.w);
-    struck_ |= !m.guest() && std::max(jump.Length(), turn) > blow_speed;
+    struck_ |= jumps(m.body->GetLinearVelocity(), m.body->GetAngularVelocity());
   }
   m.given = m.taken;
 }
