@@ -1,5 +1,6 @@
 #include "box2d_contacts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "box2d_private.h"
@@ -59,7 +60,10 @@ void IslandContacts::read(b2World& world, const b2SolverData& data) {
   auto* velocity = reinterpret_cast<VelocityConstraint*>(entry[at_velocities].data);
   auto* position = reinterpret_cast<PositionConstraint*>(entry[at_positions].data);
   for (std::size_t k = 0; k < count; ++k) {
-    const Touch touch{.contact = contact[k], .velocity = velocity + k, .position = position + k};
+    const Touch touch{.contact = contact[k],
+                      .manifold = contact[k]->GetManifold(),
+                      .velocity = velocity + k,
+                      .position = position + k};
     if (is_settled(*touch.velocity)) continue;
     if (!is_as_assumed(touch, static_cast<int32>(k), island, static_cast<int32>(capacity)))
       return touches_.clear();
@@ -86,6 +90,16 @@ void IslandContacts::reach(b2Body& body) {
 
 bool IslandContacts::is_followed(const b2Body& body) const {
   return body.GetType() == b2_dynamicBody && marks_[place_of(body)] == followed;
+}
+
+std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along) {
+  float first = b2_maxFloat, last = -b2_maxFloat;
+  for (int32 i = 0; i < polygon.m_count; ++i) {
+    const float at = b2Dot(along, polygon.m_vertices[i]);
+    first = std::min(first, at - polygon.m_radius);
+    last = std::max(last, at + polygon.m_radius);
+  }
+  return {first, last};
 }
 
 bool share_a_neighbour(const b2Body& a, const b2Body& b) {

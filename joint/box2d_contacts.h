@@ -12,7 +12,9 @@
 
 #include <box2d/box2d.h>
 
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace ductile::dynamics {
@@ -46,9 +48,11 @@ struct PositionConstraint {
   int32 count;
 };
 
-/// One contact of the island.
+/// One contact of the island, or points of one that a blow's bodies may meet within the step
+/// (near_contacts.cpp).
 struct Touch {
   b2Contact* contact;
+  const b2Manifold* manifold;  // its own, or that of near points
   VelocityConstraint* velocity;
   PositionConstraint* position;
   int in_a = -1, in_b = -1;  // its bodies in a component
@@ -56,6 +60,8 @@ struct Touch {
 
   b2Body* a() const { return contact->GetFixtureA()->GetBody(); }
   b2Body* b() const { return contact->GetFixtureB()->GetBody(); }
+  /// Whether it does not touch yet.
+  bool is_near() const { return manifold != contact->GetManifold(); }
 };
 
 /// The contacts of the island that is being solved; none where an assumption does not hold.
@@ -69,6 +75,9 @@ class IslandContacts {
   /// for each body that is reached, and may reach() more.
   template <class IsPiece, class MayTake, class Follow>
   void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
+  /// Adds the points that a contact of one of this touch's bodies may have within the step of h seconds and
+  /// has not yet, where they face the way that the touch does.
+  void add_near(b2Contact& contact, const Touch& touch, float h);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
   /// The index of a body that can move in the island that is being solved.
@@ -79,6 +88,7 @@ class IslandContacts {
   /// Those that choose() left out, as their bodies share a neighbour.
   std::span<const Touch> corners() const { return corners_; }
   void clear() {
+    near_count_ = 0;
     touches_.clear();
     corners_.clear();
   }
@@ -93,16 +103,28 @@ class IslandContacts {
  private:
   static constexpr std::size_t few = 40;  // points
 
+  // What Box2D's contact solver would have of points that do not touch yet.
+  struct Near {
+    b2Manifold manifold;
+    VelocityConstraint velocity;
+    PositionConstraint position;
+  };
+
   enum Mark : char { unknown, reached, followed };
   Mark& mark(const b2Body& body);
   template <class Follow>
   void follow_front(const Follow& follow);
 
   std::vector<Touch> touches_, chosen_, corners_;
+  std::array<Near, few> near_;
+  std::size_t near_count_ = 0;
   std::vector<char> taken_;
   std::vector<Mark> marks_;     // of the island's bodies
   std::vector<b2Body*> front_;  // reached, but not followed
 };
+
+/// From where to where a polygon and its skin reach in a direction.
+std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along);
 
 /// Whether two bodies are joined to the same third, which moves: at a corner pieces on both sides of a hinge
 /// touch as it turns. Non-penetration there, exact to the last bit, would be a moment beside the joint's own.

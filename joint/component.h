@@ -45,6 +45,7 @@ struct Component {
   /// What else touches or holds the bodies in this step: as Box2D has it, and as rows.
   struct Outside {
     Vector<Touch> touches;
+    Vector<Touch> near;        // touches of a step's parts, too
     Vector<Contact> contacts;  // rows of the touches' points
     Vector<Touch> corners;     // which push, but in parts of a step
     Vector<StockJoint> ties;
@@ -183,6 +184,10 @@ struct Component {
   bool is_held() const;
   /// Between steps one of its pieces was moved with all that hangs on it (first_touch.cpp).
   void shift(const b2Body& piece, const b2Vec2& way);
+  /// Whether the last step was solved in parts, and others are to follow.
+  bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
+  /// Whether a contact closes fast enough for a blow.
+  static bool strikes(const Touch& touch);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
   template <class Count>

@@ -15,8 +15,8 @@ bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
   if (!knows(t.in_a, t.in_b)) return false;
-  t.at_seam = is_at_seam(t);
-  outside_.touches.push_back(t);
+  t.at_seam = !t.is_near() && is_at_seam(t);
+  (t.is_near() ? outside_.near : outside_.touches).push_back(t);
   return true;
 }
 
@@ -187,7 +187,7 @@ void Component::read_touches() {
       c.bounce = p.bounce;
       c.normal = p.normal_impulse;
       c.tangent = p.tangent_impulse;
-      c.id = t.contact->GetManifold()->points[k].id.key;
+      c.id = t.manifold->points[k].id.key;
       outside_.contacts.push_back(c);
       steady(outside_.contacts.back());
     }
@@ -223,6 +223,12 @@ float Component::closing_speed(const Touch& t, const PointConstraint& p) {
     return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
   };
   return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
+}
+
+bool Component::strikes(const Touch& t) {
+  const PointConstraint* points = t.velocity->points;
+  return std::any_of(points, points + t.velocity->count,
+                     [&t](const PointConstraint& p) { return closing_speed(t, p) < -blow_speed; });
 }
 
 // Of what closes fastest, m/s.

@@ -43,14 +43,10 @@ bool is_beside(const b2Fixture& fixture, const b2Vec2& normal, const b2Vec2& arm
   if (fixture.GetType() != b2Shape::e_polygon) return false;
   const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
   const b2Vec2 along = b2Cross(normal, 1.0f);
-  float first = b2_maxFloat, last = -b2_maxFloat;
-  for (int32 i = 0; i < polygon.m_count; ++i) {
-    first = std::min(first, b2Dot(along, polygon.m_vertices[i]));
-    last = std::max(last, b2Dot(along, polygon.m_vertices[i]));
-  }
+  const auto [first, last] = extent(polygon, along);
   const b2Vec2 point = b2MulT(b2Rot(static_cast<float>(angle)), arm) + fixture.GetBody()->GetLocalCenter();
-  const float at = b2Dot(along, point), skin = polygon.m_radius;
-  return at < first - skin || at > last + skin;
+  const float at = b2Dot(along, point);
+  return at < first || at > last;
 }
 
 // N/m or N m/rad: of a rigid row, what a part resolves.
@@ -221,11 +217,13 @@ void Component::begin_parts() {
     body.given = 1.0 / parts_.count * (m.exact - body.before);
     m.exact = body.before;
   }
+  outside_.touches.insert(outside_.touches.end(), outside_.near.begin(), outside_.near.end());
   read_touches();
   parts_.sums.assign(outside_.contacts.size(), {});
-  each_point([this](std::size_t k, const Touch&, const PointConstraint& p) {
+  each_point([this](std::size_t k, const Touch& t, const PointConstraint& p) {
     parts_.sums[k].ra = p.ra;
     parts_.sums[k].rb = p.rb;
+    if (t.is_near()) parts_.sums[k].gap = -p.bounce * (parts_.count * solver.step());
   });
   parts_.links.clear();
   for (Contact& c : outside_.contacts) {
@@ -240,7 +238,7 @@ void Component::carry_arms() {
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
     const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
-    const b2Manifold& manifold = *t.contact->GetManifold();
+    const b2Manifold& manifold = *t.manifold;
     const bool on_a = manifold.type == b2Manifold::e_faceA, on_b = manifold.type == b2Manifold::e_faceB;
     const float share = on_a ? 1.0f : on_b ? 0.0f : 0.5f;
     p.ra += share * apart;
@@ -274,9 +272,11 @@ void Component::solve_part(double h, bool first, bool blow) {
       Contact& c = outside_.contacts[k];
       c.normal = solver.contacts[k].normal;
       c.tangent = solver.contacts[k].tangent;
-      c.bounce = -parts_.sums[k].gap / h;
+      c.bounce = 0;
     }
   }
+  for (std::size_t k = 0; k < outside_.contacts.size(); ++k)
+    if (parts_.sums[k].gap > 0) outside_.contacts[k].bounce = -parts_.sums[k].gap / h;
   enter_ties(parts_.count);
   if (!first && outside_.links.size() == solver.links.size()) {
     for (std::size_t k = 0; k < solver.links.size(); ++k) outside_.links[k].impulse = solver.links[k].impulse;
@@ -386,7 +386,7 @@ double Component::go_on_with_means() {
 }
 
 // An observer of the whole step counts impulses, where they acted when it began, times the mean of the
-// velocities before and after it.
+// velocities before and after it; of near contacts none.
 void Component::book_parts() {
   double contacts = 0, weight = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -399,11 +399,11 @@ void Component::book_parts() {
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Parts::OfContact& sum = parts_.sums[k];
     p.ra = sum.ra, p.rb = sum.rb;
-    contacts += sum.work - work(t, p, sum.normal, sum.tangent) / 2;
+    contacts += sum.work - (t.is_near() ? 0 : work(t, p, sum.normal, sum.tangent) / 2);
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
-    contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
+    if (!t.is_near()) contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   for (std::size_t k = 0; k < parts_.links.size(); ++k) {

@@ -30,6 +30,7 @@ int joints_in_island(const b2Body& body) {
 
 void Component::clear_outside() {
   outside_.touches.clear();
+  outside_.near.clear();
   outside_.corners.clear();
   outside_.ties.clear();
 }

@@ -77,6 +77,7 @@ class Island {
   // reach.cpp
   void choose_contacts(const b2SolverData& data);
   void choose_stock_joints();
+  void find_near(float h);
   void follow(b2Body& body);
   bool is_piece(const b2Body& body) const;
   bool may_take(const b2Body& body) const;

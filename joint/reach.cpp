@@ -68,9 +68,34 @@ void Island::choose_contacts(const b2SolverData& data) {
                    [&](b2Body& body) {
                      if (stock_known) follow(body);
                    });
+  find_near(data.step.dt);
   for (const StockJoint& t : stock_) {
     for (b2Body* body : {t.a(), t.b()}) {
       if (body->GetType() == b2_dynamicBody) stopped += stop_if_not_finite(*body, data) ? 1 : 0;
+    }
+  }
+}
+
+// What strikes a piece meets it at more points than the first, or more pieces, before the step is over: a
+// block that comes down a little tilted. A rebound is left to the step after it, which knows how fast they
+// met.
+void Island::find_near(float h) {
+  const std::size_t touching = contacts_.touches().size();
+  for (std::size_t k = 0; k < touching; ++k) {
+    const Touch t = contacts_.touches()[k];
+    for (b2Body* guest : {t.a(), t.b()}) {
+      const Component* of_piece = component_of(guest == t.a() ? *t.b() : *t.a());
+      if (guest->GetType() != b2_dynamicBody || is_piece(*guest) || of_piece == nullptr ||
+          !(Component::strikes(t) || of_piece->in_parts()))
+        continue;
+      for (b2ContactEdge* e = guest->GetContactList(); e != nullptr; e = e->next) {
+        b2Contact& c = *e->contact;
+        if (!c.IsEnabled() || c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor() ||
+            c.GetRestitution() > 0 || !is_piece(*e->other) || component_of(*e->other) == nullptr ||
+            share_a_neighbour(*guest, *e->other))
+          continue;
+        contacts_.add_near(c, t, h);
+      }
     }
   }
 }

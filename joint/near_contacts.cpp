@@ -1,0 +1,95 @@
+// Points of contact that a blow's bodies have not reached yet. Box2D's manifolds end 2 cm from a face; within
+// a step of 1/60 s what strikes at 3 m/s goes 5 cm. They are those of shapes with a wider skin, as wide as
+// the bodies may come nearer, and close no further than their gap. Box2D, which sees them in the step after
+// this one, tells nobody of their impulses.
+#include <algorithm>
+#include <cmath>
+
+#include "box2d_contacts.h"
+
+namespace ductile::dynamics {
+
+namespace {
+
+constexpr float same_way = 0.9f;  // cosine of two normals
+
+float size(const b2Fixture& fixture, int32 child) { return fixture.GetAABB(child).GetPerimeter() / 4; }
+
+// The way by which two bodies' points may come nearer in h seconds.
+float way_of(const b2Contact& c, float h) {
+  const b2Body &a = *c.GetFixtureA()->GetBody(), &b = *c.GetFixtureB()->GetBody();
+  const float turn = std::abs(a.GetAngularVelocity()) * size(*c.GetFixtureA(), c.GetChildIndexA()) +
+                     std::abs(b.GetAngularVelocity()) * size(*c.GetFixtureB(), c.GetChildIndexB());
+  return std::min(h * ((b.GetLinearVelocity() - a.GetLinearVelocity()).Length() + turn), b2_maxTranslation);
+}
+
+// The wider skin leaves the edge that meets a polygon's face too long: it ends where the face does.
+void cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
+  if (face.GetType() != b2Shape::e_polygon || m.pointCount != 2) return;
+  const b2Vec2 along = b2Cross(m.localNormal, 1.0f);
+  const auto& polygon = static_cast<const b2PolygonShape&>(*face.GetShape());
+  auto [first, last] = extent(polygon, along);
+  first += polygon.m_radius, last -= polygon.m_radius;
+  const b2Vec2 ends[]{m.points[0].localPoint, m.points[1].localPoint};
+  const float at[]{b2Dot(along, b2Mul(to_face, ends[0])), b2Dot(along, b2Mul(to_face, ends[1]))};
+  if (std::max(at[0], at[1]) < first || std::min(at[0], at[1]) > last) m.pointCount = 0;
+  for (int k = 0; k < 2; ++k) {
+    const float missing = b2Clamp(at[k], first, last) - at[k];
+    if (missing != 0) m.points[k].localPoint += missing / (at[1 - k] - at[k]) * (ends[1 - k] - ends[k]);
+  }
+}
+
+}  // namespace
+
+void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
+  b2Fixture &fa = *contact.GetFixtureA(), &fb = *contact.GetFixtureB();
+  const b2Body &a = *fa.GetBody(), &b = *fb.GetBody();
+  const b2Manifold& known = *contact.GetManifold();
+  const int32 touching = contact.IsTouching() ? known.pointCount : 0;
+  const bool is_known = std::any_of(touches_.begin(), touches_.end(), [&contact](const Touch& t) {
+    return t.contact == &contact && t.is_near();
+  });
+  if (touching == b2_maxManifoldPoints || is_known || near_count_ == near_.size()) return;
+  Near& near = near_[near_count_];
+  const float radius = fb.GetShape()->m_radius;
+  fb.GetShape()->m_radius = radius + way_of(contact, h);
+  contact.Evaluate(&near.manifold, a.GetTransform(), b.GetTransform());
+  fb.GetShape()->m_radius = radius;
+  const b2Transform &at_a = a.GetTransform(), &at_b = b.GetTransform();
+  if (near.manifold.type == b2Manifold::e_faceA) cut_to(fa, b2MulT(at_a, at_b), near.manifold);
+  if (near.manifold.type == b2Manifold::e_faceB) cut_to(fb, b2MulT(at_b, at_a), near.manifold);
+
+  b2WorldManifold world;
+  world.Initialize(&near.manifold, a.GetTransform(), fa.GetShape()->m_radius, b.GetTransform(), radius);
+  const bool same_order = touch.a() == &a || touch.b() == &b;
+  const float along = b2Dot(world.normal, touch.velocity->normal);
+  if (near.manifold.pointCount == 0 || (same_order ? along : -along) < same_way) return;
+  VelocityConstraint& v = near.velocity = {};
+  PositionConstraint& p = near.position = {};
+  for (int32 k = 0; k < near.manifold.pointCount; ++k) {
+    const auto* end = known.points + touching;
+    const b2ManifoldPoint point = near.manifold.points[k];
+    if (std::any_of(known.points, end, [&](const b2ManifoldPoint& q) { return q.id.key == point.id.key; }))
+      continue;
+    v.points[v.count].ra = world.points[k] - a.GetWorldCenter();
+    v.points[v.count].rb = world.points[k] - b.GetWorldCenter();
+    v.points[v.count].bounce = -std::max(world.separations[k], 0.0f) / h;
+    p.points[v.count] = point.localPoint;
+    near.manifold.points[v.count++] = point;
+  }
+  if (v.count == 0) return;
+  near.manifold.pointCount = p.count = v.count;
+  v.normal = world.normal;
+  v.friction = contact.GetFriction();
+  v.conveyor = contact.GetTangentSpeed();
+  p.normal = near.manifold.localNormal;
+  p.point = near.manifold.localPoint;
+  p.type = near.manifold.type;
+  touches_.push_back({.contact = &contact,
+                      .manifold = &near.manifold,
+                      .velocity = &near.velocity,
+                      .position = &near.position});
+  ++near_count_;
+}
+
+}  // namespace ductile::dynamics
