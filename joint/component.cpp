@@ -284,8 +284,7 @@ bool Component::parts(const Joint& j) const {
                           b.GetAngularVelocity());
   };
   const Rows v = relative_velocity(j, of_body(j.a), of_body(j.b));
-  const double size = std::max(mirrors[z(j.a)].mass.gyration, mirrors[z(j.b)].mass.gyration);
-  return std::max({std::abs(v[0]), std::abs(v[1]), size * std::abs(v[2])}) > blow_speed;
+  return std::max(std::abs(v[0]), std::abs(v[1])) > double{blow_speed} || std::abs(v[2]) > double{blow_turn};
 }
 
 int Component::freedom(std::size_t body, std::size_t free_bodies) const {

@@ -225,8 +225,8 @@ struct Component {
   static float closing_speed(const Touch& touch, const PointConstraint& at);
   static double opening(const Touch& touch, int32 point, double h);
   bool parts(const Joint& joint) const;
-  /// By what velocities must change at once for a blow, m/s.
-  static constexpr float blow_speed = 0.1f;
+  /// By what velocities must change at once for a blow, m/s or rad/s.
+  static constexpr float blow_speed = 0.1f, blow_turn = 0.05f;
   void set_warm_start_aside(const Touch& touch);
   void set_warm_starts_aside();
   void silence_corners();

@@ -107,8 +107,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
   const auto jumps = [&m](const b2Vec2& v, float w) {
-    return !m.guest() &&
-           std::max((v - m.given.v).Length(), m.mass.gyration * std::abs(w - m.given.w)) > blow_speed;
+    return !m.guest() && ((v - m.given.v).Length() > blow_speed || std::abs(w - m.given.w) > blow_turn);
   };
   if (m.type != b2_dynamicBody || !direct()) {
     struck_ |= jumps(m.taken.v, m.taken.w);

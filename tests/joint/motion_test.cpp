@@ -439,6 +439,30 @@ TEST(Motion, AFrameInResonanceYieldsAsInFineSteps) {
   EXPECT_NEAR(plastic_work(60), fine, 0.05 * fine);
 }
 
+// However short an arm is, and so however slow, its hinge stops it at ½ I ω²/M_p.
+TEST(Motion, AShortArmThatIsSetTurningStopsAtItsWork) {
+  for (const double length : {0.05, 0.3}) {
+    for (const double rate : {0.3, 1.0, 6.0}) {
+      for (const bool before_first_step : {true, false}) {
+        constexpr double angle = 0.05;
+        const double mass = 1,
+                     inertia = mass * length * length * (1 + 0.01) / 12 + mass * length * length / 4;
+        Beam beam({.pieces = 1,
+                   .length = length,
+                   .height = length / 10,
+                   .density = 10 * mass / (length * length),
+                   .moment_cap = inertia * rate * rate / 2 / angle,
+                   .gravity = 0});
+        if (!before_first_step) beam.run(0.5);
+        beam.pieces[0]->SetAngularVelocity(static_cast<float>(rate));
+        beam.pieces[0]->SetLinearVelocity(vec(0, rate * length / 2));
+        beam.run(3 * angle / rate + 1);
+        EXPECT_NEAR(beam.joints[0]->accumulated_rotation(), angle, 0.01 * angle) << length << ", " << rate;
+      }
+    }
+  }
+}
+
 // ζ = γ(ωh)³/2 = 6e-5 (row.h) takes 0.7 % in 4 s. The tolerance leaves room for what bodies part by along
 // their tangents, of second order in 0.023 rad a step, and take back.
 TEST(Motion, AnArmThatSwingsFarKeepsItsEnergy) {
