@@ -55,6 +55,7 @@ void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
   fb.GetShape()->m_radius = radius + way_of(contact, h);
   contact.Evaluate(&near.manifold, a.GetTransform(), b.GetTransform());
   fb.GetShape()->m_radius = radius;
+  if (near.manifold.pointCount == 0) return;
   const b2Transform &at_a = a.GetTransform(), &at_b = b.GetTransform();
   if (near.manifold.type == b2Manifold::e_faceA) cut_to(fa, b2MulT(at_a, at_b), near.manifold);
   if (near.manifold.type == b2Manifold::e_faceB) cut_to(fb, b2MulT(at_b, at_a), near.manifold);
