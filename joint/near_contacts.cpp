@@ -23,20 +23,22 @@ float way_of(const b2Contact& c, float h) {
   return std::min(h * ((b.GetLinearVelocity() - a.GetLinearVelocity()).Length() + turn), b2_maxTranslation);
 }
 
-// The wider skin leaves the edge that meets a polygon's face too long: it ends where the face does.
-void cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
-  if (face.GetType() != b2Shape::e_polygon || m.pointCount != 2) return;
+// The wider skin leaves the edge that meets a polygon's face too long: it ends where the face does. False
+// where nothing of it is left.
+bool cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
+  if (face.GetType() != b2Shape::e_polygon || m.pointCount != 2) return true;
   const b2Vec2 along = b2Cross(m.localNormal, 1.0f);
   const auto& polygon = static_cast<const b2PolygonShape&>(*face.GetShape());
   auto [first, last] = extent(polygon, along);
   first += polygon.m_radius, last -= polygon.m_radius;
   const b2Vec2 ends[]{m.points[0].localPoint, m.points[1].localPoint};
   const float at[]{b2Dot(along, b2Mul(to_face, ends[0])), b2Dot(along, b2Mul(to_face, ends[1]))};
-  if (std::max(at[0], at[1]) < first || std::min(at[0], at[1]) > last) m.pointCount = 0;
+  if (std::max(at[0], at[1]) < first || std::min(at[0], at[1]) > last) return false;
   for (int k = 0; k < 2; ++k) {
     const float missing = b2Clamp(at[k], first, last) - at[k];
     if (missing != 0) m.points[k].localPoint += missing / (at[1 - k] - at[k]) * (ends[1 - k] - ends[k]);
   }
+  return true;
 }
 
 }  // namespace
@@ -57,14 +59,14 @@ void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
   fb.GetShape()->m_radius = radius;
   if (near.manifold.pointCount == 0) return;
   const b2Transform &at_a = a.GetTransform(), &at_b = b.GetTransform();
-  if (near.manifold.type == b2Manifold::e_faceA) cut_to(fa, b2MulT(at_a, at_b), near.manifold);
-  if (near.manifold.type == b2Manifold::e_faceB) cut_to(fb, b2MulT(at_b, at_a), near.manifold);
+  if (near.manifold.type == b2Manifold::e_faceA && !cut_to(fa, b2MulT(at_a, at_b), near.manifold)) return;
+  if (near.manifold.type == b2Manifold::e_faceB && !cut_to(fb, b2MulT(at_b, at_a), near.manifold)) return;
 
   b2WorldManifold world;
-  world.Initialize(&near.manifold, a.GetTransform(), fa.GetShape()->m_radius, b.GetTransform(), radius);
+  world.Initialize(&near.manifold, at_a, fa.GetShape()->m_radius, at_b, radius);
   const bool same_order = touch.a() == &a || touch.b() == &b;
   const float along = b2Dot(world.normal, touch.velocity->normal);
-  if (near.manifold.pointCount == 0 || (same_order ? along : -along) < same_way) return;
+  if ((same_order ? along : -along) < same_way) return;
   VelocityConstraint& v = near.velocity = {};
   PositionConstraint& p = near.position = {};
   for (int32 k = 0; k < near.manifold.pointCount; ++k) {
