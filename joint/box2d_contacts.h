@@ -123,6 +123,12 @@ class IslandContacts {
   std::vector<b2Body*> front_;  // reached, but not followed
 };
 
+/// Whether a contact's bodies slide along each other further than they come nearer, in h seconds.
+bool slides(const Touch& touch, float h);
+
+/// PostSolve of points that did not touch when the step began.
+void tell_of_near(const Touch& touch);
+
 /// From where to where a polygon and its skin reach in a direction.
 std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along);
 

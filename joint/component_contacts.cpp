@@ -209,6 +209,10 @@ void Component::return_contacts() {
       t.velocity->points[k].normal_impulse = static_cast<float>(c.normal);
       t.velocity->points[k].tangent_impulse = static_cast<float>(c.tangent);
     }
+    if (t.is_near()) {
+      tell_of_near(t);
+      continue;
+    }
     settle(*t.velocity);
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const auto yields = [](const Mirror& m) { return m.guest() && m.type == b2_dynamicBody; };

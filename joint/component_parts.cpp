@@ -386,7 +386,7 @@ double Component::go_on_with_means() {
 }
 
 // An observer of the whole step counts impulses, where they acted when it began, times the mean of the
-// velocities before and after it; of near contacts none.
+// velocities before and after it.
 void Component::book_parts() {
   double contacts = 0, weight = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -399,11 +399,11 @@ void Component::book_parts() {
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Parts::OfContact& sum = parts_.sums[k];
     p.ra = sum.ra, p.rb = sum.rb;
-    contacts += sum.work - (t.is_near() ? 0 : work(t, p, sum.normal, sum.tangent) / 2);
+    contacts += sum.work - work(t, p, sum.normal, sum.tangent) / 2;
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
-    if (!t.is_near()) contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
+    contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
   });
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   for (std::size_t k = 0; k < parts_.links.size(); ++k) {

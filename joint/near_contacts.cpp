@@ -1,7 +1,11 @@
 // Points of contact that a blow's bodies have not reached yet. Box2D's manifolds end 2 cm from a face; within
 // a step of 1/60 s what strikes at 3 m/s goes 5 cm. They are those of shapes with a wider skin, as wide as
-// the bodies may come nearer, and close no further than their gap. Box2D, which sees them in the step after
-// this one, tells nobody of their impulses.
+// the bodies may come nearer, and close by their gap and Box2D's slop, so that its next manifold has them.
+// Its listener is asked by PreSolve before, and told by PostSolve after, though the contact begins in the
+// next step.
+//
+// What slides along pieces would be caught by the next one's corner, as manifolds keep their normals in a
+// step: such points are left alone.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +15,7 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr float same_way = 0.9f;  // cosine of two normals
+constexpr float same_way = 0.99f;  // cosine of two normals
 
 float size(const b2Fixture& fixture, int32 child) { return fixture.GetAABB(child).GetPerimeter() / 4; }
 
@@ -41,7 +45,52 @@ bool cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
   return true;
 }
 
+// Calls tell(listener, before) while the contact has these points.
+template <class Tell>
+void tell_with(b2Contact& contact, const b2Manifold& points, const Tell& tell) {
+  b2ContactListener* listener =
+      contact.GetFixtureA()->GetBody()->GetWorld()->GetContactManager().m_contactListener;
+  if (listener == nullptr) return;
+  b2Manifold& own = *contact.GetManifold();
+  const b2Manifold before = own;
+  own = points;
+  tell(*listener, before);
+  own = before;
+}
+
+// Whether PreSolve leaves the contact enabled, as it would be asked in the next step.
+bool is_wanted(b2Contact& contact, const b2Manifold& near) {
+  tell_with(contact, near, [&contact](b2ContactListener& listener, const b2Manifold& before) {
+    listener.PreSolve(&contact, &before);
+  });
+  const bool wanted = contact.IsEnabled();
+  contact.SetEnabled(true);
+  return wanted;
+}
+
 }  // namespace
+
+bool slides(const Touch& touch, float h) {
+  const b2Vec2 v = touch.b()->GetLinearVelocity() - touch.a()->GetLinearVelocity(),
+               n = touch.velocity->normal;
+  const float along = std::abs(b2Cross(v, n));
+  return h * along > b2_linearSlop && along > std::abs(b2Dot(v, n)) / 2;
+}
+
+void tell_of_near(const Touch& touch) {
+  b2ContactImpulse impulse;
+  impulse.count = touch.velocity->count;
+  bool presses = false;
+  for (int32 k = 0; k < impulse.count; ++k) {
+    impulse.normalImpulses[k] = touch.velocity->points[k].normal_impulse;
+    impulse.tangentImpulses[k] = touch.velocity->points[k].tangent_impulse;
+    presses |= impulse.normalImpulses[k] > 0;
+  }
+  if (!presses) return;
+  tell_with(*touch.contact, *touch.manifold, [&](b2ContactListener& listener, const b2Manifold&) {
+    listener.PostSolve(touch.contact, &impulse);
+  });
+}
 
 void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
   b2Fixture &fa = *contact.GetFixtureA(), &fb = *contact.GetFixtureB();
@@ -76,12 +125,13 @@ void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
       continue;
     v.points[v.count].ra = world.points[k] - a.GetWorldCenter();
     v.points[v.count].rb = world.points[k] - b.GetWorldCenter();
-    v.points[v.count].bounce = -std::max(world.separations[k], 0.0f) / h;
+    v.points[v.count].bounce = -(std::max(world.separations[k], 0.0f) + b2_linearSlop) / h;
     p.points[v.count] = point.localPoint;
     near.manifold.points[v.count++] = point;
   }
   if (v.count == 0) return;
   near.manifold.pointCount = p.count = v.count;
+  if (touching == 0 && !is_wanted(contact, near.manifold)) return;
   v.normal = world.normal;
   v.friction = contact.GetFriction();
   v.conveyor = contact.GetTangentSpeed();

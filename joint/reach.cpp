@@ -86,7 +86,7 @@ void Island::find_near(float h) {
     for (b2Body* guest : {t.a(), t.b()}) {
       const Component* of_piece = component_of(guest == t.a() ? *t.b() : *t.a());
       if (guest->GetType() != b2_dynamicBody || is_piece(*guest) || of_piece == nullptr ||
-          !(Component::strikes(t) || of_piece->in_parts()))
+          !(Component::strikes(t) || of_piece->in_parts()) || slides(t, h))
         continue;
       for (b2ContactEdge* e = guest->GetContactList(); e != nullptr; e = e->next) {
         b2Contact& c = *e->contact;

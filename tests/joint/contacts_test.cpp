@@ -526,8 +526,51 @@ TEST(SolvedInParts, OfWhatComesDownTilted) {
     const double fine = plastic_work(tilt, 3840);
     ASSERT_GT(fine, 500);
     for (const double rate : {30.0, 60.0, 120.0})
-      EXPECT_NEAR(plastic_work(tilt, rate), fine, 0.15 * fine) << tilt << ", " << rate;
+      EXPECT_NEAR(plastic_work(tilt, rate), fine, (rate < 60 ? 0.25 : 0.15) * fine) << tilt << ", " << rate;
   }
+}
+
+// A listener is asked of what is met within the step, and told of it: a box that strikes the last piece of a
+// deck has the next one's help only where PreSolve lets it.
+TEST(SolvedInParts, AskAListenerOfWhatIsMetWithinTheStep) {
+  struct Listener : b2ContactListener {
+    const b2Body* passed = nullptr;  // whose contacts PreSolve disables
+    double told = 0;                 // N s
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+      EXPECT_GT(contact->GetManifold()->pointCount, 0);
+      if (contact->GetFixtureA()->GetBody() == passed || contact->GetFixtureB()->GetBody() == passed)
+        contact->SetEnabled(false);
+    }
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+      b2WorldManifold world;
+      contact->GetWorldManifold(&world);
+      for (int32 k = 0; k < impulse->count; ++k)
+        told += std::abs(world.normal.y) * impulse->normalImpulses[k];
+    }
+  };
+  const auto turned = [](bool passes, double& missing) {
+    Beam beam({.pieces = 12, .length = 6, .height = 0.15, .density = 400, .youngs_modulus = 16e9});
+    Listener listener;
+    if (passes) listener.passed = beam.pieces[6];
+    beam.world.SetContactListener(&listener);
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.angle = 0.04f;
+    def.position = vec(3, 0.075 + 0.25 + 0.05);
+    def.linearVelocity = vec(0, -3);
+    b2Body* block = beam.world.CreateBody(&def);
+    b2PolygonShape box;
+    box.SetAsBox(0.25f, 0.25f);
+    block->CreateFixture(&box, 400)->SetFriction(0);
+    beam.run(0.1);
+    missing = block->GetMass() * (block->GetLinearVelocity().y + 3 + 10 * 0.1) - listener.told;
+    return std::abs(block->GetAngle());
+  };
+  double missing = 0;
+  EXPECT_LT(turned(false, missing), 0.05);
+  // Where parts end bodies go on with the velocities of the middle of the step.
+  EXPECT_NEAR(missing, 0, 0.1 * 400 * 0.25 * 4);
+  EXPECT_GT(turned(true, missing), 0.1);
 }
 
 // A beam that flies with its support, which stops, is one at rest whose pieces are all thrown.
