@@ -146,6 +146,7 @@ void Component::admit(std::size_t first, std::size_t free_bodies) {
     Joint& j = solver.joints.emplace_back(m.own.joint);
     solver.records.push_back(m.own.record);
     solver.drift_time() = std::max(solver.drift_time(), m.own.drift_time);
+    solver.moved_by() = std::max(solver.moved_by(), m.own.record.law.h);
     m.belong_to(this);
     m.index = i;
     j.a = index_of(m.joint->GetBodyA());

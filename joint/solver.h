@@ -112,6 +112,7 @@ class Solver : public System {
   /// See StepLaws.
   double& drift_time() { return laws_.drift_time; }
   double drift_time() const { return laws_.drift_time; }
+  double& moved_by() { return laws_.moved_by; }
   NewtonTunables& tunables() { return newton_.tunables; }
   InteriorPointTunables& interior_point_tunables() { return newton_.interior_point.tunables; }
 

@@ -105,7 +105,7 @@ double StepLaws::share_of(double drift, double now) { return drift < now ? std::
 
 // What a joint has of drift: all that there is, where poses moved by a longer step before.
 Drift StepLaws::drift_of(const JointRecord& r, const Drift& now) const {
-  return h_ < moved_by_ ? now : r.deferred_drift;
+  return h_ < moved_by ? now : r.deferred_drift;
 }
 
 // One share for all rigid rows.

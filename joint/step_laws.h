@@ -19,6 +19,8 @@ class StepLaws {
   double elastic_ratio = rigid_ratio;
   /// s in which the constraint drift of a longer step is still to be taken back.
   double drift_time = 0;
+  /// s, of the step that poses last moved by.
+  double moved_by = 0;
 
   /// Caps, stiffness, masses or joints were changed: the next begin() makes all laws anew.
   void invalidate() { known_ = false; }
@@ -26,7 +28,7 @@ class StepLaws {
   bool begin(System& system, double h);
   double step() const { return h_; }
   /// Poses move by the step.
-  void move() { moved_by_ = h_; }
+  void move() { moved_by = h_; }
   /// Where some row begins to flow in the step as it was solved: whether other rows' forces stop growing by
   /// that and have other laws, so that it is to be solved anew. In steps that resolve waves they do not.
   bool begin_flow(System& system);
@@ -46,7 +48,7 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, moved_by_, known_, some_halt_, of_step_, guarded_, of_contacts_, drift_time);
+    tape(h_, moved_by, known_, some_halt_, of_step_, guarded_, of_contacts_, drift_time);
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
@@ -64,7 +66,6 @@ class StepLaws {
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
-  double moved_by_ = 0;     // s, of the step that poses last moved by
   bool known_ = false;      // the laws are those of h_, caps and stiffness
   bool some_halt_ = false;  // some joint has laws for rows whose force stops growing in this step
   double of_step_ = 1;      // δ of all rows for steps that differ
