@@ -94,7 +94,7 @@ class IslandContacts {
   }
   /// Of so many contacts nothing is allocated in a step.
   void make_room(std::size_t contacts) {
-    touches_.reserve(contacts);
+    touches_.reserve(contacts + few);
     chosen_.reserve(contacts);
     corners_.reserve(contacts);
     taken_.reserve(contacts);
@@ -123,7 +123,8 @@ class IslandContacts {
   std::vector<b2Body*> front_;  // reached, but not followed
 };
 
-/// Whether a contact's bodies slide along each other further than they come nearer, in h seconds.
+/// Whether a contact's bodies slide along each other in h seconds, by more than Box2D's slop and than half of
+/// what they come nearer.
 bool slides(const Touch& touch, float h);
 
 /// PostSolve of points that did not touch when the step began.

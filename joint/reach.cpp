@@ -80,14 +80,17 @@ void Island::choose_contacts(const b2SolverData& data) {
 // block that comes down a little tilted. A rebound is left to the step after it, which knows how fast they
 // met.
 void Island::find_near(float h) {
+  const bool goes_on =
+      std::any_of(active_.begin(), active_.end(), [](const Component* c) { return c->in_parts(); });
   const std::size_t touching = contacts_.touches().size();
   for (std::size_t k = 0; k < touching; ++k) {
     const Touch t = contacts_.touches()[k];
+    const bool strikes = Component::strikes(t);
+    if (!(strikes || goes_on) || slides(t, h)) continue;
     for (b2Body* guest : {t.a(), t.b()}) {
+      if (guest->GetType() != b2_dynamicBody || is_piece(*guest)) continue;
       const Component* of_piece = component_of(guest == t.a() ? *t.b() : *t.a());
-      if (guest->GetType() != b2_dynamicBody || is_piece(*guest) || of_piece == nullptr ||
-          !(Component::strikes(t) || of_piece->in_parts()) || slides(t, h))
-        continue;
+      if (of_piece == nullptr || !(strikes || of_piece->in_parts())) continue;
       for (b2ContactEdge* e = guest->GetContactList(); e != nullptr; e = e->next) {
         b2Contact& c = *e->contact;
         if (!c.IsEnabled() || c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor() ||

@@ -255,6 +255,7 @@ bool StepLaws::begin_flow(System& system) {
   for (Joint& j : own) {
     JointRecord& r = system.record(j);
     Rows e;
+    r.halts = 0;
     for (unsigned i = 0; i < 3; ++i) {
       e[i] = j.G[i] > 0 ? strain_of_bias(j, i) : 0;
       r.halts |= (halts(j, r, i, e[i]) ? 1u : 0u) << i;

@@ -611,7 +611,7 @@ TEST(SolvedInParts, WhereASupportStops) {
 
 // Two balls on a rod roll onto a deck of two pieces that folds: nothing gives energy. Where parts of a step
 // follow a whole step its velocities belong to its middle: half a step of what brakes the deck is missing
-// each time, 0.5 kJ of 90.
+// each time, 1 kJ of 90.
 TEST(SolvedInParts, OfADeckThatFoldsGivesNoEnergy) {
   for (const double stiffness : {1e7, 2e9, rigid}) {
     for (const double rate : {30.0, 60.0, 120.0}) {

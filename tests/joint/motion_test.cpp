@@ -389,8 +389,7 @@ TEST(Motion, ABeamOfManyPiecesYieldsAsMuchAsItsForceCanBend) {
 }
 
 // Gravity sets in at once on beams held at one end or both. Their second frequency and those above, which no
-// step of 1/60 s resolves, have another phase as hinges yield than at 1/1920 s: that is 6 %. A step in which
-// every row was implicit lost up to a quarter of the flow.
+// step of 1/60 s resolves, have another phase as hinges yield than at 1/1920 s: that is 6 %.
 TEST(Motion, ABeamUnderSuddenGravityYieldsAsInFineSteps) {
   for (const bool held_at_both_ends : {false, true}) {
     for (const int pieces : {8, 20}) {
