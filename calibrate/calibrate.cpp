@@ -210,6 +210,10 @@ class Check {
     if (b.material) {
       check(fields::strength, *b.material, place);
       check(fields::substance, *b.material, place);
+      const double fy = b.material->yield_stress, fu = b.material->ultimate_stress;
+      if (fu > 0 && fu < fy)
+        add(place, "fu is " + to_string(fu) + ", below fy, " + to_string(fy),
+            "give an ultimate stress of at least the yield stress, or leave it out");
       if (dynamic && b.profile.empty() && b.material->density == 0)
         number(b.material->density, fields::positive, place, "density");
     } else if (dynamic) {

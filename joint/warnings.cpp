@@ -158,8 +158,8 @@ std::vector<std::string> Structure::warnings() const {
   }
   if (contact_ratio > 1.0001e3) {
     all.push_back(
-        text("a piece touches a body with a mass of %.1e to 1, where 1e3 is promised; use more velocity "
-             "iterations, or join them",
+        text("a piece touches a body with a mass of %.1e to 1, where 1e3 is promised; use a smaller step, "
+             "or join them",
              contact_ratio));
   }
   if (width < 0.02 * 0.999) {

@@ -279,15 +279,15 @@ void add_simulate(CLI::App& app, std::string& output) {
           "yield")
       ->check(CLI::IsMember({"direct", "iterative", "stock"}))
       ->capture_default_str();
-  const CLI::Range iterations(0, 1'000'000);
+  constexpr int most_iterations = 1'000'000;
   command
       ->add_option("--velocity-iterations", options->stepping.velocity_iterations,
                    "as b2World::Step (default 8)")
-      ->check(iterations);
+      ->check(CLI::Range(1, most_iterations));
   command
       ->add_option("--position-iterations", options->stepping.position_iterations,
                    "as b2World::Step (default 3)")
-      ->check(iterations);
+      ->check(CLI::Range(0, most_iterations));
   command->add_option("--history", options->history, "write every step's values to this CSV file");
   auto* picture = add_picture(command, options->pictures, "draw the scene before and after");
   command->add_option("--picture-at", options->picture_at, "draw it at these times instead: 0,1.5,4")

@@ -171,6 +171,20 @@ TEST(Calibrate, HingeLengthFromHardening) {
   EXPECT_THROW(calibrate(scene), InvalidInput);
 }
 
+TEST(Calibrate, RefusesAnUltimateStressBelowYield) {
+  SceneDef scene = cantilever(4);
+  scene.bodies[1].material->ultimate_stress = scene.bodies[1].material->yield_stress;
+  EXPECT_NO_THROW(calibrate(scene));
+  scene.bodies[1].material->ultimate_stress /= 2;
+  try {
+    calibrate(scene);
+    ADD_FAILURE();
+  } catch (const InvalidInput& e) {
+    ASSERT_EQ(e.problems().size(), 1u) << e.what();
+    EXPECT_EQ(e.problems()[0].what, "fu is 1.75e+08, below fy, 3.5e+08");
+  }
+}
+
 TEST(Calibrate, AnchorAndAxis) {
   SceneDef scene = cantilever(2);
   scene.bodies[1].angle = std::numbers::pi / 2;
