@@ -1,8 +1,6 @@
 // Products of 3×3 blocks, two entries at a time.
 #pragma once
 
-#include <cstring>
-
 #include "pair.h"
 
 namespace ductile::dynamics {

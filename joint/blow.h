@@ -18,6 +18,9 @@
 
 namespace ductile::dynamics {
 
+/// By what velocities must change at once for a blow, m/s or rad/s.
+inline constexpr float blow_speed = 0.1f, blow_turn = 0.05f;
+
 /// After the laws of a step and before its first solve.
 void open_blow(System& system);
 /// A joint that breaks after a share of what it would flow by in this step takes no more than so much of its

@@ -41,7 +41,7 @@ bool is_as_assumed(const Touch& t, int32 index, b2Body* const* island, int32 bod
 }  // namespace
 
 void IslandContacts::read(b2World& world, const b2SolverData& data) {
-  touches_.clear();
+  clear();
   b2StackAllocator& stack = of(world, b2World_m_stackAllocator{});
   if (of(stack, b2StackAllocator_m_entryCount{}) != entries) return;
   const StackEntries& entry = of(stack, b2StackAllocator_m_entries{});

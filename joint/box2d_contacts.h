@@ -76,8 +76,9 @@ class IslandContacts {
   template <class IsPiece, class MayTake, class Follow>
   void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
   /// Adds the points that a contact of one of this touch's bodies may have within the step of h seconds and
-  /// has not yet, where they face the way that the touch does.
-  void add_near(b2Contact& contact, const Touch& touch, float h);
+  /// has not yet, where they face the way that the touch does; without a touch, where they strike in the
+  /// step, or a blow may drive them together by `driven` m/s.
+  void add_near(b2Contact& contact, const Touch* touch, float h, float driven = 0);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
   /// The index of a body that can move in the island that is being solved.
@@ -95,7 +96,7 @@ class IslandContacts {
   /// Of so many contacts nothing is allocated in a step.
   void make_room(std::size_t contacts) {
     touches_.reserve(contacts + few);
-    chosen_.reserve(contacts);
+    chosen_.reserve(contacts + few);
     corners_.reserve(contacts);
     taken_.reserve(contacts);
   }

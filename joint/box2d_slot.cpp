@@ -2,7 +2,6 @@
 // Box2D 2.4.1.
 
 #include <new>
-#include <utility>
 #include <vector>
 
 #include "blocks.h"

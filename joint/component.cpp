@@ -114,12 +114,12 @@ void Component::enter(std::size_t i, b2Body& body) {
   solver.bodies[i].mass = m.mass;
   solver.bodies[i].inertia = body.IsFixedRotation() ? 0 : m.inertia - m.mass * offset;
   put(solver.places[i], origin.relative(mirror.left));
-  const b2Vec2 v = body.GetLinearVelocity();
-  solver.bodies[i].v = into_own_frame(solver.places[i].turn, v.x, v.y, body.GetAngularVelocity());
+  solver.bodies[i].v = into_own_frame(solver.places[i].turn, mirror.exact);
 }
 
-// What its joints knew of a body, if that is still where they left it.
+// What its joints knew of a body: its velocity, and its place if that is still where they left it.
 void Component::remember(std::size_t i, const KnownPose& known) {
+  mirrors[i].given = known.given;
   Pose at = known.pose;
   // Fixtures came or went.
   const double x = double{mirrors[i].mass.center.x} - known.local_center.x;
@@ -277,14 +277,16 @@ void Component::remove(Member& m) {
   rest_ = Rest::none;
 }
 
+// A body's velocity before this step's gravity, in its own frame.
+Vec3 Component::came_at(int i) const {
+  const b2Body& b = *mirrors[z(i)].body;
+  return into_own_frame(solver.places[z(i)].turn,
+                        in_doubles({b.GetLinearVelocity(), b.GetAngularVelocity()}));
+}
+
 // Whether a new joint's bodies come with velocities that it does not leave them.
 bool Component::parts(const Joint& j) const {
-  const auto of_body = [&](int i) {
-    const b2Body& b = *mirrors[z(i)].body;
-    return into_own_frame(solver.places[z(i)].turn, b.GetLinearVelocity().x, b.GetLinearVelocity().y,
-                          b.GetAngularVelocity());
-  };
-  const Rows v = relative_velocity(j, of_body(j.a), of_body(j.b));
+  const Rows v = relative_velocity(j, came_at(j.a), came_at(j.b));
   return std::max(std::abs(v[0]), std::abs(v[1])) > double{blow_speed} || std::abs(v[2]) > double{blow_turn};
 }
 
@@ -296,7 +298,8 @@ KnownPose Component::known(int body) const {
   const Pose& p = solver.places[z(body)].pose;
   return {{p.x + origin.x, p.y + origin.y, p.angle},
           mirrors[z(body)].mass.center,
-          freedom(z(body), solver.free_bodies())};
+          freedom(z(body), solver.free_bodies()),
+          mirrors[z(body)].given};
 }
 
 void Component::hand_back(Member& m) const {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -45,7 +44,7 @@ struct Component {
   /// What else touches or holds the bodies in this step: as Box2D has it, and as rows.
   struct Outside {
     Vector<Touch> touches;
-    Vector<Touch> near;        // touches of a step's parts, too
+    Vector<Touch> near;        // points that may touch within the step: rows of its parts alone
     Vector<Contact> contacts;  // rows of the touches' points
     Vector<Touch> corners;     // which push, but in parts of a step
     Vector<StockJoint> ties;
@@ -55,7 +54,8 @@ struct Component {
   enum class Coupling : char {
     none,    // nothing touches or holds them but the joints
     whole,   // all of it
-    nearly,  // all but contacts of bodies that share a neighbour, and rows of stock joints
+    nearly,  // all but contacts of bodies that share a neighbour; or all, and Box2D iterates over stock
+             // joints
     partly   // Box2D solves some of it
   };
   enum class Rest : char {
@@ -71,12 +71,14 @@ struct Component {
     bool advanced = false;  // this step was solved so: poses have moved
     struct OfBody {         // velocities in world axes
       Pose start;
-      Vec3 before;            // at the step's start
-      Vec3 given;             // by gravity and loads in a part
-      Vec3 sum;               // of the means of all parts
-      Vec3 mean;              // of the step: by which it comes where it is
-      double energy = 0;      // that a blow gives it, J
-      bool rebounds = false;  // restitution throws it, or what strikes it, back
+      double gap = unlimited;  // m, to what it struck in this step
+      b2Vec2 to_it{0, 0};      // direction of the gap
+      Vec3 before;             // at the step's start
+      Vec3 given;              // by gravity and loads in a part
+      Vec3 sum;                // of the means of all parts
+      Vec3 mean;               // of the step: by which it comes where it is
+      double energy = 0;       // that a blow gives it, J
+      bool rebounds = false;   // restitution throws it, or what strikes it, back
     };
     Vector<OfBody> bodies;
     struct OfContact {
@@ -130,9 +132,12 @@ struct Component {
   /// Whether it has changed since it was formed.
   bool is_worn() const { return changed_ + touched_ > 0; }
 
-  /// Before a step, after touch() and tie(): where the island has the bodies, and whether they are still what
-  /// the component was formed for. Takes their velocities, but where the step may be the last one again.
-  bool look(const b2SolverData& data);
+  /// Before a step, after touch() and tie(): which bodies are there, and whether these are still what the
+  /// component was formed for.
+  bool find_present();
+  /// After that: where the island has them. Takes their velocities, but where the step may be the last one
+  /// again.
+  void look(const b2SolverData& data);
   /// Before a step's first touch() and tie().
   void clear_outside();
   /// Calls visit(body) for the guests that touch it or are tied to it in this step, once for each row.
@@ -160,6 +165,9 @@ struct Component {
   bool rests() const { return rest_ == Rest::kept; }
   /// Whether this step was solved in parts, and poses have moved.
   bool advanced() const { return parts_.advanced; }
+  /// Whether it was solved since leave_step(): else its mirrors are of an earlier step.
+  bool stepped() const { return stepped_; }
+  void leave_step() { stepped_ = false; }
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
@@ -187,7 +195,7 @@ struct Component {
   /// Whether the last step was solved in parts, and others are to follow.
   bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
   /// Whether a contact closes fast enough for a blow.
-  static bool strikes(const Touch& touch);
+  static float closes(const Touch& touch);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
   template <class Count>
@@ -224,9 +232,8 @@ struct Component {
   double closing() const;
   static float closing_speed(const Touch& touch, const PointConstraint& at);
   static double opening(const Touch& touch, int32 point, double h);
+  Vec3 came_at(int body) const;
   bool parts(const Joint& joint) const;
-  /// By what velocities must change at once for a blow, m/s or rad/s.
-  static constexpr float blow_speed = 0.1f, blow_turn = 0.05f;
   void set_warm_start_aside(const Touch& touch);
   void set_warm_starts_aside();
   void silence_corners();
@@ -248,7 +255,12 @@ struct Component {
   bool is_strained() const;
   bool throws() const;
   bool normals_held() const;
-  bool snaps_hard() const;
+  bool snaps_hard();
+  void forget_blows() {
+    for (Parts::OfBody& body : parts_.bodies) body.energy = 0, body.rebounds = false;
+  }
+  void strike(int a, int b, double speed);
+  bool strains_joints() const;
   bool strikes_hard();
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
@@ -256,8 +268,8 @@ struct Component {
   void carry_arms();
   void solve_part(double h, bool first, bool blow);
   void end_parts(const b2SolverData& data);
+  void keep_in_touch(double h);
   double go_on_with_means();
-  double work(const Touch& touch, const PointConstraint& at, double normal, double tangent) const;
   /// Calls visit(row, touch, point) for each contact that is a row.
   template <class Visit>
   void each_point(const Visit& visit) const {
@@ -280,6 +292,7 @@ struct Component {
   std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came
   bool displaced_ = false;                 // bodies were moved apart while their joint was in no island
   bool struck_ = false;                    // velocities were changed between the steps
+  bool stepped_ = false;                   // since leave_step()
   bool snapped_ = false;                   // in this step a rope goes taut in a jerk
   Parts parts_;
   Coupling coupling_ = Coupling::partly;
@@ -288,7 +301,8 @@ struct Component {
 
 inline Component* Member::component_of(const b2Body& body) {
   for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
-    if (const ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(e->joint)) return joint->component_;
+    const ElasticPlasticJoint* joint = ElasticPlasticJoint::cast(e->joint);
+    if (joint != nullptr && joint->component_ != nullptr) return joint->component_;
   }
   return nullptr;
 }

@@ -112,9 +112,9 @@ double Component::opening(const Touch& t, int32 point, double h) {
 // Whether the contacts are those that the last step was solved with, and hold the impulses that it found.
 // Box2D added these to the velocities, in floats.
 bool Component::touched_as_before() {
+  for (Mirror& m : mirrors) m.rounding = 0;
   if (outside_.touches.empty() && solver.contacts.empty()) return true;
   read_touches();
-  for (const Touch& t : outside_.touches) mirrors[z(t.in_a)].rounding = mirrors[z(t.in_b)].rounding = 0;
   for (const Touch& t : outside_.touches) {
     const VelocityConstraint& v = *t.velocity;
     const auto add = [](Mirror& m, const PointConstraint& p, const b2Vec2& arm, float by_mass,
@@ -229,10 +229,12 @@ float Component::closing_speed(const Touch& t, const PointConstraint& p) {
   return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
 }
 
-bool Component::strikes(const Touch& t) {
-  const PointConstraint* points = t.velocity->points;
-  return std::any_of(points, points + t.velocity->count,
-                     [&t](const PointConstraint& p) { return closing_speed(t, p) < -blow_speed; });
+// At its fastest, m/s.
+float Component::closes(const Touch& t) {
+  float most = 0;
+  for (int32 k = 0; k < t.velocity->count; ++k)
+    most = std::max(most, -closing_speed(t, t.velocity->points[k]));
+  return most;
 }
 
 // Of what closes fastest, m/s.

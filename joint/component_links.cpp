@@ -1,7 +1,5 @@
 // Stock joints of a step as rows of a component: read from Box2D, and given back to it.
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "component.h"
 #include "frames.h"

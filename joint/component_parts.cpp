@@ -6,9 +6,9 @@
 // velocities, before its iterations of positions they get those at the end, and contacts have the sums of
 // their impulses.
 //
-// Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest:
-// the springs of rigid rows grow with the inverse square of the step, so that between supports that move
-// apart a step of 1/60 s in parts would find their forces a thousand times as large.
+// Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest,
+// or move alike: the springs of rigid rows grow with the inverse square of the step, so that between supports
+// that move apart a step of 1/60 s in parts would find their forces a thousand times as large.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,9 +29,9 @@ constexpr double strained = 0.25;             // of a capacity
 constexpr double most_turn_of_normals = 0.5;  // rad in a step
 constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given back where parts end
 
-// A step of 32 parts takes some 8 ms where something strikes a frame of 160 joints, and 45 ms where 158
-// bodies jam among 13 that they touch. So a pair that touches costs as much as eight bodies do, and the sum
-// over all that a structure solves in parts in one step is bounded; the rest has whole steps.
+// A step of 1/60 s in parts costs as much as 32 whole ones. Where bodies jam, a pair that touches costs as
+// much as eight bodies do. The sum over all that a structure solves in parts in one step is bounded; the rest
+// has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
 // The gap of what touches no more, which no step closes, m.
@@ -49,6 +49,19 @@ bool is_beside(const b2Fixture& fixture, const b2Vec2& normal, const b2Vec2& arm
   return at < first || at > last;
 }
 
+// Of impulses at a point of bodies that move at a and b, J; of 1 N s, how fast it opens.
+double work(const Touch& t, const PointConstraint& p, double normal, double tangent, const Vec3& a,
+            const Vec3& b) {
+  const b2Vec2& n = t.velocity->normal;
+  const double x = b.x - b.w * p.rb.y - (a.x - a.w * p.ra.y), y = b.y + b.w * p.rb.x - (a.y + a.w * p.ra.x);
+  return (normal * n.x + tangent * n.y) * x + (normal * n.y - tangent * n.x) * y;
+}
+
+// The lesser of a row's caps, N or N m; of a rope or a strut, the one that it has.
+double capacity(const Material& m, unsigned i) {
+  return m.may_slacken(i) ? std::max(m.cap[i], m.cap_reverse[i]) : std::min(m.cap[i], m.cap_reverse[i]);
+}
+
 // N/m or N m/rad: of a rigid row, what a part resolves.
 double resolved_stiffness(const JointRecord& r, unsigned i) {
   return is_rigid(r, i) ? r.m_eff[i] / (part * part) : r.law.spring[i];
@@ -62,7 +75,14 @@ std::size_t Component::cost_of_parts() const {
 
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
-  const auto rests = [](const Mirror& m) { return dot(m.exact, m.exact) == 0; };
+  // Of supports that are there; one alone may turn.
+  const Mirror* first = nullptr;
+  const auto moves_alike = [&first](const Mirror& m) {
+    if (!m.present) return true;
+    if (first == nullptr) first = &m;
+    const Vec3 apart = m.exact - first->exact;
+    return &m == first || (dot(apart, apart) == 0 && m.exact.w == 0);
+  };
   const auto has_room = [this](const Structure::Impl* s) {
     return s->reports.in_parts + cost_of_parts() <= most_in_parts;
   };
@@ -70,7 +90,7 @@ bool Component::may_divide(const b2SolverData& data) const {
   const auto has_rows = [](const StockJoint& t) { return t.rows.count > 0; };
   return coupling_ != Coupling::partly && std::all_of(outside_.ties.begin(), outside_.ties.end(), has_rows) &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
-                     rests) &&
+                     moves_alike) &&
          !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
          std::all_of(structures.begin(), structures.end(), has_room) &&
          h * solver.fastest() < b2_maxTranslation && h * solver.fastest_turn() < b2_maxRotation;
@@ -80,68 +100,96 @@ bool Component::goes_on_in_parts(const b2SolverData& data) const {
   return parts_.count > 1 && parts_.goes_on && may_divide(data);
 }
 
-// Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving: F = v √(k
-// m_eff). At the start of the next it would be strained by a good part of a step's way. What a winch draws in
-// strains it by little before.
-bool Component::snaps_hard() const {
-  return std::any_of(solver.slackening.begin(), solver.slackening.end(), [this](int k) {
-    const Joint& j = solver.joints[z(k)];
-    const JointRecord& r = solver.records[z(k)];
-    const Rows v = relative_velocity(j, solver.free_velocity(j.a), solver.free_velocity(j.b));
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!is_slack(j, r, i) || !(j.relaxation[i] > 0)) continue;
-      const double e = strain_of_bias(j, i), cap = v[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i];
-      const double k = resolved_stiffness(r, i), blow = strained * cap;
-      const bool is_strained = v[i] * e > 0 && k * std::abs(e) > blow;
-      if (cap > 0 && !is_strained && v[i] * (e + r.law.h * v[i]) > 0 &&
-          v[i] * v[i] * k * r.m_eff[i] > blow * blow)
-        return true;
-    }
-    return false;
-  });
+// What a blow gives two bodies whose velocities jump against each other at a point, λ²/2m of λ = m_eff v.
+void Component::strike(int a, int b, double speed) {
+  const auto inverse_mass = [this](int i) {
+    return solver.is_free(i) ? solver.bodies[z(i)].inverse_mass : 0;
+  };
+  const double both = inverse_mass(a) + inverse_mass(b);
+  if (!(speed > blow_speed) || !(both > 0)) return;
+  for (const int i : {a, b}) {
+    if (!solver.is_free(i)) continue;
+    double& energy = parts_.bodies[z(i)].energy;
+    energy = std::max(energy, speed * speed / (both * both) * inverse_mass(i) / 2);
+  }
 }
 
-// What a blow gives a struck body, λ²/2m of λ = m_eff v, against what its joints store until they yield,
-// F²/2k. Of a long beam that is v √(ρA EI), and v √(ρA EA) along it, however short its pieces; of rigid rows
-// k is what a part resolves. The solution of the whole step does not know the peak. Nor does it know where a
-// piece is that restitution throws away and springs bring back within the step: it would meet what threw it
-// again and again, from step to step, until nothing is left of the rebound.
-bool Component::strikes_hard() {
-  if (snapped_) return true;
-  for (Parts::OfBody& body : parts_.bodies) body.energy = 0, body.rebounds = false;
-  each_point([this](std::size_t, const Touch& t, const PointConstraint& p) {
-    const double speed = -closing_speed(t, p);
-    const auto inverse_mass = [this](int i) {
-      return solver.is_free(i) ? solver.bodies[z(i)].inverse_mass : 0;
-    };
-    const double both = inverse_mass(t.in_a) + inverse_mass(t.in_b);
-    if (!(speed > blow_speed) || !(both > 0)) return;
-    for (const int i : {t.in_a, t.in_b}) {
-      if (!solver.is_free(i)) continue;
-      Parts::OfBody& body = parts_.bodies[z(i)];
-      body.energy = std::max(body.energy, speed * speed / (both * both) * inverse_mass(i) / 2);
-      body.rebounds |= p.bounce > 0;
-    }
-  });
+// That against what the joints of a body store until they yield, F²/2k. Of a long beam that is v √(ρA EI),
+// and v √(ρA EA) along it, however short its pieces; of rigid rows k is what a part resolves. The solution of
+// the whole step does not know the peak.
+bool Component::strains_joints() const {
   return std::any_of(members.begin(), members.end(), [this](const Member* m) {
     const Joint& j = solver.joints[m->index];
     const JointRecord& r = solver.records[m->index];
     double energy = 0;
-    bool rebounds = false;
-    for (const int i : {j.a, j.b}) {
-      if (!solver.is_free(i)) continue;
-      energy = std::max(energy, parts_.bodies[z(i)].energy);
-      rebounds |= parts_.bodies[z(i)].rebounds;
-    }
-    for (unsigned i = 0; i < 3; ++i)
-      if (rebounds && !is_rigid(r, i) && r.law.h * r.law.h * r.law.spring[i] > r.m_eff[i]) return true;
+    for (const int i : {j.a, j.b})
+      if (solver.is_free(i)) energy = std::max(energy, parts_.bodies[z(i)].energy);
+    if (energy == 0) return false;
     Rows force;
     for (unsigned i = 0; i < 3; ++i) force[i] = std::sqrt(2 * energy * resolved_stiffness(r, i));
     if (r.law.surface != nullptr) return r.law.surface->usage(force) > strained;
     for (unsigned i = 0; i < 3; ++i)
-      if (force[i] > strained * std::min(r.material.cap[i], r.material.cap_reverse[i])) return true;
+      if (j.G[i] > 0 && force[i] > strained * capacity(r.material, i)) return true;
     return false;
   });
+}
+
+// Whether a rope goes taut in this step, or a strut closes, with what hangs on it still moving, by F = v √(k
+// m_eff) of itself or by what it strikes. At the start of the next it would be strained by a good part of a
+// step's way. What a winch draws in strains it by little before.
+bool Component::snaps_hard() {
+  bool snaps = false;
+  for (const int at : solver.slackening) {
+    const Joint& j = solver.joints[z(at)];
+    const JointRecord& r = solver.records[z(at)];
+    const Rows v = relative_velocity(j, solver.free_velocity(j.a), solver.free_velocity(j.b));
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!is_slack(j, r, i) || !(j.relaxation[i] > 0)) continue;
+      const double h = r.law.h, e = strain_of_bias(j, i), k = resolved_stiffness(r, i);
+      const double cap = v[i] > 0 ? r.material.cap[i] : r.material.cap_reverse[i], blow = strained * cap;
+      const bool is_strained = v[i] * e > 0 && k * std::abs(e) > blow;
+      if (!(cap > 0) || is_strained || !(v[i] * (e + h * v[i]) > 0)) continue;
+      if (v[i] * v[i] * k * r.m_eff[i] > blow * blow) return true;
+      if (!(h * h * k > r.m_eff[i])) continue;  // steps resolve it
+      if (!std::exchange(snaps, true)) forget_blows();
+      strike(j.a, j.b, std::copysign(1, v[i]) * relative_velocity(j, came_at(j.a), came_at(j.b))[i]);
+    }
+  }
+  return snaps && strains_joints();
+}
+
+// Nor does the solution of the whole step know where a piece is that restitution throws away and springs
+// bring back within the step: it would meet what threw it again and again, from step to step, until nothing
+// is left of the rebound.
+bool Component::strikes_hard() {
+  if (snapped_) return true;
+  forget_blows();
+  each_point([this](std::size_t, const Touch& t, const PointConstraint& p) {
+    const double speed = -closing_speed(t, p);
+    strike(t.in_a, t.in_b, speed);
+    for (const int i : {t.in_a, t.in_b})
+      if (solver.is_free(i) && speed > blow_speed) parts_.bodies[z(i)].rebounds |= p.bounce > 0;
+  });
+  for (const Touch& t : outside_.near)
+    for (int32 k = 0; k < t.velocity->count; ++k)
+      strike(t.in_a, t.in_b, -closing_speed(t, t.velocity->points[k]));
+  const auto jump = [this](int i) { return into_own_frame(solver.places[z(i)].turn, mirrors[z(i)].jump); };
+  for (const Member* m : members) {
+    const Joint& j = solver.joints[m->index];
+    Rows v = relative_velocity(j, jump(j.a), jump(j.b));
+    for (unsigned i = 0; i < 2; ++i)
+      if (!(j.G[i] > 0) || is_slack(j, solver.records[m->index], i)) v[i] = 0;
+    strike(j.a, j.b, std::hypot(v[0], v[1]));
+  }
+  const auto rebounds = [this](int i) { return solver.is_free(i) && parts_.bodies[z(i)].rebounds; };
+  const bool rings = std::any_of(members.begin(), members.end(), [&](const Member* m) {
+    const Joint& j = solver.joints[m->index];
+    const JointRecord& r = solver.records[m->index];
+    for (unsigned i = 0; i < 3 && (rebounds(j.a) || rebounds(j.b)); ++i)
+      if (!is_rigid(r, i) && r.law.h * r.law.h * r.law.spring[i] > r.m_eff[i]) return true;
+    return false;
+  });
+  return rings || strains_joints();
 }
 
 // What is heavy strains much by its weight or its way in a step, though it may strike slowly; so may the hand
@@ -183,6 +231,7 @@ bool Component::normals_held() const {
 
 void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   const bool hard = parts_.count == 1 || (blow && strikes_hard());
+  const std::size_t cost = cost_of_parts();
   const int count = std::max(2, static_cast<int>(std::lround(data.step.dt / part)));
   const double h = double{data.step.dt} / count;
   if (parts_.count != count) {
@@ -200,9 +249,9 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   parts_.since_blow = hard ? 0 : parts_.since_blow + data.step.dt;
   end_parts(data);
   parts_.advanced = true;
-  report([this](Reports& r) {
+  report([cost](Reports& r) {
     ++r.step.divided;
-    r.in_parts += cost_of_parts();
+    r.in_parts += cost;
   });
 }
 
@@ -223,7 +272,15 @@ void Component::begin_parts() {
   each_point([this](std::size_t k, const Touch& t, const PointConstraint& p) {
     parts_.sums[k].ra = p.ra;
     parts_.sums[k].rb = p.rb;
-    if (t.is_near()) parts_.sums[k].gap = -p.bounce * (parts_.count * solver.step());
+    const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
+    const Pose left_a = origin.relative(mirrors[z(t.in_a)].left),
+               left_b = origin.relative(mirrors[z(t.in_b)].left);
+    const b2Vec2& n = t.velocity->normal;
+    const double apart =
+        n.x * (b.x - left_b.x - (a.x - left_a.x)) + n.y * (b.y - left_b.y - (a.y - left_a.y));
+    double& gap = parts_.sums[k].gap;
+    if (apart > b2_linearSlop) gap = apart;
+    if (t.is_near()) gap = -p.bounce * (parts_.count * solver.step());
   });
   parts_.links.clear();
   for (Contact& c : outside_.contacts) {
@@ -253,12 +310,12 @@ void Component::carry_arms() {
 void Component::solve_part(double h, bool first, bool blow) {
   const auto enter = [this](std::size_t i) {
     const Vec3& v = mirrors[i].exact;
-    solver.before[i] = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+    solver.before[i] = into_own_frame(solver.places[i].turn, v);
   };
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     enter(i);
     const Vec3 v = mirrors[i].exact + parts_.bodies[i].given;
-    solver.bodies[i].v_free = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+    solver.bodies[i].v_free = into_own_frame(solver.places[i].turn, v);
   }
   for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
     enter(i);
@@ -275,15 +332,22 @@ void Component::solve_part(double h, bool first, bool blow) {
       c.bounce = 0;
     }
   }
-  for (std::size_t k = 0; k < outside_.contacts.size(); ++k)
-    if (parts_.sums[k].gap > 0) outside_.contacts[k].bounce = -parts_.sums[k].gap / h;
+  const auto work_now = [this](const Touch& t, const PointConstraint& p, double normal, double tangent) {
+    return work(t, p, normal, tangent, mirrors[z(t.in_a)].exact, mirrors[z(t.in_b)].exact);
+  };
+  double fastest = first && blow ? closing() : 0;  // of what closes in this part, m/s
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    const double gap = parts_.sums[k].gap, closes = -work_now(t, p, 1, 0);
+    if (gap > 0) outside_.contacts[k].bounce = -gap / h;
+    if (h * closes > gap) fastest = std::max(fastest, closes);
+  });
   enter_ties(parts_.count);
   if (!first && outside_.links.size() == solver.links.size()) {
     for (std::size_t k = 0; k < solver.links.size(); ++k) outside_.links[k].impulse = solver.links[k].impulse;
   }
   solver.touch(outside_.links, outside_.contacts);
-  if (first && blow) {
-    solver.strike(closing());
+  if ((first && blow) || fastest > blow_speed) {
+    solver.strike(fastest);
   } else {
     solver.keep_friction();
   }
@@ -294,7 +358,7 @@ void Component::solve_part(double h, bool first, bool blow) {
     const Contact& c = solver.contacts[k];
     sum.normal += c.normal;
     sum.tangent += c.tangent;
-    sum.work += work(t, p, c.normal, c.tangent) / 2;
+    sum.work += work_now(t, p, c.normal, c.tangent) / 2;
   });
   parts_.links.resize(solver.links.size());
   for (std::size_t k = 0; k < solver.links.size(); ++k) {
@@ -315,8 +379,8 @@ void Component::solve_part(double h, bool first, bool blow) {
   }
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
     Parts::OfContact& sum = parts_.sums[k];
-    sum.work += work(t, p, solver.contacts[k].normal, solver.contacts[k].tangent) / 2;
-    sum.gap = std::max(0.0, sum.gap + h * work(t, p, 1, 0));
+    sum.work += work_now(t, p, solver.contacts[k].normal, solver.contacts[k].tangent) / 2;
+    sum.gap = std::max(0.0, sum.gap + h * work_now(t, p, 1, 0));
   });
 }
 
@@ -337,10 +401,11 @@ void Component::end_parts(const b2SolverData& data) {
   }
   parts_.goes_on = parts_.since_blow < blow_time && normals_held() && (snapped_ || is_strained() || throws());
   const double lost = parts_.goes_on ? 0 : go_on_with_means();
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) mirrors[i].left = box2d_pose(i);
+  if (parts_.goes_on && is_held()) keep_in_touch(data.step.dt);
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     m.given = in_floats(m.exact);
-    m.left = box2d_pose(i);
     if (m.present) data.velocities[m.island_index] = in_floats(parts_.bodies[i].mean);
   }
   if (solver.keeps_ledger) {
@@ -349,6 +414,28 @@ void Component::end_parts(const b2SolverData& data) {
   }
   for (std::size_t i = solver.free_bodies(); i < mirrors.size(); ++i) {
     if (mirrors[i].type != b2_staticBody && mirrors[i].present) mirrors[i].left = box2d_pose(i);
+  }
+}
+
+// What struck a piece may be off it where the step ends, and on it again before the next one does. Box2D
+// solves with the structure what touches it as a step starts; so it is told the place at which that still
+// touches, and the gap is one of the parts.
+void Component::keep_in_touch(double h) {
+  const auto look = [this](int i, double gap, const b2Vec2& to_it) {
+    Parts::OfBody& body = parts_.bodies[z(i)];
+    if (gap < body.gap) body.gap = gap, body.to_it = to_it;
+  };
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint&) {
+    const double gap = t.contact->GetRestitution() > 0 ? 0 : parts_.sums[k].gap;
+    if (solver.is_free(t.in_a)) look(t.in_a, gap, t.velocity->normal);
+    if (solver.is_free(t.in_b)) look(t.in_b, gap, -t.velocity->normal);
+  });
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    Parts::OfBody& body = parts_.bodies[i];
+    if (!mirrors[i].guest() || !(body.gap > b2_linearSlop) || !(body.gap < b2_aabbExtension)) continue;
+    const b2Vec2 way = static_cast<float>(body.gap) * body.to_it;
+    mirrors[i].left.c += way;
+    body.mean += {way.x / h, way.y / h, 0};
   }
 }
 
@@ -396,43 +483,29 @@ void Component::book_parts() {
     weight +=
         b.mass * (body.given.x * beyond.x + body.given.y * beyond.y) + b.inertia * body.given.w * beyond.w;
   }
+  const auto twice_mean = [this](int i) {
+    return (solver.is_free(i) ? parts_.bodies[z(i)].before : mirrors[z(i)].exact) + mirrors[z(i)].exact;
+  };
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Parts::OfContact& sum = parts_.sums[k];
     p.ra = sum.ra, p.rb = sum.rb;
-    contacts += sum.work - work(t, p, sum.normal, sum.tangent) / 2;
+    contacts += sum.work - work(t, p, sum.normal, sum.tangent, twice_mean(t.in_a), twice_mean(t.in_b)) / 2;
   });
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
-  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
-    contacts -= work(t, p, parts_.sums[k].normal, parts_.sums[k].tangent) / 2;
-  });
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) std::swap(mirrors[i].exact, parts_.bodies[i].before);
   for (std::size_t k = 0; k < parts_.links.size(); ++k) {
     const Parts::OfLink& sum = parts_.links[k];
     Joint j;
     j.J = sum.J;
-    const auto twice_mean = [this](int i) {
-      if (!solver.is_free(i)) return Vec3{};
-      const Parts::OfBody& body = parts_.bodies[z(i)];
-      const Vec3 v = body.before + mirrors[z(i)].exact;
-      return into_own_frame(turn_of(body.start.angle), v.x, v.y, v.w);
+    const auto own = [&](int i) {
+      const double angle =
+          solver.is_free(i) ? parts_.bodies[z(i)].start.angle : solver.places[z(i)].pose.angle;
+      return into_own_frame(turn_of(angle), twice_mean(i));
     };
     const Joint& row = solver.joints[solver.own() + k];
-    const Rows v = relative_velocity(j, twice_mean(row.a), twice_mean(row.b));
+    const Rows v = relative_velocity(j, own(row.a), own(row.b));
     contacts += sum.work;
     for (unsigned i = 0; i < 3; ++i) contacts += sum.impulse[i] * v[i] / 2;
   }
   solver.book_parts(contacts, weight);
-}
-
-/// Of impulses at a point at the bodies' velocities, J; of 1 N s, how fast it opens.
-double Component::work(const Touch& t, const PointConstraint& p, double normal, double tangent) const {
-  const b2Vec2& n = t.velocity->normal;
-  const auto at = [](const Vec3& v, const b2Vec2& arm) {
-    return std::pair{v.x - v.w * arm.y, v.y + v.w * arm.x};
-  };
-  const auto [ax, ay] = at(mirrors[z(t.in_a)].exact, p.ra);
-  const auto [bx, by] = at(mirrors[z(t.in_b)].exact, p.rb);
-  return (normal * n.x + tangent * n.y) * (bx - ax) + (normal * n.y - tangent * n.x) * (by - ay);
 }
 
 }  // namespace ductile::dynamics

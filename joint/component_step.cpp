@@ -35,23 +35,25 @@ void Component::clear_outside() {
   outside_.ties.clear();
 }
 
-bool Component::look(const b2SolverData& data) {
+bool Component::find_present() {
   for (Mirror& m : mirrors) m.present = !m.guest();
   each_guest([this](int body) { mirrors[z(body)].present = true; });
-  bool masses = true;
+  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) {
+    return !m.present || (m.body->GetType() == m.type && (m.type == b2_staticBody || m.has_its_mass()));
+  });
+}
+
+void Component::look(const b2SolverData& data) {
   bool alone = direct();
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     if (!m.present) continue;
-    if (m.body->GetType() != m.type) return false;
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone &= i >= solver.free_bodies() || m.only_ours();
     if (rest_ == Rest::none) take(m, data);  // while the body is in the cache
-    masses &= m.has_its_mass();
   }
   coupling_ = alone ? Coupling::none : Coupling::partly;
-  return masses;
 }
 
 // Whether all that touches or holds its bodies is solved with it, but for corners: then nothing else changes
@@ -106,11 +108,15 @@ bool Component::as_before(const b2SolverData& data) const {
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
-  const auto jumps = [&m](const b2Vec2& v, float w) {
-    return !m.guest() && ((v - m.given.v).Length() > blow_speed || std::abs(w - m.given.w) > blow_turn);
+  m.jump = {};
+  const auto look_for_jump = [&](const b2Velocity& now) {
+    const b2Velocity jump{now.v - m.given.v, now.w - m.given.w};
+    if (m.guest() || !(jump.v.Length() > blow_speed || std::abs(jump.w) > blow_turn)) return;
+    m.jump = in_doubles(jump);
+    struck_ = true;
   };
   if (m.type != b2_dynamicBody || !direct()) {
-    struck_ |= jumps(m.taken.v, m.taken.w);
+    look_for_jump(m.taken);
     m.exact = in_doubles(m.given = m.taken);
     return;
   }
@@ -129,12 +135,13 @@ void Component::take(Mirror& m, const b2SolverData& data) {
     m.exact = m.alone;
   } else {
     m.exact = in_doubles(m.taken);
-    struck_ |= jumps(m.body->GetLinearVelocity(), m.body->GetAngularVelocity());
+    look_for_jump({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
   }
   m.given = m.taken;
 }
 
 void Component::first_velocity(const b2SolverData& data) {
+  stepped_ = true;
   parts_.advanced = false;
   if (!alone() && is_whole())
     coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
@@ -146,6 +153,7 @@ void Component::first_velocity(const b2SolverData& data) {
     }
     return_contacts();
     account.open = solver.keeps_ledger;  // something may strike it before the step is over
+    if (account.open) solver.open_ledger();
     report([](Reports& r) { ++r.step.resting; });
     return;
   }
@@ -159,13 +167,12 @@ void Component::first_velocity(const b2SolverData& data) {
   bool moved = std::exchange(displaced_, false);
   const auto start_from = [this](std::size_t i) {
     Body& b = solver.bodies[i];
-    const Vec3& v = mirrors[i].exact;
-    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(solver.places[i].turn, v.x, v.y, v.w);
+    (i < solver.free_bodies() ? b.v_free : b.v) = into_own_frame(solver.places[i].turn, mirrors[i].exact);
   };
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     Mirror& m = mirrors[i];
     if (!m.present) {
-      solver.bodies[i].v = solver.bodies[i].v_free = {};
+      solver.bodies[i].v = solver.bodies[i].v_free = m.exact = {};
       continue;
     }
     const b2Position at = m.pose_in(data);
@@ -212,7 +219,7 @@ void Component::first_velocity(const b2SolverData& data) {
       if (!mirrors[i].present) continue;
       const b2Velocity v =
           account.began[i] = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
-      solver.before[i] = into_own_frame(solver.places[i].turn, v.v.x, v.v.y, v.w);
+      solver.before[i] = into_own_frame(solver.places[i].turn, in_doubles(v));
       account.lost[i] = {};
     }
     account.open = true;
@@ -224,6 +231,8 @@ void Component::first_velocity(const b2SolverData& data) {
   const bool blow = direct() && (snapped_ || is_blow());
   struck_ = false;
   if (in_parts) return solve_in_parts(data, blow);
+  const bool meets = direct() && !blow && !outside_.near.empty();
+  if (meets && may_divide(data) && strikes_hard()) return solve_in_parts(data, false);
   if (!blow) return solve(data);
   solver.strike(closing());
   solve_direct();
@@ -246,8 +255,7 @@ void Component::next_velocity(const b2SolverData& data) {
     Body& b = solver.bodies[i];
     mirrors[i].pushed.v += now.v - given.v;
     mirrors[i].pushed.w += now.w - given.w;
-    const Vec3 change = into_own_frame(solver.places[i].turn, double{now.v.x} - given.v.x,
-                                       double{now.v.y} - given.v.y, double{now.w} - given.w);
+    const Vec3 change = into_own_frame(solver.places[i].turn, in_doubles(now) - in_doubles(given));
     solver.push(i, change);
     if (!direct()) b.v += change;
     given = now;

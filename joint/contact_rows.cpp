@@ -25,11 +25,7 @@ void set_friction(Joint& j, JointRecord& r, double cap) {
 }
 
 bool enter_contacts(System& system, std::span<const Contact> contacts, double h) {
-  bool same = contacts.size() == system.contacts.size();
-  for (std::size_t k = 0; k < contacts.size() && same; ++k) {
-    const Contact &now = contacts[k], &before = system.contacts[k];
-    same = now.id == before.id && now.a == before.a && now.b == before.b;
-  }
+  bool same = same_rows<Contact>(contacts, system.contacts);
   const std::size_t first = system.first_contact();
   system.contacts.assign(contacts.begin(), contacts.end());
   system.joints.resize(first + contacts.size());

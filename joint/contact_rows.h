@@ -12,6 +12,7 @@
 // material: what integrates, books or projects joints leaves them out (System::own).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -22,6 +23,13 @@ namespace ductile::dynamics {
 /// G of contacts as a multiple of the effective mass: a load that comes within a step sinks by g
 /// h²/contact_ratio.
 inline constexpr double contact_ratio = 1e8;
+
+/// Whether rows of contacts or links are of the same things between the same bodies as those before.
+template <class Of>
+bool same_rows(std::span<const Of> now, std::span<const Of> before) {
+  return std::equal(now.begin(), now.end(), before.begin(), before.end(),
+                    [](const Of& x, const Of& y) { return x.id == y.id && x.a == y.a && x.b == y.b; });
+}
 
 /// Makes rows of the contacts of a step of h seconds, in place of those before; false where the factor of H
 /// is not theirs. Their blocks of H are the caller's to set.

@@ -34,27 +34,28 @@ void Structure::Impl::look_for_break(Member& m) {
   const double used = m.joint->capacity_used();
   if (!std::exchange(m.said.yielded, true)) {
     say(m, {JointEvent::yield, mode, m.joint, force[row], energy});
-  } else if (used > 0 ? used >= m.said.used + def.flow_share : energy >= 2 * m.said.energy) {
+  } else if ((used > 0 ? used >= m.said.used + def.flow_share : energy >= 2 * m.said.energy) &&
+             say(m, {JointEvent::flow, mode, m.joint, force[row], energy})) {
     m.said.used = used;
-    say(m, {JointEvent::flow, mode, m.joint, force[row], energy});
   }
-  const bool exceeded = used > 1;
-  if (!exceeded || (events.veto && !events.veto(*m.joint))) return;
+  if (!(used > 1)) return;
+  if (const auto veto = events.veto; veto != nullptr && !(*veto)(*m.joint)) return;
   break_joint(m, mode, static_cast<Row>(row));
 }
 
 // Never allocates inside a step: a flow that finds no room is not said, and counts with the next. Each
 // joint's yield and break have room.
-void Structure::Impl::say(Member& member, JointEvent event) {
+bool Structure::Impl::say(Member& member, JointEvent event) {
   if (!events.delivering && events.delivered > 0) {  // a handler threw
     events.pending.erase(events.pending.begin(),
                          events.pending.begin() + static_cast<std::ptrdiff_t>(events.delivered));
     events.delivered = 0;
   }
   const std::size_t kept_free = event.kind == JointEvent::flow ? 2 * members.size() : 0;
-  if (events.pending.size() + kept_free >= events.pending.capacity()) return;
+  if (events.pending.size() + kept_free >= events.pending.capacity()) return false;
   event.worked = event.energy - std::exchange(member.said.energy, event.energy);
   events.pending.push_back({member.id, event});
+  return true;
 }
 
 // Until update() destroys it, a broken joint has no caps. Its group goes with it, in the same mode.
@@ -97,9 +98,10 @@ void Structure::Impl::deliver() {
   while (events.delivered < events.pending.size()) {
     Events::Pending p = events.pending[events.delivered++];
     const Member* member = find(p.id);
-    if (!events.handler || member == nullptr) continue;
+    const auto handler = events.handler;
+    if (handler == nullptr || member == nullptr) continue;
     p.event.at = member->joint->GetAnchorA();
-    events.handler(p.event);
+    (*handler)(p.event);
   }
   events.pending.clear();
   events.delivered = 0;

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <memory>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "box2d_private.h"
@@ -27,6 +28,8 @@ namespace ductile::dynamics {
 
 namespace {
 
+constexpr uint16 held_bullet = 0x2000;  // beside that of nodes.cpp
+
 b2Position pose_of(b2Body& body) {
   const b2Sweep& sweep = of(body, b2Body_m_sweep{});
   return {sweep.c, sweep.a};
@@ -36,12 +39,7 @@ float central_inertia(const b2Body& body) {
   return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
 }
 
-bool is_joined(const b2Body* body) {
-  for (const b2JointEdge* e = body->GetJointList(); e != nullptr; e = e->next) {
-    if (ElasticPlasticJoint::cast(e->joint) != nullptr) return true;
-  }
-  return false;
-}
+bool is_joined(const b2Body& body) { return Structure::Impl::structure_of(body) != nullptr; }
 
 /// Calls visit(contact, mirror of the piece, other body) for what may touch the bodies of a component.
 template <class Visit>
@@ -108,7 +106,8 @@ struct Way {
   b2Vec2 normal{0, 0};  // from the piece
 };
 
-/// Time of impact is found 3 slops deep; positions are corrected to 1, which would raise the body.
+/// A body first touches a piece where its skin is one slop deep. b2TimeOfImpact ends three deep, and the
+/// correction to one would raise the body; so the time is found by halving.
 Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2Sweep& moving) {
   const bool body_is_a = contact.GetFixtureA()->GetBody() == &body;
   b2TOIInput input;
@@ -146,7 +145,7 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
     Overlap(const b2Fixture& of, const b2Transform& at) : fixture(of), there(at) {}
     bool ReportFixture(b2Fixture* other) override {
       b2Body* const on = other->GetBody();
-      if (on == fixture.GetBody() || other->IsSensor() || is_joined(on)) return true;
+      if (on == fixture.GetBody() || other->IsSensor() || is_joined(*on)) return true;
       const b2Shape& shape = *fixture.GetShape();
       const auto overlaps = [&](const b2Transform& at) {
         for (int32 i = 0; i < shape.GetChildCount(); ++i) {
@@ -409,8 +408,9 @@ std::vector<Alone> undo_impacts_alone(std::span<const Pool::Owned<Component>> co
   if (met_in_a_sub_step == nullptr) return all;
   std::vector<const Mirror*> met;
   for (const auto& c : components) {
+    if (!c->stepped()) continue;
     each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
-      if (is_joined(&body) || !met_alone(contact, piece, body)) return;
+      if (is_joined(body) || !met_alone(contact, piece, body)) return;
       auto at = std::find_if(all.begin(), all.end(), [&](const Alone& a) { return a.guest == &body; });
       if (at == all.end()) at = all.insert(at, {&body, {}, 0});
       if (std::find(met.begin(), met.end(), &piece) != met.end()) return;  // at another point, or by another
@@ -435,10 +435,11 @@ void Island::meet_guests(b2World& in) {
   };
   std::vector<Meeting> meetings;
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
+  for (const auto& c : components) c->leave_step();
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& body) {
       b2Body& piece = *mirror.body;
-      const bool guest = !is_joined(&body);
+      const bool guest = !is_joined(body);
       const bool alone = std::any_of(all_alone.begin(), all_alone.end(),
                                      [&body](const Alone& a) { return a.guest == &body; });
       const b2Sweep& s = of(body, b2Body_m_sweep{});
@@ -494,19 +495,22 @@ void Island::hold_bullets() {
   if (!direct() || world().GetSubStepping()) return;
   for (const Component* c : active_) {
     each_near(*c, [this](const b2Contact&, const Mirror&, b2Body& guest) {
-      if (!guest.IsBullet() || is_joined(&guest)) return;
+      if (!guest.IsBullet() || is_joined(guest)) return;
       guest.SetBullet(false);
-      bullets_.push_back(&guest);
+      of(guest, b2Body_m_flags{}) |= held_bullet;
+      holds_bullets_ = true;
     });
   }
 }
 
 void Island::let_bullets_go(b2World& in) {
-  if (bullets_.empty()) return;
+  if (!std::exchange(holds_bullets_, false)) return;
   for (b2Body* b = in.GetBodyList(); b != nullptr; b = b->GetNext()) {
-    if (std::find(bullets_.begin(), bullets_.end(), b) != bullets_.end()) b->SetBullet(true);
+    uint16& flags = of(*b, b2Body_m_flags{});
+    if ((flags & held_bullet) == 0) continue;
+    flags = static_cast<uint16>(flags & ~held_bullet);
+    b->SetBullet(true);
   }
-  bullets_.clear();
 }
 
 }  // namespace ductile::dynamics

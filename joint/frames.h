@@ -21,14 +21,6 @@ inline bool same(const b2Position& a, const b2Position& b) {
 
 inline bool same_bits(const b2Velocity& a, const b2Velocity& b) { return a.v == b.v && a.w == b.w; }
 
-inline Vec3 into_own_frame(const Turn& turn, double x, double y, double w) {
-  return {turn.c * x + turn.s * y, turn.c * y - turn.s * x, w};
-}
-
-inline Vec3 into_world(const Turn& turn, const Vec3& v) {
-  return {turn.c * v.x - turn.s * v.y, turn.s * v.x + turn.c * v.y, v.w};
-}
-
 inline b2Velocity in_floats(const Vec3& v) {
   return {{static_cast<float>(v.x), static_cast<float>(v.y)}, static_cast<float>(v.w)};
 }

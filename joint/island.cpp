@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "box2d_private.h"
 #include "structure.h"
@@ -88,13 +86,14 @@ void Island::velocity(const b2SolverData& data) {
     bool fits = (is_known() && distribute()) || (grow() && distribute());
     for (Component* c : active_) {
       const std::size_t enlisted = std::exchange(c->enlisted, 0);
-      fits = fits && enlisted == c->members.size() && c->look(data);
+      fits = fits && enlisted == c->members.size() && c->find_present();
     }
     if (!fits) {
       form();
       distribute();
-      for (Component* c : active_) c->look(data);
+      for (Component* c : active_) c->find_present();
     }
+    for (Component* c : active_) c->look(data);
     hold_bullets();
     for (Component* c : active_) c->first_velocity(data);
     if (std::all_of(active_.begin(), active_.end(), [](const Component* c) { return c->whole(); })) {
@@ -362,7 +361,7 @@ void Island::hand_back(Component& component) {
 }
 
 auto Island::state() const -> State {
-  State s{.next_id = next_id, .components = {}, .bullets = bullets_};
+  State s{.next_id = next_id, .components = {}, .holds_bullets = holds_bullets_};
   for (const auto& c : components) {
     auto& formed = s.components.emplace_back(State::Formed{*c, {}});
     for (const Member* m : c->members) formed.members.emplace_back(m->structure, m->id);
@@ -371,8 +370,9 @@ auto Island::state() const -> State {
 }
 
 void Island::restore(const State& s) {
+  const Pool::Use use(pool_);
   next_id = s.next_id;
-  bullets_ = s.bullets;
+  holds_bullets_ = s.holds_bullets;
   forget_last();
   components.clear();
   for (const State::Formed& saved : s.components) {

@@ -41,7 +41,7 @@ class Island {
   // After a step (first_touch.cpp).
   void meet_guests(b2World& in);
   void let_bullets_go(b2World& in);
-  bool holds_bullets() const { return !bullets_.empty(); }
+  bool holds_bullets() const { return holds_bullets_; }
 
   /// All that goes from step to step.
   struct State {
@@ -51,7 +51,7 @@ class Island {
       std::vector<std::pair<Structure::Impl*, std::uint32_t>> members;  // by id
     };
     std::vector<Formed> components;
-    std::vector<b2Body*> bullets;
+    bool holds_bullets;
   };
   State state() const;
   /// After that of its structures.
@@ -92,7 +92,7 @@ class Island {
   int velocity_calls_ = 0;
   IslandContacts contacts_;
   std::vector<StockJoint> stock_;  // that hold its pieces, and what touches these
-  std::vector<b2Body*> bullets_;   // that are none until update()
+  bool holds_bullets_ = false;     // bodies that are marked: bullets that are none until update()
 };
 
 /// Stops a body of the island whose velocity is no finite number: it would spread to all that hangs

@@ -1,5 +1,4 @@
 // What a joint has been through, out of it and into it.
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,7 +27,7 @@ void Member::set_state(const JointState& s) {
   if (component != nullptr) component->solver.find_gaps();
   for (unsigned i = 0; i < 3; ++i) {
     j.neutral[i] = (own.fresh ? 0 : r.gap[i]) - s.elastic[i];
-    if (is_rigid(r, i)) j.impulse[i] = r.law.h * r.law.spring[i] * s.elastic[i];
+    if (is_implicit(r, i)) j.impulse[i] = r.law.h * r.law.spring[i] * s.elastic[i];
     r.plastic.net[i] = s.plastic[i];
     r.plastic.forward[i] = s.forward[i];
     r.plastic.back[i] = s.back[i];

@@ -10,8 +10,6 @@
 // follow is ½: without them a spin with a plastic set gains energy.
 #pragma once
 
-#include <vector>
-
 #include "system.h"
 
 namespace ductile::dynamics {

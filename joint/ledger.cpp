@@ -26,9 +26,15 @@ void Ledger::form(const System& system) {
   returned_.reserve(system.returned.capacity());
 }
 
-void Ledger::open(System& system, std::span<const Vec3> before, double h) {
+void Ledger::see(const System& system) {
   joints_.assign(system.own_joints().begin(), system.own_joints().end());
   for (std::size_t i = 0; i < system.bodies.size(); ++i) turns_[i] = system.places[i].turn;
+  turn_inertias_ = system.turn_inertias;
+  returned_ = system.returned;
+}
+
+void Ledger::open(const System& system, std::span<const Vec3> before, double h) {
+  see(system);
   for (std::size_t k = 0; k < system.own(); ++k) {
     const Joint& j = system.joints[k];
     const Rows v0 = relative_velocity(j, before[z(j.a)], before[z(j.b)]);
@@ -41,14 +47,12 @@ void Ledger::open(System& system, std::span<const Vec3> before, double h) {
       energies.driven += j.impulse[i] * prescribed[i];
     }
   }
-  turn_inertias_ = system.turn_inertias;
   for (const TurnInertia& t : turn_inertias_) {
     const double now = t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
     energies.numerical += t.impulse * (now + t.rate_of(before[z(t.a)], before[z(t.b)])) / 2;
     energies.driven +=
         t.impulse * t.rate_of(prescribed_velocity(system, t.a), prescribed_velocity(system, t.b));
   }
-  returned_ = system.returned;
   for (std::size_t i = 0; i < returned_.size(); ++i)
     energies.numerical -= dot(returned_[i], system.bodies[i].v + before[i]) / 2;
 }
@@ -96,11 +100,7 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
 }
 
 void Ledger::close(std::span<const Vec3> change) {
-  const auto own = [&](int body) {
-    const Turn& t = turns_[z(body)];
-    const Vec3& v = change[z(body)];
-    return Vec3{t.c * v.x + t.s * v.y, t.c * v.y - t.s * v.x, v.w};
-  };
+  const auto own = [&](int body) { return into_own_frame(turns_[z(body)], change[z(body)]); };
   for (const Joint& j : joints_) {
     const Rows v = relative_velocity(j, own(j.a), own(j.b));
     for (unsigned i = 0; i < 3; ++i) energies.numerical += j.impulse[i] * v[i] / 2;

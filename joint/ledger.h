@@ -31,7 +31,9 @@ class Ledger {
   void form(const System& system);
   /// Before poses move, while J is the step's own: the part of the rows' loss that needs it. `before` are the
   /// velocities at the step's very start, in own frames.
-  void open(System& system, std::span<const Vec3> before, double h);
+  void open(const System& system, std::span<const Vec3> before, double h);
+  /// In a step that is the last one again: what close() needs of it.
+  void see(const System& system);
   /// After a joint's flow was booked: by what its neutral position moved, and the plastic work of that, J.
   void account(const Joint& joint, std::size_t index, JointRecord& record, const Rows& slip,
                const Rows& work);

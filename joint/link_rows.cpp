@@ -1,6 +1,5 @@
 #include "link_rows.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "contact_rows.h"
@@ -9,11 +8,7 @@
 namespace ductile::dynamics {
 
 bool enter_links(System& system, std::span<const Link> links, double h) {
-  bool same = links.size() == system.links.size();
-  for (std::size_t k = 0; k < links.size() && same; ++k) {
-    const Link &now = links[k], &before = system.links[k];
-    same = now.id == before.id && now.a == before.a && now.b == before.b;
-  }
+  bool same = same_rows<Link>(links, system.links);
   const std::size_t own = system.own();
   if (!same) {
     // The rows of contacts move along.

@@ -21,15 +21,18 @@ struct KnownPose {
   Pose pose;  // of the centre of mass, in the world
   b2Vec2 local_center{0, 0};
   int freedom = 0;  // of motion: 2, 3 where it turned, too; 0: held
+  b2Velocity given{{0, 0}, 0};
 
-  void keep(Tape& tape) { tape(pose, local_center.x, local_center.y, freedom); }
+  void keep(Tape& tape) {
+    tape(pose, local_center.x, local_center.y, freedom, given.v.x, given.v.y, given.w);
+  }
 };
 
 /// The plastic flow beyond which a joint breaks, m or rad.
 struct BreakLimits {
   double rotation = unlimited, elongation = unlimited, compression = unlimited, slip = unlimited;
 
-  /// By what a row may still flow in the sense of `slip`.
+  /// By what a row may still flow forward, or back where `sense` < 0.
   double left(const PlasticFlow& p, unsigned row, double sense) const {
     if (row == 0) return sense > 0 ? elongation - p.forward[0] : compression - p.back[0];
     return (row == 1 ? slip : rotation) - p.forward[row] - p.back[row];

@@ -37,7 +37,7 @@ void Mirror::keep(Tape& tape) {
   tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact);
   bool only_ours = joints != nullptr && joints == body->GetJointList();
   tape(only_ours);
-  if (tape.reads()) joints = only_ours ? body->GetJointList() : nullptr;
+  if (tape.reads()) joints = only_ours && !guest() ? body->GetJointList() : nullptr;
 }
 
 }  // namespace ductile::dynamics

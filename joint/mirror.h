@@ -43,6 +43,7 @@ struct Mirror {
   b2Velocity expected{{0, 0}, 0};
   Vec3 alone;                    // what gravity and damping alone make of it, not rounded
   b2Velocity pushed{{0, 0}, 0};  // what others have added to it since
+  Vec3 jump;                     // of a piece or its support before this step, beyond blow_speed or blow_turn
   float rounding = 0;            // m/s: of `taken`, by the contacts' stored impulses in it
   int32 island_index = 0;
   bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked

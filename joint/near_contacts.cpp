@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blow.h"
 #include "box2d_contacts.h"
 
 namespace ductile::dynamics {
@@ -43,6 +44,28 @@ bool cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
     if (missing != 0) m.points[k].localPoint += missing / (at[1 - k] - at[k]) * (ends[1 - k] - ends[k]);
   }
   return true;
+}
+
+// Whether points face the way that a touch of one of the two bodies does.
+bool faces(const b2Vec2& normal, const Touch& touch, const b2Body& a, const b2Body& b) {
+  const float along = b2Dot(normal, touch.velocity->normal);
+  return (touch.a() == &a || touch.b() == &b ? along : -along) >= same_way;
+}
+
+// Whether one of so many points strikes within h seconds, and does not slide along what it meets; or is
+// driven there.
+bool strikes_within(const b2Body& a, const b2Body& b, const b2WorldManifold& points, int32 count, float h,
+                    float driven) {
+  for (int32 k = 0; k < count; ++k) {
+    const b2Vec2 v = b.GetLinearVelocityFromWorldPoint(points.points[k]) -
+                     a.GetLinearVelocityFromWorldPoint(points.points[k]);
+    const float closing = -b2Dot(v, points.normal);
+    if (h * driven > points.separations[k]) return true;
+    if (closing > blow_speed && h * closing > points.separations[k] &&
+        std::abs(b2Cross(v, points.normal)) < 2 * closing)
+      return true;
+  }
+  return false;
 }
 
 // Calls tell(listener, before) while the contact has these points.
@@ -92,7 +115,7 @@ void tell_of_near(const Touch& touch) {
   });
 }
 
-void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
+void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, float driven) {
   b2Fixture &fa = *contact.GetFixtureA(), &fb = *contact.GetFixtureB();
   const b2Body &a = *fa.GetBody(), &b = *fb.GetBody();
   const b2Manifold& known = *contact.GetManifold();
@@ -103,7 +126,7 @@ void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
   if (touching == b2_maxManifoldPoints || is_known || near_count_ == near_.size()) return;
   Near& near = near_[near_count_];
   const float radius = fb.GetShape()->m_radius;
-  fb.GetShape()->m_radius = radius + way_of(contact, h);
+  fb.GetShape()->m_radius = radius + std::min(way_of(contact, h) + h * driven, b2_maxTranslation);
   contact.Evaluate(&near.manifold, a.GetTransform(), b.GetTransform());
   fb.GetShape()->m_radius = radius;
   if (near.manifold.pointCount == 0) return;
@@ -113,9 +136,9 @@ void IslandContacts::add_near(b2Contact& contact, const Touch& touch, float h) {
 
   b2WorldManifold world;
   world.Initialize(&near.manifold, at_a, fa.GetShape()->m_radius, at_b, radius);
-  const bool same_order = touch.a() == &a || touch.b() == &b;
-  const float along = b2Dot(world.normal, touch.velocity->normal);
-  if ((same_order ? along : -along) < same_way) return;
+  if (touch == nullptr ? !strikes_within(a, b, world, near.manifold.pointCount, h, driven)
+                       : !faces(world.normal, *touch, a, b))
+    return;
   VelocityConstraint& v = near.velocity = {};
   PositionConstraint& p = near.position = {};
   for (int32 k = 0; k < near.manifold.pointCount; ++k) {

@@ -2,7 +2,6 @@
 // them when the hub goes. And what a structure refuses to join.
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -46,16 +45,13 @@ void Structure::Impl::join_orphans() {
     const ElasticPlasticJointDef& to_hub = left[hub];
     for (; i + 1 < left.size() && left[i + 1].node == to_hub.node; ++i) {
       ElasticPlasticJointDef& o = left[i + 1];
-      b2WeldJointDef weld;
-      weld.bodyA = o.bodyA = to_hub.bodyB;
-      weld.bodyB = o.bodyB;
-      weld.collideConnected = o.collideConnected;
-      weld.localAnchorA = to_hub.localAnchorB;
-      weld.localAnchorB = o.localAnchorB;
-      weld.referenceAngle = o.referenceAngle - to_hub.referenceAngle;
+      o.bodyA = to_hub.bodyB;
+      o.localAnchorA = to_hub.localAnchorB;
+      o.referenceAngle -= to_hub.referenceAngle;
       o.axisAngle -= to_hub.referenceAngle;
+      o.userData = {};  // the game may have freed what it pointed to, as it was told that the joint is gone
       for (double& strain : o.state.elastic) strain = 0;
-      take(static_cast<b2WeldJoint*>(world->CreateJoint(&weld)), o);
+      join(*world, o);
     }
   }
 }

@@ -41,9 +41,6 @@ inline void displace(Place& place, const Vec3& by) {
 }
 
 /// The velocity of a body in its own frame as that is after it has turned with it for h seconds.
-inline Vec3 after_turning(const Vec3& v, double h) {
-  const Turn back = turn_of(-h * v.w);
-  return {back.c * v.x - back.s * v.y, back.s * v.x + back.c * v.y, v.w};
-}
+inline Vec3 after_turning(const Vec3& v, double h) { return into_world(turn_of(-h * v.w), v); }
 
 }  // namespace ductile::dynamics

@@ -2,6 +2,7 @@
 // Box2D's own joints that hold them, and what hangs together with the bodies that these find.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <typeinfo>
 
@@ -16,6 +17,11 @@ namespace {
 
 /// Joints between bodies that are no pieces, at most: what is longer is Box2D's from there on.
 constexpr std::size_t far_joints = 64;
+
+bool is_fast(const b2Body& body) {
+  return body.GetLinearVelocity().LengthSquared() > blow_speed * blow_speed ||
+         std::abs(body.GetAngularVelocity()) > blow_turn;
+}
 
 bool is_ours(const b2Joint& joint) { return typeid(joint) == typeid(ElasticPlasticJoint); }
 
@@ -49,7 +55,6 @@ bool Island::may_take(const b2Body& body) const {
 
 // Those that are rows of this step's problem. A body that a structure has joints on is a piece.
 void Island::choose_contacts(const b2SolverData& data) {
-  contacts_.clear();
   contacts_.read(world(), data);
   stock_.clear();
   int& stopped = enlisted_.front()->structure->reports.stopped;
@@ -77,27 +82,54 @@ void Island::choose_contacts(const b2SolverData& data) {
 }
 
 // What strikes a piece meets it at more points than the first, or more pieces, before the step is over: a
-// block that comes down a little tilted. A rebound is left to the step after it, which knows how fast they
-// met.
+// block that comes down a little tilted. So do pieces that fall on what stands; Box2D would stop each of them
+// alone. A rebound is left to the step after it, which knows how fast they met.
 void Island::find_near(float h) {
-  const bool goes_on =
-      std::any_of(active_.begin(), active_.end(), [](const Component* c) { return c->in_parts(); });
+  if (world().GetSubStepping()) return;
+  const auto may_be_met = [](const b2Contact& c) {
+    return c.IsEnabled() && !c.GetFixtureA()->IsSensor() && !c.GetFixtureB()->IsSensor() &&
+           !(c.GetRestitution() > 0);
+  };
+  // What will be formed anew is no more, as where a world was saved and loaded; and of what has broken up
+  // some is in other islands.
+  const auto lasts = [](const Component* c) {
+    return c != nullptr && c->enlisted == c->members.size() && c->fits_bodies();
+  };
+  const auto goes_on = [&](const Component* c) { return c->in_parts() && lasts(c); };
   const std::size_t touching = contacts_.touches().size();
+  for (const Component* component : active_) {
+    float driven = goes_on(component) ? static_cast<float>(component->solver.fastest()) : 0;
+    for (std::size_t k = 0; k < touching; ++k) {
+      const Touch& t = contacts_.touches()[k];
+      const float closes = Component::closes(t);
+      if (closes > std::max(driven, blow_speed) &&
+          (component_of(*t.a()) == component || component_of(*t.b()) == component))
+        driven = closes;
+    }
+    for (std::size_t i = 0; i < component->solver.free_bodies(); ++i) {
+      const Mirror& m = component->mirrors[i];
+      if (m.guest() || !(driven > 0 || is_fast(*m.body))) continue;
+      for (b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
+        if (e->other->GetType() == b2_staticBody && may_be_met(*e->contact) &&
+            !share_a_neighbour(*m.body, *e->other) && lasts(component))
+          contacts_.add_near(*e->contact, nullptr, h, driven);
+      }
+    }
+  }
+  const bool any_goes_on = std::any_of(active_.begin(), active_.end(), goes_on);
   for (std::size_t k = 0; k < touching; ++k) {
     const Touch t = contacts_.touches()[k];
-    const bool strikes = Component::strikes(t);
-    if (!(strikes || goes_on) || slides(t, h)) continue;
+    const bool strikes = Component::closes(t) > blow_speed;
+    if (!(strikes || any_goes_on) || slides(t, h)) continue;
     for (b2Body* guest : {t.a(), t.b()}) {
       if (guest->GetType() != b2_dynamicBody || is_piece(*guest)) continue;
       const Component* of_piece = component_of(guest == t.a() ? *t.b() : *t.a());
-      if (of_piece == nullptr || !(strikes || of_piece->in_parts())) continue;
+      if (!lasts(of_piece) || !(strikes || of_piece->in_parts())) continue;
       for (b2ContactEdge* e = guest->GetContactList(); e != nullptr; e = e->next) {
         b2Contact& c = *e->contact;
-        if (!c.IsEnabled() || c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor() ||
-            c.GetRestitution() > 0 || !is_piece(*e->other) || component_of(*e->other) == nullptr ||
-            share_a_neighbour(*guest, *e->other))
-          continue;
-        contacts_.add_near(c, t, h);
+        if (may_be_met(c) && is_piece(*e->other) && lasts(component_of(*e->other)) &&
+            !share_a_neighbour(*guest, *e->other))
+          contacts_.add_near(c, &t, h);
       }
     }
   }

@@ -93,16 +93,4 @@ Response respond(const RowLaw& law, const Rows& x) {
   return r;
 }
 
-Rows respond_in(const RowLaw& law, unsigned regime, const Rows& x) {
-  Rows s;
-  for (unsigned i = 0; i < 3; ++i) {
-    const double trial = law.G[i] * x[i];
-    const double held = (regime >> i & 1u) != 0         ? law.cap[i]
-                        : (regime >> (i + 3) & 1u) != 0 ? -law.cap_reverse[i]
-                                                        : trial;
-    s[i] = held + law.after_yield[i] * (trial - held);
-  }
-  return s;
-}
-
 }  // namespace ductile::dynamics

@@ -150,9 +150,6 @@ struct Response {
 /// The impulses that answer x, and the regime that they are in.
 Response respond(const RowLaw& law, const Rows& x);
 
-/// The impulses that the linear law of a regime of caps gives, whether x is in it or not.
-Rows respond_in(const RowLaw& law, unsigned regime, const Rows& x);
-
 /// The rows that flow in a regime, one bit each.
 inline unsigned flowing(unsigned regime) { return regime == on_surface ? 7u : (regime | regime >> 3) & 7u; }
 

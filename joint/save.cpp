@@ -18,7 +18,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 16;   // changes with what the solver carries from step to step
+constexpr int past = 17;   // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -43,8 +43,9 @@ void fields(Archive& a, ElasticPlasticJointDef& d) {
   a("axis_follow", d.axisFollow);
   a("line", d.line);
   a("length", d.length);
+  std::size_t rows = 0;
   a.list("rows", 3, [&](Archive& each, std::size_t i) {
-    if (i > 2) each.refuse("stiffness", "is of a fourth row");
+    if (++rows > 3) each.refuse("stiffness", "is of a fourth row");
     RowDef& r = d.rows[i];
     each("stiffness", r.stiffness);
     each("damping", r.damping_ratio, r.damping);
@@ -57,6 +58,7 @@ void fields(Archive& a, ElasticPlasticJointDef& d) {
     if (!r.drive) r.drive.emplace();
     each("drive", r.drive->target, r.drive->speed);
   });
+  if (rows != 3) a.refuse("rows", "are " + std::to_string(rows) + "; must be 3");
   a("max", d.max_rotation, d.max_elongation, d.max_compression, d.max_slip);
   a.list("interaction", d.interaction.size(), [&](Archive& each, std::size_t i) {
     if (each.reads()) d.interaction.emplace_back();
@@ -113,7 +115,9 @@ class Structure::Impl::Save {
 
   std::uint32_t settings() {
     JointEnergy gone = s_.gone;
-    for (const auto& [there, left] : unfit_) add(gone, left->solver.energies());
+    for (const auto& c : s_.island->components)
+      if (const auto left = unfit_.find(c.get()); left != unfit_.end())
+        add(gone, left->second->solver.energies());
     std::uint32_t next_id = s_.island->next_id;
     a_.object("structure", [&](Archive& a) {
       bool iterative = s_.def.solver == SolverKind::iterative;

@@ -7,11 +7,14 @@
 //   locate()         put() of any body                  gaps and J anew
 //   begin(h)         form, locate, advance              laws and biases of a step of h seconds
 //   divide(n)        begin, solve, advance              the next n steps are parts of one; unite(n) ends that
-//   touch(links,     begin                          their rows
+//   touch(links,     begin                              their rows
 //     contacts)
+//   strike(v)        begin                              velocities jumped at the start of this step
 //   push(i, Δv*)     solve, in the same step            another velocity changed
+//   keep_friction()  begin                              caps of friction are those of the last solve
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
-//                    or push
+//                    push or weaken
+//   weaken(j, share) solve of a struck step             joint j breaks within it
 //   scale(share)     solve                              all velocities to a share of them
 //   advance()        solve, scale                       poses move by h v, plastic flow is booked
 //   project(goal)    begin or advance                   the bodies follow a push, strained by none
@@ -61,8 +64,8 @@ class Solver : public System {
   /// are undone.
   void divide(double parts);
   void unite(double parts);
-  /// The bodies' velocities jumped at the start of this step (blow.h), or contacts closed so fast: after
-  /// begin(), before its first solve.
+  /// The bodies' velocities jumped at the start of this step (blow.h); `closing` is the speed of the fastest
+  /// contact that closes, m/s. After begin(), before the first solve.
   void strike(double closing);
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
   void push(std::size_t body, const Vec3& change) {
@@ -126,6 +129,8 @@ class Solver : public System {
     ledger_.energies.contacts += contacts;
     ledger_.energies.numerical -= weight;
   }
+  /// Of a step that is the last one again.
+  void open_ledger() { ledger_.see(*this); }
   /// After the step: by what contacts and limits changed velocities after the last solve, world axes.
   void close_ledger(std::span<const Vec3> change) { ledger_.close(change); }
 

@@ -3,7 +3,6 @@
 #include "structure.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -28,6 +27,7 @@ void Structure::Impl::enter_world() {
 
 Structure::Impl::~Impl() {
   if (watch == nullptr) return;
+  island->let_bullets_go(*world);
   island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   std::vector<ElasticPlasticJoint*> broken;
@@ -41,6 +41,7 @@ Structure::Impl::~Impl() {
 void Structure::Impl::watch_is_gone(bool with_world) {
   // Destroying the watch by hand comes here too: the joints, still there, go on as welds.
   if (watch == nullptr) return;
+  if (!with_world) island->let_bullets_go(*world);
   island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   members.clear();
@@ -306,15 +307,16 @@ ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJoi
   own.bodyB = weld->GetBodyB();
   if (const auto problems = impl_->problems(own); !problems.empty()) refuse(problems);
   impl_->enter_world();
+  impl_->join_orphans();
   return impl_->take(weld, own);
 }
 
 void Structure::update() { impl_->update(); }
 void Structure::on_event(std::function<void(const JointEvent&)> handler) {
-  impl_->events.handler = std::move(handler);
+  impl_->events.handler = share(std::move(handler));
 }
 void Structure::may_break(std::function<bool(const ElasticPlasticJoint&)> veto) {
-  impl_->events.veto = std::move(veto);
+  impl_->events.veto = share(std::move(veto));
 }
 std::span<ElasticPlasticJoint* const> Structure::joints() const { return impl_->joints; }
 const StepReport& Structure::report() const { return impl_->reports.step; }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "island.h"
@@ -15,10 +16,20 @@ namespace ductile::dynamics {
 /// Marks a body as one of a node: a body that is made later at the same address has no mark.
 void mark(b2Body& body);
 
+/// A function of the game, shared with whoever calls it: at work it may set another.
+template <class Signature>
+using Handler = std::shared_ptr<const std::function<Signature>>;
+
+/// Null for an empty function.
+template <class Signature>
+Handler<Signature> share(std::function<Signature> function) {
+  return function ? std::make_shared<const std::function<Signature>>(std::move(function)) : nullptr;
+}
+
 /// Events that wait for update(), and the handlers of the game.
 struct Events {
-  std::function<void(const JointEvent&)> handler;
-  std::function<bool(const ElasticPlasticJoint&)> veto;
+  Handler<void(const JointEvent&)> handler;
+  Handler<bool(const ElasticPlasticJoint&)> veto;
   struct Pending {
     std::uint32_t id;  // of the joint
     JointEvent event;
@@ -106,7 +117,8 @@ struct Structure::Impl {
 
  private:
   void break_joint(dynamics::Member& member, JointEvent::Mode mode, Row row);
-  void say(dynamics::Member& member, JointEvent event);
+  /// False where it finds no room.
+  bool say(dynamics::Member& member, JointEvent event);
   void deliver();
 
   bool broke_ = false;  // some joint, since the last update()

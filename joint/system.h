@@ -138,8 +138,6 @@ inline constexpr bool all_doubles<Drift> = true;
 struct TurnGuard {
   double delta = 0;
   double unneeded = 0;  // s that this was more than three times what was needed
-
-  void keep(Tape& tape) { tape(delta, unneeded); }
 };
 
 template <>

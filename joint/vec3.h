@@ -31,4 +31,12 @@ inline constexpr bool all_doubles<Turn> = true;
 inline Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 inline Turn inverse(const Turn& a) { return {a.c, -a.s}; }
 
+/// A velocity in the world, in the frame of a body that is turned so far; and back.
+inline Vec3 into_own_frame(const Turn& turn, const Vec3& v) {
+  return {turn.c * v.x + turn.s * v.y, turn.c * v.y - turn.s * v.x, v.w};
+}
+inline Vec3 into_world(const Turn& turn, const Vec3& v) {
+  return {turn.c * v.x - turn.s * v.y, turn.s * v.x + turn.c * v.y, v.w};
+}
+
 }  // namespace ductile::dynamics

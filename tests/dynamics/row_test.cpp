@@ -65,9 +65,7 @@ TEST(RowLaw, TangentIsTheDerivativeInEveryRegime) {
       for (const double x2 : {-5.0, 0.1, 5.0}) {
         const Rows x{x0, x1, x2};
         const auto [s, regime] = respond(law, x);
-        const Rows same = respond_in(law, regime, x);
         for (unsigned i = 0; i < 3; ++i) {
-          EXPECT_EQ(s[i], same[i]);
           EXPECT_EQ(flows(regime, i), std::abs(x[i]) > 1);
           Rows ahead = x;
           ahead[i] += 1e-3;

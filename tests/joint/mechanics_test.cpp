@@ -488,7 +488,7 @@ TEST(Caps, ByAMaximumElasticRotation) {
   EXPECT_NEAR(held.joint->force(rotation), k * angle, 1e-9 * k * angle);
 }
 
-// A pendulum that hangs on a pin: rotation = free().
+// A free row beside two that hold: what hangs on a pin is one.
 TEST(FreeRow, DissipatesAndAccumulatesNothing) {
   for (const Row row : {axial, shear, rotation}) {
     b2World world({0, -10});

@@ -9,8 +9,8 @@
 //   tension
 // Each row is a spring (or rigid, or free) in series with a slider at its cap: below the cap it is elastic,
 // at the cap it flows and its neutral position moves along. What has flowed adds up, and a joint breaks where
-// that exceeds its maximum. SI units. Nothing here throws or, in the steady state, allocates inside
-// b2World::Step.
+// that exceeds its maximum. SI units. Nothing here throws inside
+// b2World::Step but std::bad_alloc (memory.h); in the steady state nothing is allocated there.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -96,8 +96,9 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// The joint as an elastic-plastic one; nullptr where it is another.
   static ElasticPlasticJoint* cast(b2Joint* joint);
 
-  std::uint32_t id() const;  ///< unique among all structures of its world, never used again
-  b2Vec2 axis() const;       ///< unit, world
+  std::uint32_t id()
+      const;            ///< unique among the joints of its world that have the same solver, never used again
+  b2Vec2 axis() const;  ///< unit, world
 
   // Forces of the last step, tension positive.
   double force(Row row) const;  ///< N, N, N m
@@ -138,6 +139,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// Changes a row while the world is not stepping; wakes the bodies. Throws std::invalid_argument where a
   /// def may not have the row so.
   void set_caps(Row row, double cap, double cap_reverse);
+  /// RowDef::damping of the row becomes 0.
   void set_stiffness(Row row, double stiffness, double damping_ratio);
   /// Drives a row from where its neutral position is. A row that carries nothing (caps of 0) lets go, and
   /// takes hold where it is when it is given caps again.
