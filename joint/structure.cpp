@@ -313,10 +313,10 @@ ElasticPlasticJoint* Structure::adopt(b2WeldJoint* weld, const ElasticPlasticJoi
 
 void Structure::update() { impl_->update(); }
 void Structure::on_event(std::function<void(const JointEvent&)> handler) {
-  impl_->events.handler = share(std::move(handler));
+  impl_->events.handler = shared(std::move(handler));
 }
 void Structure::may_break(std::function<bool(const ElasticPlasticJoint&)> veto) {
-  impl_->events.veto = share(std::move(veto));
+  impl_->events.veto = shared(std::move(veto));
 }
 std::span<ElasticPlasticJoint* const> Structure::joints() const { return impl_->joints; }
 const StepReport& Structure::report() const { return impl_->reports.step; }

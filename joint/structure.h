@@ -22,7 +22,7 @@ using Handler = std::shared_ptr<const std::function<Signature>>;
 
 /// Null for an empty function.
 template <class Signature>
-Handler<Signature> share(std::function<Signature> function) {
+Handler<Signature> shared(std::function<Signature> function) {
   return function ? std::make_shared<const std::function<Signature>>(std::move(function)) : nullptr;
 }
 
