@@ -180,7 +180,7 @@ void Component::admit(std::size_t first, std::size_t free_bodies) {
     Joint& j = solver.joints[i];
     Rows& gap = solver.records[i].gap;
     if (i >= first && std::exchange(members[i]->own.fresh, false)) {
-      struck_ |= parts(j);
+      if (parts(j)) struck_ = mirrors[z(j.a)].thrown = mirrors[z(j.b)].thrown = true;
       for (unsigned row = 0; row < 3; ++row) j.neutral[row] += gap[row];
       if (members[i]->length >= 0) j.neutral[axial] = members[i]->length;
       continue;

@@ -108,7 +108,9 @@ bool Component::as_before(const b2SolverData& data) const {
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
-  m.jump = {};
+  m.jump = std::exchange(m.thrown, false)
+               ? in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()})
+               : Vec3{};
   const auto look_for_jump = [&](const b2Velocity& now) {
     const b2Velocity jump{now.v - m.given.v, now.w - m.given.w};
     if (m.guest() || !(jump.v.Length() > blow_speed || std::abs(jump.w) > blow_turn)) return;

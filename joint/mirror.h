@@ -44,6 +44,7 @@ struct Mirror {
   Vec3 alone;                    // what gravity and damping alone make of it, not rounded
   b2Velocity pushed{{0, 0}, 0};  // what others have added to it since
   Vec3 jump;                     // of a piece or its support before this step, beyond blow_speed or blow_turn
+  bool thrown = false;           // it has a new joint, and comes with a velocity that this does not leave it
   float rounding = 0;            // m/s: of `taken`, by the contacts' stored impulses in it
   int32 island_index = 0;
   bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked

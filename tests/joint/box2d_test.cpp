@@ -875,6 +875,20 @@ TEST(Events, HandlersMayDestroyAnything) {
   }
 }
 
+// It is at work until it returns, with what it holds.
+TEST(Events, HandlersMayReplaceThemselves) {
+  Beam beam({.pieces = 10, .moment_cap = 1e5});
+  const auto held = std::make_shared<int>(0);
+  beam.structure.on_event([&beam, held](const JointEvent&) {
+    beam.structure.on_event({});
+    ASSERT_GT(held.use_count(), 1);
+    ++*held;
+  });
+  beam.run(2);
+  EXPECT_EQ(*held, 1);
+  EXPECT_EQ(held.use_count(), 1);
+}
+
 TEST(Events, AreToldOnceAndInOrder) {
   Beam beam({.pieces = 5, .moment_cap = 7800 * 10 * 200 / 1.5});
   beam.joints[0]->set_limits(0.3, unlimited, unlimited, unlimited);
