@@ -111,7 +111,11 @@ class Check {
       known(s.supports[i].body, place);
       check(fields::support, s.supports[i], place);
       check(fields::springs, s.supports[i], place);
-      displacement(s.supports[i], place);
+      const SupportDef& d = s.supports[i];
+      if ((d.fix_x && d.stiffness_x > 0) || (d.fix_y && d.stiffness_y > 0) ||
+          (d.fix_angle && d.stiffness_angle > 0))
+        add(place, "has a spring in a row that it fixes", "leave one of them out");
+      displacement(d, place);
     }
     for (std::size_t i = 0; i < s.loads.size(); ++i) {
       const LoadDef& l = s.loads[i];

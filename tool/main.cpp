@@ -61,7 +61,9 @@ int run(int argc, char** argv) {
     return exit;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const std::string what = one_line(error.what());
+    const bool misnamed = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+    const std::string what =
+        one_line(misnamed ? std::string("there is no command '") + argv[1] + "'" : error.what());
     const bool placed = what.find(": ") < what.find(' ');  // "--scale: -1 is not > 0"
     std::cerr << "command line:" << (placed ? "" : "arguments: ") << what
               << "; ductile --help lists commands and options\n";

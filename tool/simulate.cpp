@@ -201,6 +201,11 @@ struct Result {
 
 Result run(const Options& options) {
   const double steps = std::round(options.time / options.stepping.dt);
+  if (steps < 1 && options.time > 0) {
+    throw InvalidInput(
+        {{"command line:--dt", fmt::format("is {:.3g} s, longer than --time", options.stepping.dt),
+          "give a step that fits into the time"}});
+  }
   if (!(steps <= most_steps)) {
     throw InvalidInput({{"command line:--time", fmt::format("asks for {:.3g} steps", steps),
                          fmt::format("let it be at most {:.0e} steps of --dt", most_steps)}});
