@@ -35,7 +35,7 @@ struct Mirror {
   const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
 
   // Not {}: b2Vec2's own constructor leaves its numbers as they are.
-  b2Position left{{0, 0}, 0};   // pose as it was left
+  b2Position left{{0, 0}, 0};   // pose as it was left: of a guest where it touches (Component::keep_in_touch)
   b2Velocity given{{0, 0}, 0};  // velocity as it was left
   Vec3 exact;                   // what `given` is rounded of, world axes
   b2Velocity taken{{0, 0}, 0};  // velocity that Box2D had at the step's start

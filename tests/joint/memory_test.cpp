@@ -76,7 +76,8 @@ TEST(MemoryOfComponents, ComesFromWhereTheGameSays) {
     snapshot.save(world);
     const long before = allocations();
     snapshot.restore(world);
-    EXPECT_LT(allocations() - before, 80);  // of its joints; components' lists alone would be half as many more
+    EXPECT_LT(allocations() - before,
+              80);  // of its joints; components' lists alone would be half as many more
   }
   EXPECT_EQ(source.out, 0);
 }
