@@ -124,6 +124,11 @@ class IslandContacts {
   std::vector<b2Body*> front_;  // reached, but not followed
 };
 
+/// Whether a contact is a sensor's: Box2D makes no manifold of it.
+inline bool is_sensor(const b2Contact& c) {
+  return c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor();
+}
+
 /// Whether a contact's bodies slide along each other in h seconds, by more than Box2D's slop and than half of
 /// what they come nearer.
 bool slides(const Touch& touch, float h);

@@ -279,9 +279,7 @@ void Component::remove(Member& m) {
 
 // A body's velocity before this step's gravity, in its own frame.
 Vec3 Component::came_at(int i) const {
-  const b2Body& b = *mirrors[z(i)].body;
-  return into_own_frame(solver.places[z(i)].turn,
-                        in_doubles({b.GetLinearVelocity(), b.GetAngularVelocity()}));
+  return into_own_frame(solver.places[z(i)].turn, in_doubles(velocity_of(*mirrors[z(i)].body)));
 }
 
 // Whether a new joint's bodies come with velocities that it does not leave them.

@@ -194,7 +194,7 @@ struct Component {
   void shift(const b2Body& piece, const b2Vec2& way);
   /// Whether the last step was solved in parts, and others are to follow.
   bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
-  /// Whether a contact closes fast enough for a blow.
+  /// By how much a contact closes at its fastest point, of the velocities at the step's start, m/s.
   static float closes(const Touch& touch);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;

@@ -229,7 +229,6 @@ float Component::closing_speed(const Touch& t, const PointConstraint& p) {
   return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
 }
 
-// At its fastest, m/s.
 float Component::closes(const Touch& t) {
   float most = 0;
   for (int32 k = 0; k < t.velocity->count; ++k)
@@ -240,9 +239,8 @@ float Component::closes(const Touch& t) {
 // Of what closes fastest, m/s.
 double Component::closing() const {
   float most = 0;
-  each_point([&most](std::size_t, const Touch& t, const PointConstraint& p) {
-    most = std::max(most, -closing_speed(t, p));
-  });
+  for (const Touch& t : outside_.touches)
+    if (!t.at_seam) most = std::max(most, closes(t));
   return most;
 }
 

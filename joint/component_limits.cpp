@@ -68,7 +68,7 @@ double Component::close_ledger() {
     const Mirror& m = mirrors[i];
     solver.before[i] = {};
     if (i >= solver.free_bodies() || m.guest()) continue;
-    const Vec3 v = in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
+    const Vec3 v = in_doubles(velocity_of(*m.body));
     const Vec3 left = v - in_doubles(m.given);
     solver.before[i] = left;
     // 2 m and π/2 a step. The work of what took them back, with the mean of the velocities before and after.

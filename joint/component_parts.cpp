@@ -114,9 +114,9 @@ void Component::strike(int a, int b, double speed) {
   }
 }
 
-// That against what the joints of a body store until they yield, F²/2k. Of a long beam that is v √(ρA EI),
-// and v √(ρA EA) along it, however short its pieces; of rigid rows k is what a part resolves. The solution of
-// the whole step does not know the peak.
+// Whether such an energy is more than what the joints of its body store until they are `strained`, F²/2k. Of
+// a long beam F is v √(ρA EI), and v √(ρA EA) along it, however short its pieces; of rigid rows k is what a
+// part resolves.
 bool Component::strains_joints() const {
   return std::any_of(members.begin(), members.end(), [this](const Member* m) {
     const Joint& j = solver.joints[m->index];
@@ -158,9 +158,9 @@ bool Component::snaps_hard() {
   return snaps && strains_joints();
 }
 
-// Nor does the solution of the whole step know where a piece is that restitution throws away and springs
-// bring back within the step: it would meet what threw it again and again, from step to step, until nothing
-// is left of the rebound.
+// Whether a blow needs parts. The solution of the whole step does not know the peak of what joints bear. Nor
+// does it know where a piece is that restitution throws away and springs bring back within the step: it would
+// meet what threw it again and again, from step to step, until nothing is left of the rebound.
 bool Component::strikes_hard() {
   if (snapped_) return true;
   forget_blows();
@@ -262,22 +262,24 @@ void Component::begin_parts() {
     Parts::OfBody& body = parts_.bodies[i];
     body = {.start = solver.places[i].pose};
     if (!m.present) continue;
-    body.before = in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
+    body.before = in_doubles(velocity_of(*m.body));
     body.given = 1.0 / parts_.count * (m.exact - body.before);
     m.exact = body.before;
   }
   outside_.touches.insert(outside_.touches.end(), outside_.near.begin(), outside_.near.end());
   read_touches();
   parts_.sums.assign(outside_.contacts.size(), {});
-  each_point([this](std::size_t k, const Touch& t, const PointConstraint& p) {
+  // From where Box2D was told that a body is (keep_in_touch()) to where it is.
+  const auto beyond = [this](int i) {
+    const Pose &at = solver.places[z(i)].pose, told = origin.relative(mirrors[z(i)].left);
+    return Vec3{at.x - told.x, at.y - told.y, 0};
+  };
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
     parts_.sums[k].ra = p.ra;
     parts_.sums[k].rb = p.rb;
-    const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
-    const Pose left_a = origin.relative(mirrors[z(t.in_a)].left),
-               left_b = origin.relative(mirrors[z(t.in_b)].left);
     const b2Vec2& n = t.velocity->normal;
-    const double apart =
-        n.x * (b.x - left_b.x - (a.x - left_a.x)) + n.y * (b.y - left_b.y - (a.y - left_a.y));
+    const Vec3 way = beyond(t.in_b) - beyond(t.in_a);
+    const double apart = n.x * way.x + n.y * way.y;
     double& gap = parts_.sums[k].gap;
     if (apart > b2_linearSlop) gap = apart;
     if (t.is_near()) gap = -p.bounce * (parts_.count * solver.step());

@@ -14,9 +14,7 @@ namespace ductile::dynamics {
 namespace {
 
 // A sensor, or what PreSolve has disabled, is not in Box2D's island.
-bool pushes(const b2Contact& c) {
-  return c.IsTouching() && c.IsEnabled() && !c.GetFixtureA()->IsSensor() && !c.GetFixtureB()->IsSensor();
-}
+bool pushes(const b2Contact& c) { return c.IsTouching() && c.IsEnabled() && !is_sensor(c); }
 
 // Nor are joints whose other body is disabled.
 int joints_in_island(const b2Body& body) {
@@ -38,9 +36,7 @@ void Component::clear_outside() {
 bool Component::find_present() {
   for (Mirror& m : mirrors) m.present = !m.guest();
   each_guest([this](int body) { mirrors[z(body)].present = true; });
-  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) {
-    return !m.present || (m.body->GetType() == m.type && (m.type == b2_staticBody || m.has_its_mass()));
-  });
+  return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return !m.present || m.fits(); });
 }
 
 void Component::look(const b2SolverData& data) {
@@ -108,9 +104,7 @@ bool Component::as_before(const b2SolverData& data) const {
 void Component::take(Mirror& m, const b2SolverData& data) {
   m.taken = data.velocities[m.island_index];
   m.pushed = {{0, 0}, 0};
-  m.jump = std::exchange(m.thrown, false)
-               ? in_doubles({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()})
-               : Vec3{};
+  m.jump = std::exchange(m.thrown, false) ? in_doubles(velocity_of(*m.body)) : Vec3{};
   const auto look_for_jump = [&](const b2Velocity& now) {
     const b2Velocity jump{now.v - m.given.v, now.w - m.given.w};
     if (m.guest() || !(jump.v.Length() > blow_speed || std::abs(jump.w) > blow_turn)) return;
@@ -137,7 +131,7 @@ void Component::take(Mirror& m, const b2SolverData& data) {
     m.exact = m.alone;
   } else {
     m.exact = in_doubles(m.taken);
-    look_for_jump({m.body->GetLinearVelocity(), m.body->GetAngularVelocity()});
+    look_for_jump(velocity_of(*m.body));
   }
   m.given = m.taken;
 }
@@ -219,8 +213,7 @@ void Component::first_velocity(const b2SolverData& data) {
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
       solver.before[i] = {};
       if (!mirrors[i].present) continue;
-      const b2Velocity v =
-          account.began[i] = {mirrors[i].body->GetLinearVelocity(), mirrors[i].body->GetAngularVelocity()};
+      const b2Velocity v = account.began[i] = velocity_of(*mirrors[i].body);
       solver.before[i] = into_own_frame(solver.places[i].turn, in_doubles(v));
       account.lost[i] = {};
     }

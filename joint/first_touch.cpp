@@ -28,8 +28,6 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr uint16 held_bullet = 0x2000;  // beside that of nodes.cpp
-
 b2Position pose_of(b2Body& body) {
   const b2Sweep& sweep = of(body, b2Body_m_sweep{});
   return {sweep.c, sweep.a};
@@ -49,7 +47,7 @@ void each_near(const Component& component, const Visit& visit) {
     if (m.guest()) continue;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& c = *e->contact;
-      if (c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor()) continue;
+      if (is_sensor(c)) continue;
       if (is_free(e->other)) visit(c, m, *e->other);
     }
   }

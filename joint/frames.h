@@ -21,6 +21,10 @@ inline bool same(const b2Position& a, const b2Position& b) {
 
 inline bool same_bits(const b2Velocity& a, const b2Velocity& b) { return a.v == b.v && a.w == b.w; }
 
+inline b2Velocity velocity_of(const b2Body& body) {
+  return {body.GetLinearVelocity(), body.GetAngularVelocity()};
+}
+
 inline b2Velocity in_floats(const Vec3& v) {
   return {{static_cast<float>(v.x), static_cast<float>(v.y)}, static_cast<float>(v.w)};
 }

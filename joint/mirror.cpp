@@ -18,7 +18,7 @@ Mirror::Mirror(b2Body& of)
       mass(of),
       type(of.GetType()),
       left{of.GetWorldCenter(), of.GetAngle()},
-      given{of.GetLinearVelocity(), of.GetAngularVelocity()},
+      given(velocity_of(of)),
       exact(in_doubles(given)) {}
 
 void Mirror::find_joints() {

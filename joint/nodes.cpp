@@ -14,8 +14,6 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr uint16 in_node = 0x4000;  // Box2D 2.4.1 uses the seven lowest, and leaves the others as they are
-
 // In the list of the world's bodies, and not one that came after.
 bool lives(const b2World& world, const b2Body* body) {
   for (const b2Body* b = world.GetBodyList(); b != nullptr; b = b->GetNext()) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <typeinfo>
 
 #include "box2d_private.h"
@@ -87,8 +88,7 @@ void Island::choose_contacts(const b2SolverData& data) {
 void Island::find_near(float h) {
   if (world().GetSubStepping()) return;
   const auto may_be_met = [](const b2Contact& c) {
-    return c.IsEnabled() && !c.GetFixtureA()->IsSensor() && !c.GetFixtureB()->IsSensor() &&
-           !(c.GetRestitution() > 0);
+    return c.IsEnabled() && !is_sensor(c) && !(c.GetRestitution() > 0);
   };
   // What will be formed anew is no more, as where a world was saved and loaded; and of what has broken up
   // some is in other islands.
@@ -106,12 +106,14 @@ void Island::find_near(float h) {
           (component_of(*t.a()) == component || component_of(*t.b()) == component))
         driven = closes;
     }
-    for (std::size_t i = 0; i < component->solver.free_bodies(); ++i) {
-      const Mirror& m = component->mirrors[i];
-      if (m.guest() || !(driven > 0 || is_fast(*m.body))) continue;
+    const auto may_meet = [&](const Mirror& m) { return !m.guest() && (driven > 0 || is_fast(*m.body)); };
+    const std::span<const Mirror> free{component->mirrors.data(), component->solver.free_bodies()};
+    if (std::none_of(free.begin(), free.end(), may_meet) || !lasts(component)) continue;
+    for (const Mirror& m : free) {
+      if (!may_meet(m)) continue;
       for (b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
         if (e->other->GetType() == b2_staticBody && may_be_met(*e->contact) &&
-            !share_a_neighbour(*m.body, *e->other) && lasts(component))
+            !share_a_neighbour(*m.body, *e->other))
           contacts_.add_near(*e->contact, nullptr, h, driven);
       }
     }

@@ -56,10 +56,7 @@ bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b
     const b2Body &from = from_neighbour ? *j->other : other, &to = from_neighbour ? other : *j->other;
     for (const b2ContactEdge* e = from.GetContactList(); e != nullptr; e = e->next) {
       const b2Contact& beside = *e->contact;
-      if (e->other != &to || !beside.IsTouching() || !beside.IsEnabled() ||
-          beside.GetFixtureA()->IsSensor() ||
-          beside.GetFixtureB()->IsSensor())  // of which Box2D makes no manifold
-        continue;
+      if (e->other != &to || !beside.IsTouching() || !beside.IsEnabled() || is_sensor(beside)) continue;
       const bool is_a = beside.GetFixtureA()->GetBody() == j->other;
       const b2Fixture& neighbour = is_a ? *beside.GetFixtureA() : *beside.GetFixtureB();
       if (meets_cover(contact, piece, neighbour) && !meets_cover(beside, neighbour, piece)) return true;

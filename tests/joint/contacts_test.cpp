@@ -573,6 +573,15 @@ TEST(SolvedInParts, AskAListenerOfWhatIsMetWithinTheStep) {
   EXPECT_GT(turned(true, missing), 0.1);
 }
 
+/// Axial and rotation rows of l metres of a steel bar, h by b metres; shear is rigid.
+void make_steel(ElasticPlasticJointDef& joint, double h, double b, double l) {
+  constexpr double E = 210e9, fy = 355e6;
+  const double N = fy * h * b, M = fy * b * h * h / 4;
+  joint.rows[axial] = {.stiffness = E * h * b / l, .damping_ratio = 0.05, .cap = N, .cap_reverse = N};
+  joint.rows[rotation] = {
+      .stiffness = E * b * h * h * h / 12 / l, .damping_ratio = 0.05, .cap = M, .cap_reverse = M};
+}
+
 /// Ten pieces of a steel cantilever of 4 m, 0.1 m by 0.2 m, without weight.
 struct SteelCantilever {
   explicit SteelCantilever(bool carried = false) {
@@ -580,17 +589,13 @@ struct SteelCantilever {
     b2BodyDef def;
     if (carried) def.type = b2_kinematicBody;
     b2Body* last = root = world.CreateBody(&def);
-    const double l = 0.4, h = 0.2, b = 0.1, E = 210e9, fy = 355e6;
+    const double l = 0.4, h = 0.2, b = 0.1;
     for (int i = 0; i < 10; ++i) {
       b2Body* piece = add_box(world, {.x = (i + 0.5) * l, .width = l, .height = h, .mass = 7850 * l * h * b});
       ElasticPlasticJointDef joint;
       joint.Initialize(last, piece, vec(i * l, 0), {1, 0});
-      joint.rows[axial] = {
-          .stiffness = E * h * b / l, .damping_ratio = 0.05, .cap = fy * h * b, .cap_reverse = fy * h * b};
-      joint.rows[rotation] = {.stiffness = (i == 0 ? 2 : 1) * E * b * h * h * h / 12 / l,
-                              .damping_ratio = 0.05,
-                              .cap = fy * b * h * h / 4,
-                              .cap_reverse = fy * b * h * h / 4};
+      make_steel(joint, h, b, l);
+      if (i == 0) joint.rows[rotation].stiffness *= 2;
       structure.create_joint(joint);
       last = piece;
     }
@@ -653,16 +658,9 @@ struct HeldSteelBeam {
     }
   }
   double plastic_work(double x, double mass, double speed, double hz) {
-    b2Body* ball = beam.world.CreateBody([&] {
-      static b2BodyDef def;
-      def.type = b2_dynamicBody;
-      def.position = vec(x, 0.6);
-      def.linearVelocity = vec(0, -speed);
-      return &def;
-    }());
-    b2CircleShape circle;
-    circle.m_radius = 0.25f;
-    ball->CreateFixture(&circle, static_cast<float>(mass / (std::numbers::pi * 0.0625)));
+    b2Body* ball = add(beam.world, {.x = x, .bottom = 0.34, .mass = mass});
+    make_wheel(*ball);
+    ball->SetLinearVelocity(vec(0, -speed));
     beam.run(0.8, 1 / hz);
     return beam.structure.energy().dissipated;
   }
@@ -689,18 +687,13 @@ TEST(SolvedInParts, OfWhatFallsOnTheGround) {
     b2PolygonShape floor;
     floor.SetAsBox(20, 0.5f, {0, -0.5f}, 0);
     world.CreateBody(&at)->CreateFixture(&floor, 0);
-    const double h = 0.08, E = 210e9, fy = 355e6, A = h * h, I = h * h * h * h / 12;
+    const double h = 0.08, A = h * h, E = 210e9, Q = 355e6 * A / 2;
     std::vector<b2Body*> bars[4];
     const auto join = [&](b2Body* a, b2Body* b, const b2Vec2& where, const b2Vec2& axis, double l) {
       ElasticPlasticJointDef def;
       def.Initialize(a, b, where, axis);
-      def.rows[axial] = {.stiffness = E * A / l, .damping_ratio = 0.05, .cap = fy * A, .cap_reverse = fy * A};
-      def.rows[shear] = {
-          .stiffness = E * A / 3.1 / l, .damping_ratio = 0.05, .cap = fy * A / 2, .cap_reverse = fy * A / 2};
-      def.rows[rotation] = {.stiffness = E * I / l,
-                            .damping_ratio = 0.05,
-                            .cap = fy * h * h * h / 4,
-                            .cap_reverse = fy * h * h * h / 4};
+      make_steel(def, h, h, l);
+      def.rows[shear] = {.stiffness = E * A / 3.1 / l, .damping_ratio = 0.05, .cap = Q, .cap_reverse = Q};
       structure.create_joint(def);
     };
     const b2Vec2 corners[] = {vec(0, 0.57), vec(3, 0.57), vec(3, 2.57), vec(0, 2.57)};

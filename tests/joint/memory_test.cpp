@@ -72,6 +72,7 @@ TEST(MemoryOfComponents, ComesFromWhereTheGameSays) {
         hang(1);
       }
     }
+    EXPECT_GT(source.taken, 0);
     Snapshot snapshot;
     snapshot.save(world);
     const long before = allocations();
