@@ -27,6 +27,16 @@ Rows x_of(const System& system, const Joint& j) {
   return biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
 }
 
+// |J|, entry by entry.
+struct AbsoluteRows {
+  explicit AbsoluteRows(const Jacobian& J) : a(of(rows_of_a(J))), b(of(rows_of_b(J))) {}
+  std::array<Vec3, 3> a, b;
+
+ private:
+  static Vec3 of(const Vec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.w)}; }
+  static std::array<Vec3, 3> of(const JacobianRows& rows) { return {of(rows.u), of(rows.v), of(rows.w)}; }
+};
+
 }  // namespace
 
 void InteriorPoint::form(const System& system) {
@@ -171,6 +181,37 @@ Distance InteriorPoint::measure(const System& system) {
   return d;
 }
 
+// What a last bit of each impulse makes of the gap: its row moves by ε |J| M⁻¹ |Jᵀ s| of all rows of its
+// bodies. Of rows that press against each other that may be 1e10 times what they give.
+double InteriorPoint::rounding_of_best(const System& system) {
+  constexpr double last_bit = std::numeric_limits<double>::epsilon();
+  std::fill(d_.begin(), d_.end(), Vec3{});
+  for (std::size_t k = 0; k < best_.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const AbsoluteRows rows(j.J);
+    for (unsigned i = 0; i < 3; ++i) {
+      d_[z(j.a)] += std::abs(best_[k][i]) * rows.a[i];
+      d_[z(j.b)] += std::abs(best_[k][i]) * rows.b[i];
+    }
+  }
+  for (std::size_t i = 0; i < d_.size(); ++i) {
+    const Body& b = system.bodies[i];
+    d_[i] = i < system.free
+                ? Vec3{b.inverse_mass * d_[i].x, b.inverse_mass * d_[i].y, b.inverse_inertia * d_[i].w}
+                : Vec3{};
+  }
+  double gap = 0;
+  for (const Joint& j : system.joints) {
+    const AbsoluteRows rows(j.J);
+    const Rows m_eff = effective_masses(system, j);
+    for (unsigned i = 0; i < 3; ++i) {
+      const double x = last_bit * (dot(rows.a[i], d_[z(j.a)]) + dot(rows.b[i], d_[z(j.b)]));
+      gap += std::max(j.G[i], m_eff[i]) * x * x / 2;
+    }
+  }
+  return gap;
+}
+
 // H = M + Jᵀ D J
 void InteriorPoint::factor(System& system, Hessian& hessian, bool follows) {
   for (std::size_t k = 0; k < caps_.size(); ++k) {
@@ -280,12 +321,11 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
 
   outcome.gap = infinity;
   // Of the best iterate, as its gap is: |v|² of one that is astray would allow any gap that there ever was.
-  double goal_gap = 0;
+  double goal_gap = 0, tolerance = 0;
   std::array<double, 2> earlier{infinity, infinity};  // Σ z p two rounds ago and in the last
   int short_steps = 0;                                // one after the other
   double last_lack = infinity;
   const double first_scale = scale;
-  double rounding = 0;  // where the gap was least
   int slip_rounds = 0;  // in which what slides parts, but for its slip in the same round
   for (int round = 0, idle = 0, careful = 0;; ++round) {
     if (slip_rounds > 0) {
@@ -298,9 +338,8 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     idle = now.gap() < outcome.gap / 2 || now.products > now.lack ? 0 : idle + 1;
     if (now.gap() < outcome.gap) {
       outcome.gap = now.gap();
-      rounding = now.rounding;
       goal_gap = tunables.goal * scale + now.rounding;
-      outcome.tolerance = tunables.tolerance * scale + now.rounding;
+      outcome.tolerance = tolerance = tunables.tolerance * scale + now.rounding;
       best_ = impulses_;
       for (TurnRow& r : turns_) r.best = r.s;
       each_friction(system, [&](std::size_t k, double) {
@@ -308,7 +347,10 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
       });
     }
     if (outcome.gap <= goal_gap || !std::isfinite(now.gap())) break;
-    if ((idle >= 2 && outcome.gap <= outcome.tolerance) || round == tunables.round_bound) break;
+    // Rounding was thought to make the last bits of a row's own impulse.
+    const bool last = round == tunables.round_bound;
+    if (idle >= tunables.idle_rounds || last) outcome.tolerance = tolerance + rounding_of_best(system);
+    if ((idle >= 2 && outcome.gap <= outcome.tolerance) || last) break;
     // Where friction that follows can go no further, a small gap will do: caps that stay may lead away from
     // it, with no way back.
     const bool stands = now.products > 0.8 * earlier[0];
@@ -360,10 +402,6 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     move(step);
     scale = balance(system);
   }
-  // Rounding was thought to make the last bit of each impulse. Of rows that press against each other, whose
-  // impulses may be 1e10 times what they give, all rounds may have left sixteen of them, and the gap is their
-  // square.
-  outcome.tolerance += 255 * rounding;
   return outcome.gap <= outcome.tolerance;
 }
 

@@ -41,6 +41,9 @@ struct InteriorPointTunables {
   /// Likewise with contacts: with less, those that open let the first rounds go but small steps, one after
   /// the other.
   double contact_start = 5;
+  /// Rounds without gain, where all that is left is lack, after which rounding is asked for what it may make
+  /// of all impulses together.
+  int idle_rounds = 8;
   /// The bound leaves room for bodies that overlap and jam between rigid joints.
   int round_bound = 200;
 };
@@ -83,6 +86,7 @@ class InteriorPoint {
   void each_friction(const System& system, const Act& act);
   double balance(System& system);
   Distance measure(const System& system);
+  double rounding_of_best(const System& system);
   void factor(System& system, Hessian& hessian, bool follows);
   Direction find_direction(const System& system, const Hessian& hessian, double mu, double second_order,
                            bool follows);
