@@ -77,8 +77,9 @@ class IslandContacts {
   void choose(const IsPiece& is_piece, const MayTake& may_take, const Follow& follow);
   /// Adds the points that a contact of one of this touch's bodies may have within the step of h seconds and
   /// has not yet, where they face the way that the touch does; without a touch, where they strike in the
-  /// step, or a blow may drive them together by `driven` m/s.
-  void add_near(b2Contact& contact, const Touch* touch, float h, float driven = 0);
+  /// step, or a blow may drive them together by `driven` m/s. Its body B slides so far against A until then.
+  void add_near(b2Contact& contact, const Touch* touch, float h, float driven = 0,
+                const b2Vec2& slide = b2Vec2_zero);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
   /// The index of a body that can move in the island that is being solved.
@@ -129,9 +130,9 @@ inline bool is_sensor(const b2Contact& c) {
   return c.GetFixtureA()->IsSensor() || c.GetFixtureB()->IsSensor();
 }
 
-/// Whether a contact's bodies slide along each other in h seconds, by more than Box2D's slop and than half of
-/// what they come nearer.
-bool slides(const Touch& touch, float h);
+/// How far a contact's body B slides along A in h seconds, where that is more than Box2D's slop and than half
+/// of what they come nearer; else 0.
+b2Vec2 slide(const Touch& touch, float h);
 
 /// PostSolve of points that did not touch when the step began.
 void tell_of_near(const Touch& touch);

@@ -85,6 +85,7 @@ struct Component {
       double normal = 0, tangent = 0;  // N s
       double work = 0;                 // on the bodies, J
       double gap = 0;                  // m, since the step's start
+      bool beside = false;             // the point is beyond the end of the face that it touches
       b2Vec2 ra{0, 0}, rb{0, 0};       // at the step's start
     };
     Vector<OfContact> sums;
@@ -265,6 +266,7 @@ struct Component {
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
   void begin_parts();
+  bool is_beside(const Touch& touch, const PointConstraint& point) const;
   void carry_arms();
   void solve_part(double h, bool first, bool blow);
   void end_parts(const b2SolverData& data);

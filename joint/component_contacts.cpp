@@ -15,7 +15,7 @@ bool Component::touch(Touch t) {
   t.in_a = index_of(t.a());
   t.in_b = index_of(t.b());
   if (!knows(t.in_a, t.in_b)) return false;
-  t.at_seam = !t.is_near() && is_at_seam(t);
+  t.at_seam = !t.is_near() && is_at_seam(*t.contact);
   (t.is_near() ? outside_.near : outside_.touches).push_back(t);
   return true;
 }

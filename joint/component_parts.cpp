@@ -1,10 +1,10 @@
 // The steps of a blow in parts: what strikes a structure sends waves through it that are over in a few
 // milliseconds, and their plastic work depends on them. So a step in which a blow strains joints by a good
 // share of their capacity, be it more than they carried before, and those of the next 50 ms in which some are
-// strained that much, or throw what struck them, are solved as shorter ones, with contacts as rows of each.
-// What strikes less hard is part of what goes on. Box2D sees one step: it moves bodies with their mean
-// velocities, before its iterations of positions they get those at the end, and contacts have the sums of
-// their impulses.
+// strained that much, of 100 ms in which they throw what struck them, are solved as shorter ones, with
+// contacts as rows of each. What strikes less hard is part of what goes on. Box2D sees one step: it moves
+// bodies with their mean velocities, before its iterations of positions they get those at the end, and
+// contacts have the sums of their impulses.
 //
 // Two things must hold. Nothing but the solver changes the bodies' velocities in the step. And supports rest,
 // or move alike: the springs of rigid rows grow with the inverse square of the step, so that between supports
@@ -16,6 +16,7 @@
 #include "component.h"
 #include "contact_rows.h"
 #include "frames.h"
+#include "nearest.h"
 #include "structure.h"
 #include "whole.h"
 
@@ -39,7 +40,7 @@ constexpr double no_step_closes = 4 * b2_maxTranslation;
 
 // Whether a point, from the centre of mass of a body that is turned so far, is beyond the end of a polygon's
 // face with this normal.
-bool is_beside(const b2Fixture& fixture, const b2Vec2& normal, const b2Vec2& arm, double angle) {
+bool is_beyond(const b2Fixture& fixture, const b2Vec2& normal, const b2Vec2& arm, double angle) {
   if (fixture.GetType() != b2Shape::e_polygon) return false;
   const auto& polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
   const b2Vec2 along = b2Cross(normal, 1.0f);
@@ -282,7 +283,9 @@ void Component::begin_parts() {
     const double apart = n.x * way.x + n.y * way.y;
     double& gap = parts_.sums[k].gap;
     if (apart > b2_linearSlop) gap = apart;
-    if (t.is_near()) gap = -p.bounce * (parts_.count * solver.step());
+    if (!t.is_near()) return;
+    gap = -p.bounce * (parts_.count * solver.step());
+    parts_.sums[k].beside = is_beside(t, p);
   });
   parts_.links.clear();
   for (Contact& c : outside_.contacts) {
@@ -291,20 +294,26 @@ void Component::begin_parts() {
   }
 }
 
+// Whether a point is beyond the end of the face that it touches: it has slid off that, or is not there yet.
+bool Component::is_beside(const Touch& t, const PointConstraint& p) const {
+  const b2Manifold& m = *t.manifold;
+  if (m.type == b2Manifold::e_circles) return false;
+  return m.type == b2Manifold::e_faceA
+             ? is_beyond(*t.contact->GetFixtureA(), m.localNormal, p.ra, solver.places[z(t.in_a)].pose.angle)
+             : is_beyond(*t.contact->GetFixtureB(), m.localNormal, p.rb, solver.places[z(t.in_b)].pose.angle);
+}
+
 // A contact's two impulses act at one point, or friction would take angular momentum as bodies slide: it goes
-// with the corner or the circle that touches the other's face. What has slid off that touches no more.
+// with the corner or the circle that touches the other's face.
 void Component::carry_arms() {
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
     const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
-    const b2Manifold& manifold = *t.manifold;
-    const bool on_a = manifold.type == b2Manifold::e_faceA, on_b = manifold.type == b2Manifold::e_faceB;
-    const float share = on_a ? 1.0f : on_b ? 0.0f : 0.5f;
+    const b2Manifold::Type type = t.manifold->type;
+    const float share = type == b2Manifold::e_faceA ? 1.0f : type == b2Manifold::e_faceB ? 0.0f : 0.5f;
     p.ra += share * apart;
     p.rb -= (1 - share) * apart;
-    if ((on_a && is_beside(*t.contact->GetFixtureA(), manifold.localNormal, p.ra, a.angle)) ||
-        (on_b && is_beside(*t.contact->GetFixtureB(), manifold.localNormal, p.rb, b.angle)))
-      parts_.sums[k].gap = no_step_closes;
+    parts_.sums[k].beside = is_beside(t, p);
   });
 }
 
@@ -339,7 +348,8 @@ void Component::solve_part(double h, bool first, bool blow) {
   };
   double fastest = first && blow ? closing() : 0;  // of what closes in this part, m/s
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
-    const double gap = parts_.sums[k].gap, closes = -work_now(t, p, 1, 0);
+    const double gap = parts_.sums[k].beside ? no_step_closes : parts_.sums[k].gap,
+                 closes = -work_now(t, p, 1, 0);
     if (gap > 0) outside_.contacts[k].bounce = -gap / h;
     if (h * closes > gap) fastest = std::max(fastest, closes);
   });
@@ -401,7 +411,9 @@ void Component::end_parts(const b2SolverData& data) {
     const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
     parts_.bodies[i].mean = {rate * (to.x - from.x), rate * (to.y - from.y), rate * (to.angle - from.angle)};
   }
-  parts_.goes_on = parts_.since_blow < blow_time && normals_held() && (snapped_ || is_strained() || throws());
+  const bool thrown = throws();
+  parts_.goes_on = parts_.since_blow < (thrown ? 2 : 1) * blow_time && normals_held() &&
+                   (snapped_ || is_strained() || thrown);
   const double lost = parts_.goes_on ? 0 : go_on_with_means();
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) mirrors[i].left = box2d_pose(i);
   if (parts_.goes_on && is_held()) keep_in_touch(data.step.dt);
@@ -421,17 +433,30 @@ void Component::end_parts(const b2SolverData& data) {
 
 // What struck a piece may be off it where the step ends, and on it again before the next one does. Box2D
 // solves with the structure what touches it as a step starts; so it is told the place at which that still
-// touches, and the gap is one of the parts.
+// touches, on a kink both pieces, and the gap is one of the parts. Faces have turned since the step's start,
+// and what slides has come to others: the gap is measured.
 void Component::keep_in_touch(double h) {
   const auto look = [this](int i, double gap, const b2Vec2& to_it) {
     Parts::OfBody& body = parts_.bodies[z(i)];
     if (gap < body.gap) body.gap = gap, body.to_it = to_it;
   };
-  each_point([&](std::size_t k, const Touch& t, const PointConstraint&) {
-    const double gap = t.contact->GetRestitution() > 0 ? 0 : parts_.sums[k].gap;
-    if (solver.is_free(t.in_a)) look(t.in_a, gap, t.velocity->normal);
-    if (solver.is_free(t.in_b)) look(t.in_b, gap, -t.velocity->normal);
-  });
+  const auto at_end = [this](int i) {
+    const b2Position at = box2d_pose(z(i));
+    b2Transform there(at.c, b2Rot(at.a));
+    there.p -= b2Mul(there.q, mirrors[z(i)].body->GetLocalCenter());
+    return there;
+  };
+  for (const Touch& t : outside_.touches) {
+    if (!(mirrors[z(t.in_a)].guest() || mirrors[z(t.in_b)].guest())) continue;
+    const b2Contact& c = *t.contact;
+    const b2DistanceProxy a = proxy(*c.GetFixtureA(), c.GetChildIndexA()),
+                          b = proxy(*c.GetFixtureB(), c.GetChildIndexB());
+    const Nearest found = nearest(a, at_end(t.in_a), b, at_end(t.in_b));
+    const double two_deep = a.m_radius + b.m_radius - 2 * b2_linearSlop;
+    const double gap = c.GetRestitution() > 0 ? 0 : found.distance - two_deep;
+    if (solver.is_free(t.in_a)) look(t.in_a, gap, found.normal);
+    if (solver.is_free(t.in_b)) look(t.in_b, gap, -found.normal);
+  }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Parts::OfBody& body = parts_.bodies[i];
     if (!mirrors[i].guest() || !(body.gap > b2_linearSlop) || !(body.gap < b2_aabbExtension)) continue;

@@ -22,6 +22,7 @@
 
 #include "box2d_private.h"
 #include "frames.h"
+#include "nearest.h"
 #include "structure.h"
 
 namespace ductile::dynamics {
@@ -67,35 +68,6 @@ b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
 bool moves(const b2Sweep& s) {
   return (s.c - s.c0).LengthSquared() >= b2_linearSlop * b2_linearSlop ||
          std::abs(s.a - s.a0) >= b2_angularSlop;
-}
-
-/// Two convex shapes, skins aside.
-struct Nearest {
-  float distance;  // m
-  b2Vec2 normal;   // from a to b; 0 where they overlap
-};
-
-Nearest nearest(const b2DistanceProxy& a, const b2Transform& at_a, const b2DistanceProxy& b,
-                const b2Transform& at_b) {
-  b2DistanceInput input;
-  input.proxyA = a;
-  input.proxyB = b;
-  input.transformA = at_a;
-  input.transformB = at_b;
-  input.useRadii = false;
-  b2SimplexCache cache;
-  cache.count = 0;
-  b2DistanceOutput found;
-  b2Distance(&found, &cache, &input);
-  b2Vec2 normal = found.pointB - found.pointA;
-  if (normal.Normalize() == 0) normal.SetZero();
-  return {found.distance, normal};
-}
-
-b2DistanceProxy proxy(const b2Fixture& fixture, int32 child) {
-  b2DistanceProxy made;
-  made.Set(fixture.GetShape(), child);
-  return made;
 }
 
 /// Where a body first touched a piece.

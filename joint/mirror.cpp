@@ -34,7 +34,8 @@ void Mirror::gain_joints(int count) {
 }
 
 void Mirror::keep(Tape& tape) {
-  tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact);
+  tape(left.c.x, left.c.y, left.a, given.v.x, given.v.y, given.w, taken.v.x, taken.v.y, taken.w, exact,
+       thrown);
   bool only_ours = joints != nullptr && joints == body->GetJointList();
   tape(only_ours);
   if (tape.reads()) joints = only_ours && !guest() ? body->GetJointList() : nullptr;

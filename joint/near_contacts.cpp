@@ -5,18 +5,20 @@
 // next step.
 //
 // What slides along pieces would be caught by the next one's corner, as manifolds keep their normals in a
-// step: such points are left alone.
+// step: its points are those of where it slides to, on faces that go on as the one that it touches does.
 #include <algorithm>
 #include <cmath>
 
 #include "blow.h"
 #include "box2d_contacts.h"
+#include "seams.h"
 
 namespace ductile::dynamics {
 
 namespace {
 
 constexpr float same_way = 0.99f;  // cosine of two normals
+constexpr float goes_on = 0.95f;   // likewise: of faces that what slides may pass between, as beams bend
 
 float size(const b2Fixture& fixture, int32 child) { return fixture.GetAABB(child).GetPerimeter() / 4; }
 
@@ -46,10 +48,10 @@ bool cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
   return true;
 }
 
-// Whether points face the way that a touch of one of the two bodies does.
-bool faces(const b2Vec2& normal, const Touch& touch, const b2Body& a, const b2Body& b) {
+// The cosine between points' normal and the way that a touch of one of the two bodies faces.
+float faces(const b2Vec2& normal, const Touch& touch, const b2Body& a, const b2Body& b) {
   const float along = b2Dot(normal, touch.velocity->normal);
-  return (touch.a() == &a || touch.b() == &b ? along : -along) >= same_way;
+  return touch.a() == &a || touch.b() == &b ? along : -along;
 }
 
 // Whether one of so many points strikes within h seconds, and does not slide along what it meets; or is
@@ -93,11 +95,11 @@ bool is_wanted(b2Contact& contact, const b2Manifold& near) {
 
 }  // namespace
 
-bool slides(const Touch& touch, float h) {
+b2Vec2 slide(const Touch& touch, float h) {
   const b2Vec2 v = touch.b()->GetLinearVelocity() - touch.a()->GetLinearVelocity(),
-               n = touch.velocity->normal;
-  const float along = std::abs(b2Cross(v, n));
-  return h * along > b2_linearSlop && along > std::abs(b2Dot(v, n)) / 2;
+               n = touch.velocity->normal, along = v - b2Dot(v, n) * n;
+  const bool slides = h * along.Length() > b2_linearSlop && along.Length() > std::abs(b2Dot(v, n)) / 2;
+  return slides ? h * along : b2Vec2_zero;
 }
 
 void tell_of_near(const Touch& touch) {
@@ -115,29 +117,34 @@ void tell_of_near(const Touch& touch) {
   });
 }
 
-void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, float driven) {
+void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, float driven,
+                              const b2Vec2& slide) {
   b2Fixture &fa = *contact.GetFixtureA(), &fb = *contact.GetFixtureB();
   const b2Body &a = *fa.GetBody(), &b = *fb.GetBody();
   const b2Manifold& known = *contact.GetManifold();
-  const int32 touching = contact.IsTouching() ? known.pointCount : 0;
   const bool is_known = std::any_of(touches_.begin(), touches_.end(), [&contact](const Touch& t) {
     return t.contact == &contact && t.is_near();
   });
+  // At a seam, the corner of the piece that a body comes to is left out.
+  const bool touches = contact.IsTouching() && (slide == b2Vec2_zero || !is_at_seam(contact));
+  const int32 touching = touches ? known.pointCount : 0;
   if (touching == b2_maxManifoldPoints || is_known || near_count_ == near_.size()) return;
   Near& near = near_[near_count_];
   const float radius = fb.GetShape()->m_radius;
   fb.GetShape()->m_radius = radius + std::min(way_of(contact, h) + h * driven, b2_maxTranslation);
-  contact.Evaluate(&near.manifold, a.GetTransform(), b.GetTransform());
+  const b2Transform& at_a = a.GetTransform();
+  b2Transform at_b = b.GetTransform();
+  at_b.p += slide;
+  contact.Evaluate(&near.manifold, at_a, at_b);
   fb.GetShape()->m_radius = radius;
   if (near.manifold.pointCount == 0) return;
-  const b2Transform &at_a = a.GetTransform(), &at_b = b.GetTransform();
   if (near.manifold.type == b2Manifold::e_faceA && !cut_to(fa, b2MulT(at_a, at_b), near.manifold)) return;
   if (near.manifold.type == b2Manifold::e_faceB && !cut_to(fb, b2MulT(at_b, at_a), near.manifold)) return;
 
   b2WorldManifold world;
   world.Initialize(&near.manifold, at_a, fa.GetShape()->m_radius, at_b, radius);
   if (touch == nullptr ? !strikes_within(a, b, world, near.manifold.pointCount, h, driven)
-                       : !faces(world.normal, *touch, a, b))
+                       : faces(world.normal, *touch, a, b) < (slide == b2Vec2_zero ? same_way : goes_on))
     return;
   VelocityConstraint& v = near.velocity = {};
   PositionConstraint& p = near.position = {};
@@ -146,15 +153,18 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
     const b2ManifoldPoint point = near.manifold.points[k];
     if (std::any_of(known.points, end, [&](const b2ManifoldPoint& q) { return q.id.key == point.id.key; }))
       continue;
-    v.points[v.count].ra = world.points[k] - a.GetWorldCenter();
-    v.points[v.count].rb = world.points[k] - b.GetWorldCenter();
-    v.points[v.count].bounce = -(std::max(world.separations[k], 0.0f) + b2_linearSlop) / h;
+    // Where the corner or circle is now that comes there on the other's face.
+    const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? world.points[k] - slide : world.points[k];
+    v.points[v.count].ra = now - a.GetWorldCenter();
+    v.points[v.count].rb = now - b.GetWorldCenter();
+    const float gap = world.separations[k] - b2Dot(slide, world.normal);
+    v.points[v.count].bounce = -(std::max(gap, 0.0f) + b2_linearSlop) / h;
     p.points[v.count] = point.localPoint;
     near.manifold.points[v.count++] = point;
   }
   if (v.count == 0) return;
   near.manifold.pointCount = p.count = v.count;
-  if (touching == 0 && !is_wanted(contact, near.manifold)) return;
+  if (!contact.IsTouching() && !is_wanted(contact, near.manifold)) return;
   v.normal = world.normal;
   v.friction = contact.GetFriction();
   v.conveyor = contact.GetTangentSpeed();

@@ -122,7 +122,8 @@ void Island::find_near(float h) {
   for (std::size_t k = 0; k < touching; ++k) {
     const Touch t = contacts_.touches()[k];
     const bool strikes = Component::closes(t) > blow_speed;
-    if (!(strikes || any_goes_on) || slides(t, h)) continue;
+    if (!(strikes || any_goes_on)) continue;
+    const b2Vec2 way = slide(t, h);
     for (b2Body* guest : {t.a(), t.b()}) {
       if (guest->GetType() != b2_dynamicBody || is_piece(*guest)) continue;
       const Component* of_piece = component_of(guest == t.a() ? *t.b() : *t.a());
@@ -131,7 +132,8 @@ void Island::find_near(float h) {
         b2Contact& c = *e->contact;
         if (may_be_met(c) && is_piece(*e->other) && lasts(component_of(*e->other)) &&
             !share_a_neighbour(*guest, *e->other))
-          contacts_.add_near(c, &t, h);
+          contacts_.add_near(c, &t, h, 0,
+                             (guest == t.b()) == (c.GetFixtureB()->GetBody() == guest) ? way : -way);
       }
     }
   }

@@ -67,10 +67,9 @@ bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b
 
 }  // namespace
 
-bool is_at_seam(const Touch& touch) {
-  const b2Fixture &a = *touch.contact->GetFixtureA(), &b = *touch.contact->GetFixtureB();
-  return is_carried_beside(*touch.contact, a, *b.GetBody()) ||
-         is_carried_beside(*touch.contact, b, *a.GetBody());
+bool is_at_seam(const b2Contact& contact) {
+  const b2Fixture &a = *contact.GetFixtureA(), &b = *contact.GetFixtureB();
+  return is_carried_beside(contact, a, *b.GetBody()) || is_carried_beside(contact, b, *a.GetBody());
 }
 
 }  // namespace ductile::dynamics

@@ -8,6 +8,6 @@ namespace ductile::dynamics {
 
 /// Whether a contact is at a face, or at the corner of a face, that a joined piece covers, while that piece
 /// carries the same body at a face of its own: such a contact is none of the structure as a whole.
-bool is_at_seam(const Touch& touch);
+bool is_at_seam(const b2Contact& contact);
 
 }  // namespace ductile::dynamics

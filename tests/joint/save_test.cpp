@@ -177,6 +177,16 @@ TEST(Save, OfGuestsThatCameAndWent) {
   expect_same_future(s, 200);
 }
 
+// Joints compare how their bodies come with how they were left, which a loaded world made anew knows as well.
+TEST(Save, OfWhatTheGameHasJustStruck) {
+  Scene s;
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 8, 7e5, unlimited, 0);
+  s.run(3);
+  b2Body* piece = s.structure.joints()[4]->GetBodyB();
+  piece->SetLinearVelocity(piece->GetLinearVelocity() + b2Vec2(1, 2));
+  expect_same_future(s, 60);
+}
+
 TEST(Save, HardenedAndOnAYieldSurfaceAndAdopted) {
   Scene s;
   b2Body* wall = eventful::add_wall(s);
