@@ -37,17 +37,6 @@ bool is_deferred(const Joint& j, const JointRecord& r, unsigned i) {
   return j.G[i] > 0 && !is_slack(j, r, i);
 }
 
-// Of all that a joint's rows are strained beyond their forces.
-Drift beyond_forces(const Joint& j, const JointRecord& r) {
-  Drift sum;
-  for (unsigned i = 0; i < 3; ++i) {
-    if (!is_deferred(j, r, i)) continue;
-    const double d = beyond_force(j, r, i);
-    (std::isfinite(r.material.stiffness[i]) ? sum.elastic : sum.rigid) += r.m_eff[i] * d * d;
-  }
-  return sum;
-}
-
 // δ for bodies that turn by so many rad in a step, by powers of two.
 double delta_for(double turn) {
   const double wanted = turn_guard * std::max(0.0, turn - free_turn);
@@ -100,24 +89,10 @@ double StepLaws::deferred_share(double h) {
   return 1 - share;
 }
 
-// Of what rows are strained beyond their forces no more is deferred than there was of drift.
-double StepLaws::share_of(double drift, double now) { return drift < now ? std::sqrt(drift / now) : 1; }
-
-// What a joint has of drift: all that there is, where poses moved by a longer step before.
-Drift StepLaws::drift_of(const JointRecord& r, const Drift& now) const {
-  return h_ < moved_by ? now : r.deferred_drift;
-}
-
-// One share for all rigid rows.
-double StepLaws::share_of_rigid(System& system) const {
-  double drift = 0, now = 0;
-  for (const Joint& j : system.own_joints()) {
-    const JointRecord& r = system.record(j);
-    const Drift d = beyond_forces(j, r);
-    drift += drift_of(r, d).rigid;
-    now += d.rigid;
-  }
-  return share_of(drift, now);
+// What a joint has of drift: all that rows are strained beyond their forces, where poses moved by a longer
+// step before.
+void StepLaws::find_drift(const Joint& j, JointRecord& r) const {
+  for (unsigned i = 0; i < 3; ++i) r.drift[i] = is_deferred(j, r, i) ? beyond_force(j, r, i) : 0;
 }
 
 // In a longer step the spring of a rigid row is softer by its square, and stores as much more by the same
@@ -300,24 +275,17 @@ bool StepLaws::begin(System& system, double h) {
   }
   find_gaps(system);
   const double growth = changed ? most_growth(system, last_h) : 1;
-  const double of_rigid = drifts ? deferred * share_of_rigid(system) : 0;
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
-    Rows strain, drift{};
-    double of_elastic = 0;
-    if (drifts) {
-      const Drift now = beyond_forces(j, r);
-      of_elastic = deferred * share_of(drift_of(r, now).elastic, now.elastic);
-      r.deferred_drift = {of_elastic * of_elastic * now.elastic, of_rigid * of_rigid * now.rigid};
-    }
+    if (drifts && h < moved_by) find_drift(j, r);
+    Rows strain;
     for (unsigned i = 0; i < 3; ++i) {
       strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
-      if (drifts && is_deferred(j, r, i))
-        drift[i] = (std::isfinite(r.material.stiffness[i]) ? of_elastic : of_rigid) * beyond_force(j, r, i);
+      r.drift[i] = drifts ? deferred * r.drift[i] : 0;
     }
     if (changed) follow_law(j, r, strain, growth);
-    for (unsigned i = 0; i < 3; ++i) j.bias[i] = bias_of_strain(j, i, r.gap[i] - j.neutral[i] - drift[i]);
+    for (unsigned i = 0; i < 3; ++i) j.bias[i] = bias_of_strain(j, i, r.gap[i] - j.neutral[i] - r.drift[i]);
   }
   return changed;
 }

@@ -3,9 +3,8 @@
 // In a rigid row b = gap/h. The gap is more than the strain where turning bodies parted along their tangents
 // in the step before, by r(ωh)²/2: that constraint drift is taken back in as much time as it took to arise,
 // be it in several shorter steps; at once it would be a blow. What the shorter steps themselves add is taken
-// back at once: it would pile up. Which is which is known by size alone. All rigid rows defer the same share,
-// so that those of parallel joints agree; each joint that of its elastic ones, so that what a long rope
-// parted strains no stiff beam.
+// back at once: it would pile up. Elastic rows that ring in longer steps than resolve them are strained far
+// beyond their forces, too.
 #pragma once
 
 #include "pool.h"
@@ -55,9 +54,7 @@ class StepLaws {
 
  private:
   double deferred_share(double h);
-  static double share_of(double drift, double now);
-  Drift drift_of(const JointRecord& record, const Drift& now) const;
-  double share_of_rigid(System& system) const;
+  void find_drift(const Joint& joint, JointRecord& record) const;
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;

@@ -126,14 +126,6 @@ struct Whole {
 template <>
 inline constexpr bool all_doubles<PlasticFlow> = true;
 
-/// Σ m_eff d² of the constraint drift d of a longer step that is not yet taken back.
-struct Drift {
-  double elastic = 0, rigid = 0;  // of rows of finite stiffness, and of others
-};
-
-template <>
-inline constexpr bool all_doubles<Drift> = true;
-
 /// δ of axial and shear rows for how far bodies turn in a step (step_laws.h).
 struct TurnGuard {
   double delta = 0;
@@ -150,7 +142,7 @@ struct JointRecord {
   RowLaw law;
   Coupling tangent;       // ds/dx that is in H
   int turn_inertia = -1;  // index into System::turn_inertias, of the first
-  Drift deferred_drift;
+  Rows drift{};           // m or rad: constraint drift of a longer step that is still to be taken back
   TurnGuard turn_guard;
   unsigned halts = 0;  // rows, one bit each, whose forces stopped growing in the last step
   PlasticFlow plastic;
@@ -162,7 +154,7 @@ struct JointRecord {
   double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, deferred_drift, turn_guard, halts, plastic, dissipated, stored,
+    tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, halts, plastic, dissipated, stored,
          drive_rate);
   }
 };
