@@ -31,6 +31,8 @@ void Component::set_ties_aside(const b2SolverData& data) {
     for (std::size_t k = 0; k < t.rows.count; ++k) {
       Joint j;
       j.J = t.rows.links[k].J;
+      j.J.au -= t.rows.apart[shear];
+      j.J.av += t.rows.apart[axial];
       Vec3 for_a, for_b;
       add_transposed(j, t.rows.links[k].impulse, for_a, for_b);
       const auto take_back = [&](int body, const Place& at, const Vec3& impulse) {

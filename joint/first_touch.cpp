@@ -108,14 +108,18 @@ Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2
   return {touching, body_is_a ? -normal : normal};
 }
 
-/// Whether a body would overlap nothing there by more than its skin, but pieces and what it so overlaps where
-/// it is.
-bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
+using Bodies = std::unordered_set<const b2Body*>;
+
+/// Whether a body would overlap nothing there by more than its skin, but pieces, what it so overlaps where it
+/// is, and what goes there with it.
+bool has_room(const b2World& world, b2Body& body, const b2Transform& there, const Bodies& together = {}) {
   struct Overlap : b2QueryCallback {
-    Overlap(const b2Fixture& of, const b2Transform& at) : fixture(of), there(at) {}
+    Overlap(const b2Fixture& of, const b2Transform& at, const Bodies& with)
+        : fixture(of), there(at), together(with) {}
     bool ReportFixture(b2Fixture* other) override {
       b2Body* const on = other->GetBody();
-      if (on == fixture.GetBody() || other->IsSensor() || is_joined(*on)) return true;
+      if (on == fixture.GetBody() || other->IsSensor() || is_joined(*on) || together.count(on) > 0)
+        return true;
       const b2Shape& shape = *fixture.GetShape();
       const auto overlaps = [&](const b2Transform& at) {
         for (int32 i = 0; i < shape.GetChildCount(); ++i) {
@@ -132,6 +136,7 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
     }
     const b2Fixture& fixture;
     const b2Transform& there;
+    const Bodies& together;
     bool room = true;
   };
   for (b2Fixture* f = body.GetFixtureList(); f != nullptr; f = f->GetNext()) {
@@ -139,7 +144,7 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there) {
     for (int32 i = 0; i < f->GetShape()->GetChildCount(); ++i) {
       b2AABB box;
       f->GetShape()->ComputeAABB(&box, there, i);
-      Overlap overlap(*f, there);
+      Overlap overlap(*f, there, together);
       world.QueryAABB(&overlap, box);
       if (!overlap.room) return false;
     }
@@ -236,8 +241,9 @@ void undo_impacts(Alone& alone, float h) {
 /// The bodies that hang together by joints.
 struct Group {
   std::vector<b2Body*> bodies;
-  std::unordered_set<const b2Body*> known;  // these
-  bool is_held = false;                     // by something that does not move freely
+  Bodies known;                    // these
+  bool is_held = false;            // by something that does not move freely
+  mutable b2Vec2 gone_back{0, 0};  // to where one of these first touched
 
   explicit Group(b2Body& body) : bodies{&body}, known{&body} {
     for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -265,7 +271,7 @@ struct Group {
     return std::all_of(bodies.begin(), bodies.end(), [&](b2Body* b) {
       b2Transform there = b->GetTransform();
       there.p += way;
-      return dynamics::has_room(world, *b, there);
+      return dynamics::has_room(world, *b, there, known);
     });
   }
   /// It goes elsewhere as it is, its strains with it.
@@ -342,6 +348,20 @@ void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piec
   }
   if (share > 0) one.move(share * way, world.GetGravity());
   if (share < 1) other.move((share - 1) * way, world.GetGravity());
+}
+
+// What hangs on a guest goes back with it, as far as it has not for another one: a car with its wheel. Else
+// it would strain the joints between them, or their springs, by what was never pushed.
+bool put_group_back(const b2World& world, Groups& groups, b2Body& guest, const b2Body& piece,
+                    const b2Sweep& moving, float share) {
+  const Group& group = group_of(guest, groups);
+  if (group.is_held || group.bodies.size() == 1 || group.has(&piece)) return false;
+  const b2Vec2 whole = (1 - share) * (moving.c0 - moving.c), way = whole - group.gone_back;
+  if (!(b2Dot(way, whole) > 0)) return true;
+  if (!group.has_room(world, way)) return false;
+  group.move(way, world.GetGravity());
+  group.gone_back += way;
+  return true;
 }
 
 // A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
@@ -455,6 +475,7 @@ void Island::meet_guests(b2World& in) {
       move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
       const b2Vec2 from = m.body->GetWorldCenter();
+      if (put_group_back(in, groups, *m.body, *m.piece, m.motion, m.way.share)) continue;
       put_back(*m.body, m.motion, m.way.share, in.GetGravity());
       share_way(in, groups, *m.body, *m.piece, m.body->GetWorldCenter() - from);
     }

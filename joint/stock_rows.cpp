@@ -175,6 +175,7 @@ void limit(Draft& d, Stock& j, unsigned row, Lower lower, Upper upper) {
 // World axes.
 void draft(b2RevoluteJoint& j, const Places& at, Draft& d) {
   locate(d, j, at, inverse(at.a.turn), j.GetReferenceAngle());
+  d.rows.apart = {d.gap[axial], d.gap[shear], 0};
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);
   d.channel(of(j, b2RevoluteJoint_m_impulse{}).x, axial, -1);
@@ -223,6 +224,7 @@ void draft(b2WheelJoint& j, const Places& at, Draft& d) {
 
 void draft(b2WeldJoint& j, const Places& at, Draft& d) {
   locate(d, j, at, inverse(at.a.turn), j.GetReferenceAngle());
+  d.rows.apart = {d.gap[axial], d.gap[shear], 0};
   b2Vec3& impulse = of(j, b2WeldJoint_m_impulse{});
   d.hold(axial, d.gap[axial]);
   d.hold(shear, d.gap[shear]);

@@ -557,5 +557,117 @@ TEST(StockJoints, AllocateNothingInTheSteadyState) {
   EXPECT_EQ(allocations(), before);
 }
 
+// A car of 5 t on springs comes down on a deck at 20 m/s. Where its wheels are put back to where they
+// touched, the rest of it goes back with them: springs that were strained by that gave it a third of its
+// energy.
+TEST(StockJoints, OfWhatIsPutBackToItsFirstTouch) {
+  for (int phase = 0; phase < 5; ++phase) {
+    Deck deck;
+    deck.fix(false)->set_caps(rotation, 1e5, 1e5);
+    constexpr double m = 5000, k = 1000 * m, speed = 20;
+    const double y = Deck::height / 2 + 0.3 + 0.07 * phase;
+    std::vector<b2Body*> car{add_box(
+        deck.world, {.x = 10, .y = y + 0.6, .width = 1.6, .height = 0.3, .mass = 0.8 * m, .group = 0})};
+    std::vector<b2WheelJoint*> axles;
+    for (const double at : {-0.6, 0.6}) {
+      b2Body* wheel =
+          add_box(deck.world,
+                  {.x = 10 + at, .y = y + 0.25, .width = 0.4, .height = 0.4, .mass = 0.1 * m, .group = 0});
+      b2WheelJointDef axle;
+      axle.Initialize(car[0], wheel, wheel->GetPosition(), {0, 1});
+      axle.stiffness = static_cast<float>(k);
+      axle.damping = static_cast<float>(10 * m);
+      axles.push_back(static_cast<b2WheelJoint*>(deck.world.CreateJoint(&axle)));
+      car.push_back(wheel);
+    }
+    for (b2Body* b : car) b->SetLinearVelocity(vec(0, -speed));
+    const auto energy = [&] {
+      double sum = 0;
+      for (const b2Body* b : car) {
+        const double w = b->GetAngularVelocity(), v2 = b->GetLinearVelocity().LengthSquared();
+        sum += (b->GetMass() * v2 + b->GetInertia() * w * w) / 2;
+        sum += b->GetMass() * gravity * (b->GetPosition().y - b->GetLinearVelocity().y / 120);
+      }
+      for (b2WheelJoint* axle : axles)
+        sum += k * axle->GetJointTranslation() * axle->GetJointTranslation() / 2;
+      return sum;
+    };
+    const double start = energy();
+    for (int i = 0; i < 8; ++i) {
+      deck.run(1 / 60.);
+      EXPECT_LT(energy(), start + 1e-3 * m * speed * speed) << phase << ", " << i;
+    }
+  }
+}
+
+// Two welded boxes come down on a portal frame of steel at 40 m/s, and its pieces jam between them. Box2D
+// starts a step with the weld's impulses of the last at its two anchors, which are apart by then: taken back
+// at one, they would set a box spinning.
+TEST(StockJoints, ThatHoldWhatJamsInAFrame) {
+  const struct {
+    double speed, times, x, gap, hz;
+  } blows[]{{40, 75, 2.3, 0.3, 60}, {35, 100, 2.3, 0.3, 30}, {40, 100, 2, 0.3, 60}, {40, 100, 2.6, 0.9, 60}};
+  for (const auto& [speed, times, x, gap, hz] : blows) {
+    b2World world(vec(0, -gravity));
+    Structure structure(world);
+    world.SetAllowSleeping(false);
+    b2Body* ground = add_box(world, {.x = -20, .type = b2_staticBody});
+    std::vector<b2Body*> pieces;
+    constexpr double h = 0.2, E = 210e9, M = 0.4 * 355e6 * h * h / 4;
+    const auto join = [&](b2Body* a, b2Body* b, const b2Vec2& at, const b2Vec2& axis, double span) {
+      ElasticPlasticJointDef def;
+      def.Initialize(a, b, at, axis);
+      def.rows[axial].stiffness = E * h / span;
+      def.rows[shear].stiffness = E / 3.12 * h / span;
+      def.rows[rotation] = {.stiffness = E * h * h * h / 12 / span, .cap = M, .cap_reverse = M};
+      for (RowDef& row : def.rows) row.damping = row.stiffness * 0.04 / 30;
+      structure.create_joint(def);
+    };
+    const auto member = [&](b2Body* from, const b2Vec2& start, const b2Vec2& axis, int count, double length) {
+      const float l = static_cast<float>(length / count);
+      for (int i = 0; i < count; ++i) {
+        const b2Vec2 end = start + static_cast<float>(i) * l * axis, middle = end + 0.5f * l * axis;
+        const bool upright = axis.y != 0;
+        b2Body* piece = add_box(world, {.x = middle.x,
+                                        .y = middle.y,
+                                        .width = upright ? h : l,
+                                        .height = upright ? l : h,
+                                        .mass = 7800 * h * l});
+        join(from, piece, end, axis, i == 0 ? l / 2 : l);
+        pieces.push_back(from = piece);
+      }
+      return from;
+    };
+    b2Body *left = member(ground, {0, 0}, {0, 1}, 6, 4), *right = member(ground, {6, 0}, {0, 1}, 6, 4);
+    join(member(left, {0, 4}, {1, 0}, 8, 6), right, {6, 4}, {1, 0}, 0.375);
+    const double m = times * 7800 * h * 0.75, y = 4 + h / 2 + gap + 0.25;
+    for (const double at : {-0.3, 0.3}) {
+      pieces.push_back(
+          add_box(world, {.x = x + at, .y = y, .width = 0.5, .height = 0.5, .mass = m / 2, .group = 0}));
+      pieces.back()->SetLinearVelocity(vec(0, -speed));
+    }
+    b2WeldJointDef weld;
+    weld.Initialize(pieces.rbegin()[1], pieces.back(), vec(x, y));
+    world.CreateJoint(&weld);
+    const auto energy = [&] {
+      double sum = 0;
+      for (const b2Body* b : pieces) {
+        const double w = b->GetAngularVelocity(), v2 = b->GetLinearVelocity().LengthSquared();
+        sum +=
+            (b->GetMass() * v2 + b->GetInertia() * w * w) / 2 + b->GetMass() * gravity * b->GetPosition().y;
+      }
+      return sum;
+    };
+    const double start = energy();
+    double most = 0;
+    for (int i = 0; i < hz / 2; ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+      most = std::max(most, energy());
+    }
+    EXPECT_LT(most, start + 0.01 * m * speed * speed) << speed << ", " << times << ", " << x << ", " << hz;
+  }
+}
+
 }  // namespace
 }  // namespace ductile
