@@ -37,8 +37,8 @@ struct StockRows {
   std::size_t count = 0;  // of links; 0: Box2D solves the joint
   std::array<Channel, 6> channels;
   std::size_t channel_count = 0;
-  /// m, of a joint that Box2D lets press on body A at its own anchor, not at B's as its rows do: from there to
-  /// B's, along the rows.
+  /// m, of a joint that Box2D lets press on body A at its own anchor, not at B's as its rows do: from there
+  /// to B's, along the rows.
   Rows apart{};
   bool near = true;  // its rows close its gaps; otherwise Box2D's iterations of positions do
 };
