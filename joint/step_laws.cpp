@@ -20,7 +20,9 @@ constexpr double least_guard = 0.05;
 constexpr double rotation_share = 0.25;  // of that δ which rotation rows among contacts have
 constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
 constexpr double halting = 0.25;         // of what a strain grows by in a step
-constexpr double wave_step = 1e-3;  // s: shorter ones resolve waves that rows yield to one after the other
+constexpr double turn_time = 0.25;    // s in which what turned bodies parted by in another step is taken back
+constexpr double least_drift = 1e-7;  // m, of it
+constexpr double wave_step = 1e-3;    // s: shorter ones resolve waves that rows yield to one after the other
 
 // What loads store in rigid rows, of what their impulses in a step are as kinetic energy: 4e-7 of a
 // cantilever of 10 pieces, as the fourth power of them in longer ones.
@@ -35,6 +37,17 @@ double beyond_force(const Joint& j, const JointRecord& r, unsigned i) {
 
 bool is_deferred(const Joint& j, const JointRecord& r, unsigned i) {
   return j.G[i] > 0 && !is_slack(j, r, i);
+}
+
+// T of axial and shear rows in the last step, of h seconds, where there is any: what turning bodies parted by
+// (StepLaws::follow_turn_drift()).
+Rows parted_by_turn(const Joint& j, double h) {
+  Rows parted{};
+  for (unsigned i = 0; i < 2; ++i) {
+    const double T = j.is_overdamped(i) ? h * j.rate[i] : (h * j.rate[i] - j.moved[i]) / 2;
+    if (std::abs(T) > least_drift) parted[i] = T;
+  }
+  return parted;
 }
 
 // δ for bodies that turn by so many rad in a step, by powers of two.
@@ -257,14 +270,48 @@ void StepLaws::unite(System& system, double parts) {
   for (Joint& j : system.own_joints()) j.forget_rates();
 }
 
+// What turning bodies part by in a step, T = (p − u₋)/2, is as the square of its length. An implicit row
+// closes by the T of the last step in each, and one of Newmark's is strained by half of it when the step
+// begins. In a step of another length that, p and u₋ are to be those of its own T, and what is left of the
+// gap is drift.
+void StepLaws::follow_turn_drift(Joint& j, JointRecord& r, const Rows& parted, unsigned newmark,
+                                 double last_h) const {
+  const double by = h_ * h_ / (last_h * last_h);
+  for (unsigned i = 0; i < 2; ++i) {
+    if (parted[i] == 0 || !is_deferred(j, r, i)) continue;
+    if (j.is_overdamped(i)) j.rate[i] *= by;  // which is T/h, and 0 where the row was not
+    const double before = (newmark >> i & 1u) != 0 ? 0.5 : 1, now = j.is_newmark(i) ? 0.5 : 1;
+    r.drift[i] += (before - now * by) * parted[i];
+    if (!j.is_newmark(i) || (newmark >> i & 1u) == 0) continue;
+    j.rate[i] -= (1 - by) * parted[i] / h_;
+    j.moved[i] += (1 - by) * parted[i];
+    j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+  }
+}
+
+// Bodies turn by ω(h₋ + h)/2 from the middle of a step to that of the next, and the impulse that turns their
+// velocities so is that of the force in (h₋ + h)/2, not in h: after a longer step it may be beyond hF though
+// the force F₀ is not, and a row would yield for ever by what no force asks for. What it is more by is taken
+// above the cap. F₀ is known of the last step, in which it was more or less likewise.
+void StepLaws::allow_turn(const Joint& j, JointRecord& r, const Rows& parted, double last_h) const {
+  for (unsigned i = 0; i < 2; ++i) {
+    if (parted[i] == 0) continue;
+    const double more = j.impulse[i] / h_ / last_turn_ * (last_h - h_) / 2;
+    (more > 0 ? r.law.cap : r.law.cap_reverse)[i] += std::abs(more);
+  }
+}
+
 bool StepLaws::begin(System& system, double h) {
-  const bool other_laws = std::exchange(some_halt_, false) || !known_;
+  const bool other_caps = std::exchange(caps_raised_, false);
+  const bool other_laws = std::exchange(some_halt_, false) || other_caps || !known_;
   const bool changed = choose_delta(system, h) || h != h_ || other_laws;
   known_ = true;
   const double last_h = std::exchange(h_, h);
   const bool drifts = h < drift_time;
   const double deferred = deferred_share(h);
-  if (!changed && !drifts) {
+  const bool differs = last_h > 0 && h != last_h && least_delta != 1;
+  if (!changed && !drifts && !turn_drifts_) {
+    last_turn_ = 1;
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
     for (Joint& j : system.own_joints()) {
@@ -274,19 +321,41 @@ bool StepLaws::begin(System& system, double h) {
     return false;
   }
   find_gaps(system);
+  turn_drifts_ = false;
   const double growth = changed ? most_growth(system, last_h) : 1;
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
-    if (drifts && h < moved_by) find_drift(j, r);
-    Rows strain;
-    for (unsigned i = 0; i < 3; ++i) {
-      strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
-      r.drift[i] = drifts ? deferred * r.drift[i] : 0;
+    Rows parted{};
+    const unsigned newmark = j.newmark;
+    if (differs) parted = parted_by_turn(j, last_h);
+    const bool turns = parted[0] != 0 || parted[1] != 0;
+    if (!r.turn_drifts && turns) r.drift = {};
+    if (turns) {
+      r.turn_drifts = true;
+    } else if (drifts && h < moved_by) {
+      r.turn_drifts = false;
+      find_drift(j, r);
     }
+    Rows strain;
+    for (unsigned i = 0; i < 3; ++i)
+      strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
     if (changed) follow_law(j, r, strain, growth);
+    if (turns) follow_turn_drift(j, r, parted, newmark, last_h);
+    double most = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      r.drift[i] *= r.turn_drifts && i < 2 ? std::max(0.0, 1 - h / turn_time) : deferred;
+      most = std::max(most, std::abs(r.drift[i]));
+    }
+    r.turn_drifts = r.turn_drifts && most > least_drift;
+    if (r.turn_drifts) turn_drifts_ = true;
+    if (turns && h < last_h && r.law.surface == nullptr) {
+      allow_turn(j, r, parted, last_h);
+      caps_raised_ = true;
+    }
     for (unsigned i = 0; i < 3; ++i) j.bias[i] = bias_of_strain(j, i, r.gap[i] - j.neutral[i] - r.drift[i]);
   }
+  last_turn_ = differs ? (1 + last_h / h) / 2 : 1;
   return changed;
 }
 

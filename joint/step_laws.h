@@ -4,7 +4,8 @@
 // in the step before, by r(ωh)²/2: that constraint drift is taken back in as much time as it took to arise,
 // be it in several shorter steps; at once it would be a blow. What the shorter steps themselves add is taken
 // back at once: it would pile up. Elastic rows that ring in longer steps than resolve them are strained far
-// beyond their forces, too.
+// beyond their forces, too. Where steps differ, what turns is to close by what this step will part it by, and
+// pulls by more or less than its force.
 #pragma once
 
 #include "pool.h"
@@ -47,7 +48,8 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, moved_by, known_, some_halt_, of_step_, guarded_, of_contacts_, drift_time);
+    tape(h_, moved_by, known_, last_turn_, turn_drifts_, caps_raised_, some_halt_, of_step_, guarded_,
+         of_contacts_, drift_time);
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
@@ -58,16 +60,22 @@ class StepLaws {
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
+  void follow_turn_drift(Joint& joint, JointRecord& record, const Rows& parted, unsigned newmark,
+                         double last_h) const;
+  void allow_turn(const Joint& joint, JointRecord& record, const Rows& parted, double last_h) const;
   bool choose_delta(System& system, double h);  // whether it is another of some row
   bool follow_turn(TurnGuard& guard, double turn, double h) const;
 
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
-  bool known_ = false;      // the laws are those of h_, caps and stiffness
-  bool some_halt_ = false;  // some joint has laws for rows whose force stops growing in this step
-  double of_step_ = 1;      // δ of all rows for steps that differ
-  bool guarded_ = false;    // some joint has δ for how far its bodies turn
-  TurnGuard of_contacts_;   // of rotation rows
+  bool known_ = false;        // the laws are those of h_, caps and stiffness
+  double last_turn_ = 1;      // (h₋ + h)/2h of the last step
+  bool turn_drifts_ = false;  // some row has drift of a turn in a step of another length
+  bool caps_raised_ = false;  // in this step alone, of some row (allow_turn())
+  bool some_halt_ = false;    // some joint has laws for rows whose force stops growing in this step
+  double of_step_ = 1;        // δ of all rows for steps that differ
+  bool guarded_ = false;      // some joint has δ for how far its bodies turn
+  TurnGuard of_contacts_;     // of rotation rows
 };
 
 }  // namespace ductile::dynamics

@@ -144,7 +144,8 @@ struct JointRecord {
   int turn_inertia = -1;  // index into System::turn_inertias, of the first
   Rows drift{};           // m or rad: constraint drift of a longer step that is still to be taken back
   TurnGuard turn_guard;
-  unsigned halts = 0;  // rows, one bit each, whose forces stopped growing in the last step
+  bool turn_drifts = false;  // `drift` is of turning in a step of another length (step_laws.h)
+  unsigned halts = 0;        // rows, one bit each, whose forces stopped growing in the last step
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
@@ -154,8 +155,8 @@ struct JointRecord {
   double held = 1;  // share of this step's flow before which the joint does not break
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, halts, plastic, dissipated, stored,
-         drive_rate);
+    tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, halts, plastic, dissipated,
+         stored, drive_rate);
   }
 };
 
