@@ -38,7 +38,7 @@ class Island {
   Component& form(std::span<Member* const> group, std::span<const BodyPair> touching,
                   std::span<b2Body* const> order = {});
 
-  // After a step (first_touch.cpp).
+  // After a step (first_touch.cpp, bullets.cpp).
   void meet_guests(b2World& in);
   void let_bullets_go(b2World& in);
   bool holds_bullets() const { return holds_bullets_; }
@@ -82,7 +82,7 @@ class Island {
   bool is_piece(const b2Body& body) const;
   bool may_take(const b2Body& body) const;
   bool distribute();
-  // first_touch.cpp
+  // bullets.cpp
   void hold_bullets();
 
   std::vector<Structure::Impl*> structures_;
