@@ -108,6 +108,16 @@ void StepLaws::find_drift(const Joint& j, JointRecord& r) const {
   for (unsigned i = 0; i < 3; ++i) r.drift[i] = is_deferred(j, r, i) ? beyond_force(j, r, i) : 0;
 }
 
+// What vibrates through steps of several lengths takes drift back by itself: a row has none that it is not
+// strained by beyond its force, the same way. In the parts of a step that would hide from rows that ring what
+// the parts strain them by.
+void StepLaws::bound_drift(const Joint& j, JointRecord& r) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    const double beyond = is_deferred(j, r, i) ? beyond_force(j, r, i) : 0;
+    r.drift[i] = std::clamp(r.drift[i], std::min(beyond, 0.0), std::max(beyond, 0.0));
+  }
+}
+
 // In a longer step the spring of a rigid row is softer by its square, and stores as much more by the same
 // force. Of what a load strains that is next to nothing. Rows that press against each other, or fling bodies
 // apart, would have so much energy from nowhere: this is how many times as large, at most, their force times
@@ -261,12 +271,16 @@ bool StepLaws::begin_flow(System& system) {
   return some_halt_;
 }
 
-void StepLaws::divide(System& system, double parts) { rescale(system, 1 / parts); }
+void StepLaws::divide(System& system, double parts) {
+  rescale(system, 1 / parts);
+  divided_ = true;
+}
 
 // Rates w of what the longer step does not resolve say nothing of the strain half a step ago. With w = 0 the
 // law starts from what the rows store and the bodies' velocities: no energy comes of it.
 void StepLaws::unite(System& system, double parts) {
   rescale(system, parts);
+  divided_ = false;
   for (Joint& j : system.own_joints()) j.forget_rates();
 }
 
@@ -336,6 +350,8 @@ bool StepLaws::begin(System& system, double h) {
     } else if (drifts && h < moved_by) {
       r.turn_drifts = false;
       find_drift(j, r);
+    } else if (drifts && !divided_ && !r.turn_drifts) {
+      bound_drift(j, r);
     }
     Rows strain;
     for (unsigned i = 0; i < 3; ++i)

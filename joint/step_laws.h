@@ -48,8 +48,8 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, moved_by, known_, last_turn_, turn_drifts_, caps_raised_, some_halt_, of_step_, guarded_,
-         of_contacts_, drift_time);
+    tape(h_, moved_by, known_, divided_, last_turn_, turn_drifts_, caps_raised_, some_halt_, of_step_,
+         guarded_, of_contacts_, drift_time);
   }
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
@@ -57,6 +57,7 @@ class StepLaws {
  private:
   double deferred_share(double h);
   void find_drift(const Joint& joint, JointRecord& record) const;
+  void bound_drift(const Joint& joint, JointRecord& record) const;
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
   void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
@@ -69,6 +70,7 @@ class StepLaws {
   Vector<Vec3> change_;  // of the bodies
   double h_ = 0;
   bool known_ = false;        // the laws are those of h_, caps and stiffness
+  bool divided_ = false;      // steps are parts of longer ones
   double last_turn_ = 1;      // (h₋ + h)/2h of the last step
   bool turn_drifts_ = false;  // some row has drift of a turn in a step of another length
   bool caps_raised_ = false;  // in this step alone, of some row (allow_turn())
