@@ -1,6 +1,7 @@
 #include "bullets.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "guests.h"
 #include "island.h"

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <memory>
 #include <unordered_set>
-#include <utility>
 #include <vector>
 
 #include "box2d_private.h"
