@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frames.h"
 #include "guests.h"
 #include "island.h"
 
@@ -17,7 +18,7 @@ float central_inertia(const b2Body& body) {
 /// A body at the end of a step in which nothing changed its velocity, with its way there.
 void set_on_way(b2Body& body, const b2Position& at, const b2Velocity& v, float h) {
   b2Sweep& sweep = of(body, b2Body_m_sweep{});
-  body.SetTransform(at.c - b2Mul(b2Rot(at.a), sweep.localCenter), at.a);
+  body.SetTransform(transform_of(body, at).p, at.a);
   sweep.c = at.c;
   sweep.c0 = at.c - h * v.v;
   sweep.a0 = at.a - h * v.w;

@@ -440,12 +440,7 @@ void Component::keep_in_touch(double h) {
     Parts::OfBody& body = parts_.bodies[z(i)];
     if (gap < body.gap) body.gap = gap, body.to_it = to_it;
   };
-  const auto at_end = [this](int i) {
-    const b2Position at = box2d_pose(z(i));
-    b2Transform there(at.c, b2Rot(at.a));
-    there.p -= b2Mul(there.q, mirrors[z(i)].body->GetLocalCenter());
-    return there;
-  };
+  const auto at_end = [this](int i) { return transform_of(*mirrors[z(i)].body, box2d_pose(z(i))); };
   for (const Touch& t : outside_.touches) {
     if (!(mirrors[z(t.in_a)].guest() || mirrors[z(t.in_b)].guest())) continue;
     const b2Contact& c = *t.contact;

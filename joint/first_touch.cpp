@@ -145,9 +145,9 @@ void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& g
 /// The bodies that hang together by joints.
 struct Group {
   std::vector<b2Body*> bodies;
-  Bodies known;                    // these
-  bool is_held = false;            // by something that does not move freely
-  mutable b2Vec2 gone_back{0, 0};  // to where one of these first touched
+  Bodies known;            // these
+  bool is_held = false;    // by something that does not move freely
+  b2Vec2 gone_back{0, 0};  // to where one of these first touched
 
   explicit Group(b2Body& body) : bodies{&body}, known{&body} {
     for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -219,7 +219,7 @@ void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
 using Groups = std::vector<std::unique_ptr<Group>>;
 
 // Each of a step is looked for once.
-const Group& group_of(b2Body& body, Groups& groups) {
+Group& group_of(b2Body& body, Groups& groups) {
   for (const auto& g : groups)
     if (g->has(&body)) return *g;
   return *groups.emplace_back(std::make_unique<Group>(body));
@@ -258,7 +258,7 @@ void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piec
 // it would strain the joints between them, or their springs, by what was never pushed.
 bool put_group_back(const b2World& world, Groups& groups, b2Body& guest, const b2Body& piece,
                     const b2Sweep& moving, float share) {
-  const Group& group = group_of(guest, groups);
+  Group& group = group_of(guest, groups);
   if (group.is_held || group.bodies.size() == 1 || group.has(&piece)) return false;
   const b2Vec2 whole = (1 - share) * (moving.c0 - moving.c), way = whole - group.gone_back;
   if (!(b2Dot(way, whole) > 0)) return true;

@@ -25,6 +25,12 @@ inline b2Velocity velocity_of(const b2Body& body) {
   return {body.GetLinearVelocity(), body.GetAngularVelocity()};
 }
 
+/// Of a body whose centre of mass is there.
+inline b2Transform transform_of(const b2Body& body, const b2Position& at) {
+  const b2Rot turn(at.a);
+  return {at.c - b2Mul(turn, body.GetLocalCenter()), turn};
+}
+
 inline b2Velocity in_floats(const Vec3& v) {
   return {{static_cast<float>(v.x), static_cast<float>(v.y)}, static_cast<float>(v.w)};
 }

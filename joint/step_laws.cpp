@@ -340,9 +340,8 @@ bool StepLaws::begin(System& system, double h) {
   for (Joint& j : system.own_joints()) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
-    Rows parted{};
     const unsigned newmark = j.newmark;
-    if (differs) parted = parted_by_turn(j, last_h);
+    const Rows parted = differs ? parted_by_turn(j, last_h) : Rows{};
     const bool turns = parted[0] != 0 || parted[1] != 0;
     if (!r.turn_drifts && turns) r.drift = {};
     if (turns) {
@@ -364,7 +363,7 @@ bool StepLaws::begin(System& system, double h) {
       most = std::max(most, std::abs(r.drift[i]));
     }
     r.turn_drifts = r.turn_drifts && most > least_drift;
-    if (r.turn_drifts) turn_drifts_ = true;
+    turn_drifts_ |= r.turn_drifts;
     if (turns && h < last_h && r.law.surface == nullptr) {
       allow_turn(j, r, parted, last_h);
       caps_raised_ = true;

@@ -728,14 +728,7 @@ TEST(SolvedInParts, AfterWholeStepsThatRing) {
         j->set_caps(axial, 6.5e5 * A, 6.5e5 * A);
         j->set_caps(rotation, M, M);
       }
-      const auto energy = [&] {
-        double sum = beam.structure.energy().elastic;
-        for (const b2Body* b : beam.pieces) {
-          const double w = b->GetAngularVelocity();
-          sum += (b->GetMass() * b->GetLinearVelocity().LengthSquared() + b->GetInertia() * w * w) / 2;
-        }
-        return sum;
-      };
+      const auto energy = [&] { return beam.structure.energy().elastic + kinetic_energy(beam.pieces); };
       const auto push = [](b2Body& piece, const b2Vec2& by) {
         piece.SetLinearVelocity(piece.GetLinearVelocity() + by);
       };

@@ -582,12 +582,8 @@ TEST(StockJoints, OfWhatIsPutBackToItsFirstTouch) {
     }
     for (b2Body* b : car) b->SetLinearVelocity(vec(0, -speed));
     const auto energy = [&] {
-      double sum = 0;
-      for (const b2Body* b : car) {
-        const double w = b->GetAngularVelocity(), v2 = b->GetLinearVelocity().LengthSquared();
-        sum += (b->GetMass() * v2 + b->GetInertia() * w * w) / 2;
-        sum += b->GetMass() * gravity * (b->GetPosition().y - b->GetLinearVelocity().y / 120);
-      }
+      double sum = kinetic_energy(car) + potential_energy(car, gravity);
+      for (const b2Body* b : car) sum -= b->GetMass() * gravity * b->GetLinearVelocity().y / 120;
       for (b2WheelJoint* axle : axles)
         sum += k * axle->GetJointTranslation() * axle->GetJointTranslation() / 2;
       return sum;
@@ -649,15 +645,7 @@ TEST(StockJoints, ThatHoldWhatJamsInAFrame) {
     b2WeldJointDef weld;
     weld.Initialize(pieces.rbegin()[1], pieces.back(), vec(x, y));
     world.CreateJoint(&weld);
-    const auto energy = [&] {
-      double sum = 0;
-      for (const b2Body* b : pieces) {
-        const double w = b->GetAngularVelocity(), v2 = b->GetLinearVelocity().LengthSquared();
-        sum +=
-            (b->GetMass() * v2 + b->GetInertia() * w * w) / 2 + b->GetMass() * gravity * b->GetPosition().y;
-      }
-      return sum;
-    };
+    const auto energy = [&] { return kinetic_energy(pieces) + potential_energy(pieces, gravity); };
     const double start = energy();
     double most = 0;
     for (int i = 0; i < hz / 2; ++i) {
