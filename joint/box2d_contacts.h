@@ -64,6 +64,12 @@ struct Touch {
   bool is_near() const { return manifold != contact->GetManifold(); }
 };
 
+/// A contact of a blow, and what presses at its points once that is over, N s of a step.
+struct Struck {
+  const b2Contact* contact;
+  std::array<float, b2_maxManifoldPoints> normal{}, tangent{};
+};
+
 /// The contacts of the island that is being solved; none where an assumption does not hold.
 class IslandContacts {
  public:

@@ -82,11 +82,12 @@ struct Component {
     };
     Vector<OfBody> bodies;
     struct OfContact {
-      double normal = 0, tangent = 0;  // N s
-      double work = 0;                 // on the bodies, J
-      double gap = 0;                  // m, since the step's start
-      bool beside = false;             // the point is beyond the end of the face that it touches
-      b2Vec2 ra{0, 0}, rb{0, 0};       // at the step's start
+      double normal = 0, tangent = 0;            // N s
+      double work = 0;                           // on the bodies, J
+      double last_normal = 0, last_tangent = 0;  // of a step like its last part
+      double gap = 0;                            // m, since the step's start
+      bool beside = false;                       // the point is beyond the end of the face that it touches
+      b2Vec2 ra{0, 0}, rb{0, 0};                 // at the step's start
     };
     Vector<OfContact> sums;
     struct OfLink {
@@ -169,6 +170,8 @@ struct Component {
   /// Whether it was solved since leave_step(): else its mirrors are of an earlier step.
   bool stepped() const { return stepped_; }
   void leave_step() { stepped_ = false; }
+  /// Contacts whose impulses of this step are those of a blow; some may be no more.
+  std::span<const Struck> struck() const { return {struck_contacts_.data(), struck_contacts_.size()}; }
   /// Something about its joints was changed: the next step is not this one.
   void disturb();
   /// After the step, when a ledger is kept: joules that Box2D's speed limits took.
@@ -244,6 +247,7 @@ struct Component {
   void enter_contacts();
   void enter_ties(int parts = 1);
   void return_contacts();
+  void remember_blow();
   void return_ties();
   bool is_anchored() const;
   void solve(const b2SolverData& data);
@@ -289,12 +293,14 @@ struct Component {
 
   Vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
+  Vector<Struck> struck_contacts_;
   Vector<Pose> goal_;                      // of a projection
   std::size_t formed_of_;                  // so many joints
   std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came
   bool displaced_ = false;                 // bodies were moved apart while their joint was in no island
   bool struck_ = false;                    // velocities were changed between the steps
   bool stepped_ = false;                   // since leave_step()
+  bool blow_ = false;                      // something struck in this step
   bool snapped_ = false;                   // in this step a rope goes taut in a jerk
   Parts parts_;
   Coupling coupling_ = Coupling::partly;

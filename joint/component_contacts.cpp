@@ -221,6 +221,17 @@ void Component::return_contacts() {
   }
 }
 
+void Component::remember_blow() {
+  each_point([this](std::size_t k, const Touch& t, const PointConstraint& p) {
+    if (t.is_near()) return;
+    const auto point = static_cast<std::size_t>(&p - t.velocity->points);
+    if (point == 0) struck_contacts_.push_back({t.contact});
+    if (!parts_.advanced) return;
+    struck_contacts_.back().normal[point] = static_cast<float>(parts_.sums[k].last_normal);
+    struck_contacts_.back().tangent[point] = static_cast<float>(parts_.sums[k].last_tangent);
+  });
+}
+
 // Of the velocities at the step's start, m/s; below 0 it closes.
 float Component::closing_speed(const Touch& t, const PointConstraint& p) {
   const auto at = [](const b2Body* body, const b2Vec2& arm) {

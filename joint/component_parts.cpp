@@ -250,6 +250,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   parts_.since_blow = hard ? 0 : parts_.since_blow + data.step.dt;
   end_parts(data);
   parts_.advanced = true;
+  if (blow_) remember_blow();
   report([cost](Reports& r) {
     ++r.step.divided;
     r.in_parts += cost;
@@ -360,6 +361,7 @@ void Component::solve_part(double h, bool first, bool blow) {
   solver.touch(outside_.links, outside_.contacts);
   if ((first && blow) || fastest > blow_speed) {
     solver.strike(fastest);
+    blow_ = true;
   } else {
     solver.keep_friction();
   }
@@ -400,8 +402,10 @@ void Component::solve_part(double h, bool first, bool blow) {
 // velocities. Those belong to the middle of a part.
 void Component::end_parts(const b2SolverData& data) {
   for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
-    solver.contacts[k].normal = parts_.sums[k].normal;
-    solver.contacts[k].tangent = parts_.sums[k].tangent;
+    Parts::OfContact& sum = parts_.sums[k];
+    Contact& c = solver.contacts[k];
+    sum.last_normal = parts_.count * std::exchange(c.normal, sum.normal);
+    sum.last_tangent = parts_.count * std::exchange(c.tangent, sum.tangent);
   }
   for (std::size_t k = 0; k < solver.links.size(); ++k) solver.links[k].impulse = parts_.links[k].impulse;
   return_contacts();

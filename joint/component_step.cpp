@@ -138,6 +138,8 @@ void Component::take(Mirror& m, const b2SolverData& data) {
 
 void Component::first_velocity(const b2SolverData& data) {
   stepped_ = true;
+  blow_ = false;
+  struck_contacts_.clear();
   parts_.advanced = false;
   if (!alone() && is_whole())
     coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
@@ -223,7 +225,7 @@ void Component::first_velocity(const b2SolverData& data) {
   enter_ties();
   enter_contacts();
   snapped_ = direct() && snaps_hard();
-  const bool blow = direct() && (snapped_ || is_blow());
+  const bool blow = blow_ = direct() && (snapped_ || is_blow());
   struck_ = false;
   if (in_parts) return solve_in_parts(data, blow);
   const bool meets = direct() && !blow && !outside_.near.empty();
@@ -232,6 +234,7 @@ void Component::first_velocity(const b2SolverData& data) {
   solver.strike(closing());
   solve_direct();
   if (may_divide(data) && (strikes_hard() || strains_much())) return solve_in_parts(data, true);
+  remember_blow();
   give(data);
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <unordered_set>
 #include <vector>
@@ -293,6 +294,27 @@ void Component::shift(const b2Body& body, const b2Vec2& way) {
   rest_ = Rest::none;
 }
 
+// Box2D starts a step from the impulses of the last one. Those of a blow were found together; where a
+// structure has broken up, or a guest has left it, Box2D's iterations would have to take them back alone, and
+// find no way through a light piece under a heavy guest: it would be thrown as it was stopped.
+void Island::forget_blows(b2World& in) {
+  struck_.clear();
+  for (const auto& c : components)
+    if (c->stepped()) struck_.insert(struck_.end(), c->struck().begin(), c->struck().end());
+  if (struck_.empty()) return;
+  const auto earlier = [](const Struck& s, const Struck& t) { return std::less<>()(s.contact, t.contact); };
+  std::sort(struck_.begin(), struck_.end(), earlier);
+  for (b2Contact* c = in.GetContactList(); c != nullptr; c = c->GetNext()) {
+    const auto found = std::lower_bound(struck_.begin(), struck_.end(), Struck{c}, earlier);
+    if (found == struck_.end() || found->contact != c) continue;
+    for (std::size_t k = 0; k < found->normal.size(); ++k) {
+      b2ManifoldPoint& p = c->GetManifold()->points[k];
+      p.normalImpulse = found->normal[k];
+      p.tangentImpulse = found->tangent[k];
+    }
+  }
+}
+
 void Island::meet_guests(b2World& in) {
   struct Meeting {
     b2Body *body, *piece;
@@ -303,6 +325,7 @@ void Island::meet_guests(b2World& in) {
   };
   std::vector<Meeting> meetings;
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
+  forget_blows(in);
   for (const auto& c : components) c->leave_step();
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& body) {

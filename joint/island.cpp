@@ -52,6 +52,7 @@ void Island::make_room() {
   active_.reserve(room);
   components.reserve(room);
   contacts_.make_room(room);
+  struck_.reserve(room);
 }
 
 void Island::forget_last() {

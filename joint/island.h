@@ -84,6 +84,8 @@ class Island {
   bool distribute();
   // bullets.cpp
   void hold_bullets();
+  // first_touch.cpp
+  void forget_blows(b2World& in);
 
   std::vector<Structure::Impl*> structures_;
   std::vector<Member*> enlisted_;
@@ -92,6 +94,7 @@ class Island {
   int velocity_calls_ = 0;
   IslandContacts contacts_;
   std::vector<StockJoint> stock_;  // that hold its pieces, and what touches these
+  std::vector<Struck> struck_;     // in this step
   bool holds_bullets_ = false;     // bodies that are marked: bullets that are none until update()
 };
 
