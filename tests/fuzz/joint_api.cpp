@@ -114,7 +114,7 @@ class Game : b2DestructionListener {
     const unsigned code = in_.next();
     if (code == 240) {
       snapshot_.save(*world_);
-      saved_ = {bodies_, stock_, budget_, most_, turn_, unheld_, last_dt_};
+      saved_ = {bodies_, stock_, budget_, most_, turn_, unheld_, last_dt_, drift_time_};
       return;
     }
     if (code == 243) return go_back();
@@ -451,7 +451,7 @@ class Game : b2DestructionListener {
     bodies_ = saved_.bodies;
     stock_ = saved_.stock;
     budget_ = saved_.budget, most_ = saved_.most, turn_ = saved_.turn;
-    unheld_ = saved_.unheld, last_dt_ = saved_.last_dt;
+    unheld_ = saved_.unheld, last_dt_ = saved_.last_dt, drift_time_ = saved_.drift_time;
   }
 
   void happened(const JointEvent& event) {
@@ -554,10 +554,13 @@ class Game : b2DestructionListener {
             "no energy from nowhere");
     // While the speed limit keeps a gap from closing, what it takes comes back with the gap. After a step of
     // another length velocities are as old as half of both, and strains are not: what is too little of a
-    // vibration then comes back, too, as less than nothing that the method takes. A step of no length brings
-    // them no closer. So it is after one in parts, of which velocities are the mean, and strains the end.
+    // vibration then comes back, too, as less than nothing that the method takes. What a longer step leaves
+    // of drift does so in as much time as that took. A step of no length brings them no closer. So it is
+    // after one in parts, of which velocities are the mean, and strains the end.
+    const bool drifts = dt < drift_time_;
+    if (dt > 0) drift_time_ = std::max(dt, drift_time_ - dt);
     const bool of_one_time =
-        dt > 0 && std::exchange(last_dt_, dt) == dt && whole && e.numerical >= start.numerical;
+        dt > 0 && std::exchange(last_dt_, dt) == dt && !drifts && whole && e.numerical >= start.numerical;
     if (report.slowed == 0 && (of_one_time || !held)) held ? budget_.lower(dt, now) : budget_.raise(now);
   }
 
@@ -669,10 +672,11 @@ class Game : b2DestructionListener {
 
   Bytes in_;
   bool judged_ = false, veto_ = false;
-  bool curved_ = false;  // some joint has a yield surface
-  bool unheld_ = false;  // in the last step, by request
-  float last_dt_ = 0;    // s
-  bool moved_ = false;   // a body that holds others, by hand
+  bool curved_ = false;   // some joint has a yield surface
+  bool unheld_ = false;   // in the last step, by request
+  float last_dt_ = 0;     // s
+  float drift_time_ = 0;  // s, in which what a longer step has left is taken back
+  bool moved_ = false;    // a body that holds others, by hand
   int mischief_ = 0, steps_ = 0;
   double size_ = 1, place_ = 0;
   Budget budget_;
@@ -687,7 +691,7 @@ class Game : b2DestructionListener {
     Budget budget;
     double most = 0, turn = 0;
     bool unheld = false;
-    float last_dt = 0;
+    float last_dt = 0, drift_time = 0;
   } saved_;
   StructureDef def_;
   std::unique_ptr<b2World> world_ = std::make_unique<b2World>(b2Vec2{0, 0});
