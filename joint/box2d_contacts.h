@@ -64,7 +64,7 @@ struct Touch {
   bool is_near() const { return manifold != contact->GetManifold(); }
 };
 
-/// A contact of a blow, and what presses at its points once that is over, N s of a step.
+/// A contact of a blow, and what pressed at its points in the last part of the step, N s, where that was over.
 struct Struck {
   const b2Contact* contact;
   std::array<float, b2_maxManifoldPoints> normal{}, tangent{};

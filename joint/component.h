@@ -84,7 +84,7 @@ struct Component {
     struct OfContact {
       double normal = 0, tangent = 0;            // N s
       double work = 0;                           // on the bodies, J
-      double last_normal = 0, last_tangent = 0;  // of a step like its last part
+      double last_normal = 0, last_tangent = 0;  // of the last part; 0 where that is a blow
       double gap = 0;                            // m, since the step's start
       bool beside = false;                       // the point is beyond the end of the face that it touches
       b2Vec2 ra{0, 0}, rb{0, 0};                 // at the step's start

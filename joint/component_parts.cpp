@@ -359,7 +359,8 @@ void Component::solve_part(double h, bool first, bool blow) {
     for (std::size_t k = 0; k < solver.links.size(); ++k) outside_.links[k].impulse = solver.links[k].impulse;
   }
   solver.touch(outside_.links, outside_.contacts);
-  if ((first && blow) || fastest > blow_speed) {
+  const bool strikes = (first && blow) || fastest > blow_speed;
+  if (strikes) {
     solver.strike(fastest);
     blow_ = true;
   } else {
@@ -372,6 +373,8 @@ void Component::solve_part(double h, bool first, bool blow) {
     const Contact& c = solver.contacts[k];
     sum.normal += c.normal;
     sum.tangent += c.tangent;
+    sum.last_normal = strikes ? 0 : c.normal;
+    sum.last_tangent = strikes ? 0 : c.tangent;
     sum.work += work_now(t, p, c.normal, c.tangent) / 2;
   });
   parts_.links.resize(solver.links.size());
@@ -402,10 +405,8 @@ void Component::solve_part(double h, bool first, bool blow) {
 // velocities. Those belong to the middle of a part.
 void Component::end_parts(const b2SolverData& data) {
   for (std::size_t k = 0; k < outside_.contacts.size(); ++k) {
-    Parts::OfContact& sum = parts_.sums[k];
-    Contact& c = solver.contacts[k];
-    sum.last_normal = parts_.count * std::exchange(c.normal, sum.normal);
-    sum.last_tangent = parts_.count * std::exchange(c.tangent, sum.tangent);
+    solver.contacts[k].normal = parts_.sums[k].normal;
+    solver.contacts[k].tangent = parts_.sums[k].tangent;
   }
   for (std::size_t k = 0; k < solver.links.size(); ++k) solver.links[k].impulse = parts_.links[k].impulse;
   return_contacts();
