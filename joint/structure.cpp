@@ -145,7 +145,7 @@ void dynamics::Reports::open_step() {
 }
 
 void dynamics::Reports::close_step() {
-  if (!std::exchange(stepped, false)) return;
+  if (!std::exchange(stepped, false)) step = {};  // what sleeps is not solved
   worst.bounds_hit += step.bounds_hit;
   worst.parted += step.parted;
   worst.residual = std::max(worst.residual, step.residual);
