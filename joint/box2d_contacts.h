@@ -64,7 +64,8 @@ struct Touch {
   bool is_near() const { return manifold != contact->GetManifold(); }
 };
 
-/// A contact of a blow, and what pressed at its points in the last part of the step, N s, where that was over.
+/// A contact of a blow, and what pressed at its points in the last part of the step, N s, where that was
+/// over.
 struct Struck {
   const b2Contact* contact;
   std::array<float, b2_maxManifoldPoints> normal{}, tangent{};

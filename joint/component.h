@@ -47,6 +47,7 @@ struct Component {
     Vector<Touch> near;        // points that may touch within the step: rows of its parts alone
     Vector<Contact> contacts;  // rows of the touches' points
     Vector<Touch> corners;     // which push, but in parts of a step
+    Vector<int> at_corners;    // guests that something pushes where both are joined to a third body
     Vector<StockJoint> ties;
     Vector<Link> links;  // rows of the ties
   };

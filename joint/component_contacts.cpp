@@ -25,6 +25,8 @@ void Component::meet_at_corner(Touch t) {
   t.in_b = index_of(t.b());
   const auto is_own = [this](int body) { return body >= 0 && !mirrors[z(body)].guest(); };
   if (is_own(t.in_a) && is_own(t.in_b)) outside_.corners.push_back(t);
+  for (const int body : {t.in_a, t.in_b})
+    if (body >= 0 && !is_own(body)) outside_.at_corners.push_back(body);
 }
 
 bool Component::knows(int a, int b) const {

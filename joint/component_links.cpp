@@ -51,9 +51,18 @@ void Component::set_ties_aside(const b2SolverData& data) {
 void Component::enter_ties(int parts) {
   outside_.links.clear();
   const b2Vec2 near = origin.in_floats();
+  // What also touches something may be unable to close its gaps. Rows that went on to ask for it would press
+  // harder in each step, without end; Box2D's iterations of positions do not press.
+  const auto touches = [this](int i) {
+    return mirrors[z(i)].guest() && solver.is_free(i) &&
+           (std::any_of(outside_.touches.begin(), outside_.touches.end(),
+                        [i](const Touch& t) { return (t.in_a == i || t.in_b == i) && !t.at_seam; }) ||
+            std::find(outside_.at_corners.begin(), outside_.at_corners.end(), i) !=
+                outside_.at_corners.end());
+  };
   for (StockJoint& t : outside_.ties) {
     t.rows = rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], near,
-                     parts * solver.step(), solver.step());
+                     parts * solver.step(), solver.step(), touches(t.in_a) || touches(t.in_b));
     for (std::size_t k = 0; k < t.rows.count; ++k) {
       Link& link = outside_.links.emplace_back(t.rows.links[k]);
       link.a = t.in_a;

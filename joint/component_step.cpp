@@ -30,6 +30,7 @@ void Component::clear_outside() {
   outside_.touches.clear();
   outside_.near.clear();
   outside_.corners.clear();
+  outside_.at_corners.clear();
   outside_.ties.clear();
 }
 
