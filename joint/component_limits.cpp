@@ -12,7 +12,7 @@ namespace ductile::dynamics {
 
 // Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
 // what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
-// together.
+// together. So is what gets faster by it: joints may give one body more than was taken from another.
 void Component::limit_speed(const b2SolverData& data) {
   if (!direct()) return;
   constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
@@ -38,8 +38,15 @@ void Component::limit_speed(const b2SolverData& data) {
       if (pass > 0) slow(1 - kinetic() / before);
       return;
     }
-    if (pass == 0) before = kinetic();
-    const bool together = pass == 4;
+    if (pass == 0) {
+      before = kinetic();
+      std::fill(account.lost.begin(), account.lost.end(), Vec3{});
+    }
+    const bool diverges = pass > 0 && !(kinetic() <= before);
+    for (std::size_t i = 0; i < solver.free_bodies() && diverges; ++i)
+      solver.bodies[i].v_free += into_own_frame(solver.places[i].turn, std::exchange(account.lost[i], {}));
+    if (diverges) solve(data);
+    const bool together = pass == 4 || diverges;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       Body& b = solver.bodies[i];
       const double linear =
