@@ -277,6 +277,7 @@ struct Component {
   void end_parts(const b2SolverData& data);
   void keep_in_touch(double h);
   double go_on_with_means();
+  void tell_of_means();
   /// Calls visit(row, touch, point) for each contact that is a row.
   template <class Visit>
   void each_point(const Visit& visit) const {

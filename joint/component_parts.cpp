@@ -35,6 +35,9 @@ constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given
 // has whole steps.
 constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
 
+// A push as weak as what its body goes on without, or weaker, is told as so many times what it is, at most.
+constexpr double most_told = 4;
+
 // The gap of what touches no more, which no step closes, m.
 constexpr double no_step_closes = 4 * b2_maxTranslation;
 
@@ -409,8 +412,6 @@ void Component::end_parts(const b2SolverData& data) {
     solver.contacts[k].tangent = parts_.sums[k].tangent;
   }
   for (std::size_t k = 0; k < solver.links.size(); ++k) solver.links[k].impulse = parts_.links[k].impulse;
-  return_contacts();
-  return_ties();
   const double rate = 1 / double{data.step.dt};
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Pose &from = parts_.bodies[i].start, &to = solver.places[i].pose;
@@ -419,7 +420,10 @@ void Component::end_parts(const b2SolverData& data) {
   const bool thrown = throws();
   parts_.goes_on = parts_.since_blow < (thrown ? 2 : 1) * blow_time && normals_held() &&
                    (snapped_ || is_strained() || thrown);
+  if (!parts_.goes_on) tell_of_means();
   const double lost = parts_.goes_on ? 0 : go_on_with_means();
+  return_contacts();
+  return_ties();
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) mirrors[i].left = box2d_pose(i);
   if (parts_.goes_on && is_held()) keep_in_touch(data.step.dt);
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -497,6 +501,35 @@ double Component::go_on_with_means() {
     lost -= dot(momentum(solver.bodies[i], v), v) / 2;
   }
   return lost;
+}
+
+// What pushes guests in the last step is told as what their velocities go on with: what is more is given
+// again, and told again, by the next step. One that a stock joint holds has other impulses, too.
+void Component::tell_of_means() {
+  const auto is_tied = [this](int i) {
+    return std::any_of(outside_.ties.begin(), outside_.ties.end(),
+                       [i](const StockJoint& t) { return t.in_a == i || t.in_b == i; });
+  };
+  const auto goes_on = [this](int i) {
+    const Parts::OfBody& body = parts_.bodies[z(i)];
+    const Vec3& v = mirrors[z(i)].exact;
+    const Vec3 push = v - body.before - parts_.count * body.given, more = v - body.mean;
+    const double square = push.x * push.x + push.y * push.y;
+    return square > 0 ? std::clamp(1 - (push.x * more.x + push.y * more.y) / square, 0.0, most_told) : 1;
+  };
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint&) {
+    double share = 0;
+    int guests = 0;
+    for (const int i : {t.in_a, t.in_b}) {
+      if (!mirrors[z(i)].guest() || !solver.is_free(i) || is_tied(i)) continue;
+      share += goes_on(i);
+      ++guests;
+    }
+    if (guests == 0) return;
+    Parts::OfContact& sum = parts_.sums[k];
+    solver.contacts[k].normal = sum.normal *= share / guests;
+    solver.contacts[k].tangent = sum.tangent *= share / guests;
+  });
 }
 
 // An observer of the whole step counts impulses, where they acted when it began, times the mean of the

@@ -1385,6 +1385,34 @@ TEST(Contacts, TellTheImpulsesThatTheyHad) {
   }
 }
 
+// A block that strikes a yielding cantilever: what PostSolve tells of it is what its momentum changes by, and
+// its weight, once the step after those in parts has gone on with the mean of the last one's velocities.
+TEST(Contacts, TellAllThatABlowGives) {
+  for (const double hz : {60.0, 120.0}) {
+    for (const double mass : {1.0, 10.0, 100.0}) {
+      for (double speed = 1; speed <= 2; speed += 0.25) {
+        BeamDef def = light;
+        def.youngs_modulus = 210e9;
+        def.moment_cap = 3e5;
+        Beam beam(def);
+        beam.run(0.5, 1 / hz);
+        const b2Vec2 at = beam.pieces[8]->GetWorldPoint(vec(-0.3, 0.1));
+        b2Body* block = add(beam.world, {.mass = mass * piece_mass});
+        block->SetTransform(at + vec(0, 0.27), beam.pieces[8]->GetAngle());
+        block->SetLinearVelocity(vec(0, -speed));
+        Impulses told(block);
+        beam.world.SetContactListener(&told);
+        constexpr double time = 0.5;
+        beam.run(time, 1 / hz);
+        beam.world.SetContactListener(nullptr);
+        const double given = mass * piece_mass * (block->GetLinearVelocity().y + speed + def.gravity * time);
+        EXPECT_NEAR(told.y, given, 5e-3 * mass * piece_mass * (speed + def.gravity * time))
+            << hz << ", " << mass << ", " << speed;
+      }
+    }
+  }
+}
+
 // Kinetic, potential and elastic energy less all that was taken: contacts take, they never give. Corrections
 // of overlap lift what comes down on an edge of its own; what is heavy does so again and again, as the
 // undamped beam throws it. Where parts of a step begin while the beam rings, its strain is of a step's end
