@@ -158,6 +158,9 @@ void settle(VelocityConstraint& constraint);
 inline void hold_a(PositionConstraint& p) { p.inverse_mass_a = p.inverse_inertia_a = 0; }
 inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia_b = 0; }
 
+/// In the iterations of positions only what overlaps by more than two polygons' skins is too deep.
+inline void let_skins_overlap(PositionConstraint& p) { p.radius_a -= 2 * b2_polygonRadius - b2_linearSlop; }
+
 /// The contact presses nothing in this step.
 void silence(const Touch& touch);
 

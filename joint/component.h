@@ -250,6 +250,7 @@ struct Component {
   void return_contacts();
   void remember_blow();
   void return_ties();
+  bool is_jammed() const;
   bool is_anchored() const;
   void solve(const b2SolverData& data);
   void solve_direct();
@@ -300,6 +301,7 @@ struct Component {
   std::size_t formed_of_;                  // so many joints
   std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came
   bool displaced_ = false;                 // bodies were moved apart while their joint was in no island
+  double jam_time_ = 0;                    // s in which stock joints still leave their gaps to Box2D
   bool struck_ = false;                    // velocities were changed between the steps
   bool stepped_ = false;                   // since leave_step()
   bool blow_ = false;                      // something struck in this step

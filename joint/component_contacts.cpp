@@ -197,7 +197,8 @@ void Component::read_touches() {
 }
 
 // Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
-// be brought back.
+// be brought back. So it would be from what does not move: skins may overlap there, as they do where a
+// structure was made flush with a wall.
 void Component::return_contacts() {
   const bool anchored = is_anchored();
   auto row = solver.contacts.begin();
@@ -220,6 +221,8 @@ void Component::return_contacts() {
     const auto yields = [](const Mirror& m) { return m.guest() && m.type == b2_dynamicBody; };
     if (anchored && !a.guest() && yields(b)) hold_a(*t.position);
     if (anchored && !b.guest() && yields(a)) hold_b(*t.position);
+    const auto stands = [](const Mirror& m) { return m.type != b2_dynamicBody; };
+    if (anchored && ((!a.guest() && stands(b)) || (!b.guest() && stands(a)))) let_skins_overlap(*t.position);
   }
 }
 

@@ -12,10 +12,12 @@ namespace ductile::dynamics {
 
 // Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
 // what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
-// together. So is what gets faster by it: joints may give one body more than was taken from another.
+// together. So is what gets much faster by it: joints may give one body more than was taken from another, and
+// more again in each pass.
 void Component::limit_speed(const b2SolverData& data) {
   if (!direct()) return;
   constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
+  constexpr double most_answered = 4;    // times the kinetic energy that there was
   const auto share = [&](double limit, double speed) {
     return std::min(1.0, rounding * limit / (solver.step() * speed));
   };
@@ -42,7 +44,7 @@ void Component::limit_speed(const b2SolverData& data) {
       before = kinetic();
       std::fill(account.lost.begin(), account.lost.end(), Vec3{});
     }
-    const bool diverges = pass > 0 && !(kinetic() <= before);
+    const bool diverges = pass > 0 && !(kinetic() <= most_answered * before);
     for (std::size_t i = 0; i < solver.free_bodies() && diverges; ++i)
       solver.bodies[i].v_free += into_own_frame(solver.places[i].turn, std::exchange(account.lost[i], {}));
     if (diverges) solve(data);

@@ -13,6 +13,9 @@ namespace ductile::dynamics {
 
 namespace {
 
+// For so long stock joints leave their gaps to Box2D where they were in something's way, s.
+constexpr double jam_time = 0.5;
+
 // A sensor, or what PreSolve has disabled, is not in Box2D's island.
 bool pushes(const b2Contact& c) { return c.IsTouching() && c.IsEnabled() && !is_sensor(c); }
 
@@ -223,6 +226,7 @@ void Component::first_velocity(const b2SolverData& data) {
     account.open = true;
   }
   if (!direct()) solver.warm_start();
+  jam_time_ = std::max(0.0, jam_time_ - solver.step());
   enter_ties();
   enter_contacts();
   snapped_ = direct() && snaps_hard();
@@ -304,6 +308,12 @@ void Component::solve(const b2SolverData& data) {
 void Component::solve_direct() {
   SolveReport solved;
   solver.solve(solved);
+  if (is_jammed()) {
+    jam_time_ = jam_time;
+    enter_ties(parts_.count);
+    solver.touch(outside_.links, outside_.contacts);
+    solver.solve(solved);
+  }
   for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
   report([&solved](Reports& r) {
     StepReport& step = r.step;
