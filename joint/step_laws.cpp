@@ -22,7 +22,7 @@ constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
 constexpr double halting = 0.25;         // of what a strain grows by in a step
 constexpr double turn_time = 0.25;    // s in which what turned bodies parted by in another step is taken back
 constexpr double least_drift = 1e-7;  // m, of it
-constexpr double most_turn = 0.5;     // rad in a step: beyond it that is not as the square of the step
+constexpr double squared_turn = 0.5;  // rad in a step: beyond it that is not as the square of the step
 constexpr double wave_step = 1e-3;    // s: shorter ones resolve waves that rows yield to one after the other
 
 // What loads store in rigid rows, of what their impulses in a step are as kinetic energy: 4e-7 of a
@@ -350,7 +350,7 @@ bool StepLaws::begin(System& system, double h) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
     const unsigned newmark = j.newmark;
-    const Rows parted = differs && turn_in(system, j, h) < most_turn ? parted_by_turn(j, last_h) : Rows{};
+    const Rows parted = differs && turn_in(system, j, h) < squared_turn ? parted_by_turn(j, last_h) : Rows{};
     const bool turns = parted[0] != 0 || parted[1] != 0;
     if (!r.turn_drifts && turns) r.drift = {};
     if (turns) {
