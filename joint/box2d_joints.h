@@ -83,10 +83,10 @@ bool as_it_is(b2Joint& joint, const Visit& visit) {
 bool is_stock(b2Joint& joint);
 
 /// Rows of a joint whose bodies are at these places, relative to an origin, in a step of h seconds, or in a
-/// part of it; with the impulses that Box2D has given to it by now. Where a body of it `touches` something,
-/// they leave its gaps to Box2D.
+/// part of it; with the impulses that Box2D has given to it by now. They close its gaps, or leave them to
+/// Box2D's iterations of positions.
 StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h, double part,
-                  bool touches = false);
+                  bool closes = true);
 
 /// Gives the impulses of the links back, and leaves Box2D's iterations nothing to do but to correct positions
 /// where the rows do not.

@@ -10,8 +10,8 @@ namespace ductile::dynamics {
 
 namespace {
 
-// Times the momentum that it gives all bodies, at most, and their weight: so hard a joint may press as it
-// closes its gap.
+// A joint that closes its gap may press so many times as hard as bringing all bodies to that speed, and
+// bearing them for a step, takes.
 constexpr double most_weights = 30;
 
 }  // namespace
@@ -73,7 +73,7 @@ void Component::enter_ties(int parts) {
   for (StockJoint& t : outside_.ties) {
     t.rows =
         rows_of(*t.joint, solver.places[z(t.in_a)], solver.places[z(t.in_b)], near, parts * solver.step(),
-                solver.step(), jam_time_ > 0 || touches(t.in_a) || touches(t.in_b));
+                solver.step(), !(jam_time_ > 0 || touches(t.in_a) || touches(t.in_b)));
     for (std::size_t k = 0; k < t.rows.count; ++k) {
       Link& link = outside_.links.emplace_back(t.rows.links[k]);
       link.a = t.in_a;
@@ -83,18 +83,16 @@ void Component::enter_ties(int parts) {
   }
 }
 
-// Whether a joint that closes its gap presses harder than all that there is could ask for: what touches is in
-// its way. As that presses back it would be more in each step.
+// Whether a joint that closes its gap presses harder than the bodies' masses could ask for: something that
+// touches them is in its way, and presses back harder in each step.
 bool Component::is_jammed() const {
-  if (solver.links.empty() || solver.contacts.empty()) return false;
-  double mass = 0;
-  for (std::size_t i = 0; i < solver.free_bodies(); ++i) mass += solver.bodies[i].mass;
+  if (jam_time_ > 0 || solver.links.empty() || solver.contacts.empty()) return false;
   const double weight = solver.step() * b2Distance(structures.front()->world->GetGravity(), b2Vec2_zero);
   return std::any_of(solver.links.begin(), solver.links.end(), [&](const Link& link) {
     for (unsigned i = 0; i < 2; ++i)
       if (link.G[i] == unlimited && std::max(link.cap[i], link.cap_reverse[i]) == unlimited &&
           link.bias[i] != 0 &&
-          std::abs(link.impulse[i]) > most_weights * mass * (std::abs(link.bias[i]) + weight))
+          std::abs(link.impulse[i]) > most_weights * solver.mass * (std::abs(link.bias[i]) + weight))
         return true;
     return false;
   });

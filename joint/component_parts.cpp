@@ -208,13 +208,18 @@ bool Component::is_strained() const {
   });
 }
 
+// What contacts and joints have changed a body's velocity by in the parts of this step.
+Vec3 Component::pushed(std::size_t body) const {
+  const Parts::OfBody& b = parts_.bodies[body];
+  return mirrors[body].exact - b.before - parts_.count * b.given;
+}
+
 // Whether the structure gave what strikes it more than twice what bears its weight: moments may pass through
 // 0 while it is thrown, or braked.
 bool Component::throws() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     if (!mirrors[i].guest()) continue;
-    const Parts::OfBody& body = parts_.bodies[i];
-    const Vec3 weight = parts_.count * body.given, push = mirrors[i].exact - body.before - weight;
+    const Vec3 weight = parts_.count * parts_.bodies[i].given, push = pushed(i);
     if (std::hypot(push.x, push.y) > std::max(double{blow_speed}, 2 * std::hypot(weight.x, weight.y)))
       return true;
   }
@@ -511,9 +516,7 @@ void Component::tell_of_means() {
                        [i](const StockJoint& t) { return t.in_a == i || t.in_b == i; });
   };
   const auto goes_on = [this](int i) {
-    const Parts::OfBody& body = parts_.bodies[z(i)];
-    const Vec3& v = mirrors[z(i)].exact;
-    const Vec3 push = v - body.before - parts_.count * body.given, more = v - body.mean;
+    const Vec3 push = pushed(z(i)), more = mirrors[z(i)].exact - parts_.bodies[z(i)].mean;
     const double square = push.x * push.x + push.y * push.y;
     return square > 0 ? std::clamp(1 - (push.x * more.x + push.y * more.y) / square, 0.0, most_told) : 1;
   };

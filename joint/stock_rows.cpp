@@ -298,10 +298,10 @@ void draft(b2PulleyJoint& j, const Places& at, Draft& d) {
 }  // namespace
 
 StockRows rows_of(b2Joint& joint, const Place& a, const Place& b, const b2Vec2& origin, double h, double part,
-                  bool touches) {
+                  bool closes) {
   Draft d(joint, h, part);
   as_it_is(joint, [&](auto& j) { draft(j, {a, b, origin}, d); });
-  d.rows.near = d.rows.near && !touches;
+  d.rows.near = d.rows.near && closes;
   // What is far apart, or may be kept apart, is not closed by velocities.
   for (std::size_t k = 0; k < d.rows.count && !d.rows.near; ++k) {
     Link& link = d.rows.links[k];

@@ -1493,7 +1493,9 @@ TEST(Contacts, DoNotStrikeAgainWhatIsLeftOfAStructure) {
 }
 
 // A beam of two pieces falls on the ground, tilted, with a plate and a block on it; its joint breaks in the
-// blow, which goes on in some part of the step. Energy is what there is beyond that of lying on the ground.
+// blow, which goes on in some part of the step. No step gives them more energy of motion than they fall by.
+// Box2D alone, which has the loose stack after that, throws up a block of ten or a hundred times its mass by
+// 9 %.
 TEST(Contacts, OfABlowThatBreaksABeamDoNotStrikeAgain) {
   for (const double hz : {60.0, 240.0}) {
     for (const double mass : {50.0, 500.0, 5000.0}) {
@@ -1521,17 +1523,12 @@ TEST(Contacts, OfABlowThatBreaksABeamDoNotStrikeAgain) {
         def.rows[rotation] = {.stiffness = 1e7, .cap = 1e4, .cap_reverse = 1e4};
         def.max_rotation = 0.03;
         structure.create_joint(def);
-        const auto height = [&] {
-          double sum = 0;
-          for (const b2Body* b : bodies) sum += 10.0 * b->GetMass() * b->GetWorldCenter().y;
-          return sum;
-        };
         const double turned = kinetic_energy(bodies);
-        double moving = turned, high = height(), most = 0;
+        double moving = turned, high = potential_energy(bodies, 10), most = 0;
         for (int i = 0; i < 0.3 * hz; ++i) {
           world.Step(static_cast<float>(1 / hz), 8, 3);
           structure.update();
-          const double moves = kinetic_energy(bodies), lies = height();
+          const double moves = kinetic_energy(bodies), lies = potential_energy(bodies, 10);
           most = std::max(most, moves - moving - std::max(0.0, high - lies));
           moving = moves, high = lies;
         }
@@ -1670,7 +1667,7 @@ TEST(ContactCost, APileOfBeamsTakesOneSolveAStep) {
   EXPECT_LE(most, 150);
 }
 
-// A load that rests lets the structure sleep, and is woken with it.
+// A load that rests lets the structure sleep, and is woken with it. What sleeps reports no step.
 TEST(Contacts, Sleep) {
   Beam beam(light);
   beam.world.SetAllowSleeping(true);
@@ -1678,6 +1675,7 @@ TEST(Contacts, Sleep) {
   beam.run(10);
   EXPECT_FALSE(block->IsAwake());
   EXPECT_FALSE(beam.pieces.front()->IsAwake());
+  EXPECT_EQ(beam.structure.report().solves + beam.structure.report().resting, 0);
   beam.joints.front()->set_caps(rotation, 0, 0);
   beam.run(1);
   EXPECT_LT(block->GetPosition().y, -0.5);
