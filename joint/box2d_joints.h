@@ -72,7 +72,8 @@ bool as_it_is(b2Joint& joint, const Visit& visit) {
     case e_pulleyJoint:
       return visit(static_cast<b2PulleyJoint&>(joint)), true;
     case e_weldJoint:
-      if (ElasticPlasticJoint::cast(&joint) != nullptr) return false;
+      if (const auto* ours = ElasticPlasticJoint::cast(&joint); ours != nullptr && ours->id() != UINT32_MAX)
+        return false;
       return visit(static_cast<b2WeldJoint&>(joint)), true;
     default:
       return false;

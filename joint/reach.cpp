@@ -24,7 +24,11 @@ bool is_fast(const b2Body& body) {
          std::abs(body.GetAngularVelocity()) > blow_turn;
 }
 
-bool is_ours(const b2Joint& joint) { return typeid(joint) == typeid(ElasticPlasticJoint); }
+/// What a structure left when it went is a weld of Box2D's.
+bool is_ours(const b2Joint& joint) {
+  return typeid(joint) == typeid(ElasticPlasticJoint) &&
+         static_cast<const ElasticPlasticJoint&>(joint).id() != UINT32_MAX;
+}
 
 /// Calls visit() for the joints that are none of ours and stand in the body's list beside this edge, of one
 /// of ours. So a list is gone through once, however many of ours it has.

@@ -426,6 +426,34 @@ TEST(StockWelds, HoldADeck) {
   EXPECT_NEAR(weld->GetReactionForce(60).y, Deck::weight, 1e-6 * Deck::weight);
 }
 
+// What a structure leaves when it goes is such a weld.
+TEST(StockWelds, ThatAStructureLeftHoldADeck) {
+  b2World world(vec(0, -gravity));
+  world.SetAllowSleeping(false);
+  std::vector<b2Body*> bodies{add_box(world, {.x = -0.5, .type = b2_staticBody})};
+  const auto join = [&bodies](Structure& structure, float x) {
+    ElasticPlasticJointDef def;
+    def.Initialize(bodies.rbegin()[1], bodies.back(), vec(x, 0), {1, 0});
+    return structure.create_joint(def);
+  };
+  constexpr int n = 4;
+  bodies.push_back(add_box(world, {.x = 0.5}));
+  b2Joint* root = nullptr;
+  {
+    Structure gone(world);
+    root = join(gone, 0);
+  }
+  Structure structure(world);
+  for (int i = 1; i < n; ++i) {
+    bodies.push_back(add_box(world, {.x = 0.5 + i}));
+    join(structure, static_cast<float>(i));
+  }
+  for (int i = 0; i < 300; ++i) world.Step(1 / 60.0f, 8, 3);
+  const double weight = n * bodies.back()->GetMass() * gravity;
+  EXPECT_NEAR(root->GetReactionForce(60).y, weight, 1e-6 * weight);
+  EXPECT_NEAR(root->GetReactionTorque(60), weight * n / 2, 1e-6 * weight * n / 2);
+}
+
 // Whichever came first: the order of joints in an island is that of their making, turned round.
 TEST(StockJoints, MayBeMadeBeforeTheStructure) {
   for (const bool before : {false, true}) {
