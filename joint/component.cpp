@@ -193,10 +193,12 @@ void Component::admit(std::size_t first, std::size_t free_bodies) {
     for (unsigned row = 0; row < 3 && !moved; ++row) j.neutral[row] += gap[row] - seen[row];
     if (moved) gap = seen;
     displaced_ |= moved;
-    for (unsigned row = 0; row < 3 && hold; ++row) {
+    if (!hold) continue;
+    for (unsigned row = 0; row < 3; ++row) {
       if (j.G[row] > 0 && !is_slack(j, solver.records[i], row))
         j.neutral[row] = gap[row] - elastic_strain(j, solver.records[i], row);
     }
+    StepLaws::hold_parted(j, solver.records[i]);
   }
 }
 

@@ -171,6 +171,23 @@ struct Component {
   /// Whether it was solved since leave_step(): else its mirrors are of an earlier step.
   bool stepped() const { return stepped_; }
   void leave_step() { stepped_ = false; }
+  /// Calls visit() for each contact of a piece with what does not move, if the structure is anchored and the
+  /// piece moves by less than Box2D's slop in h seconds.
+  template <class Visit>
+  void each_standing_touch(float h, const Visit& visit) const {
+    const auto stands = [&](int i) {
+      const Mirror& m = mirrors[z(i)];
+      const float speed = m.given.v.Length() + 2 * m.mass.gyration * std::abs(m.given.w);
+      return !m.guest() && h * speed < b2_linearSlop;
+    };
+    const auto is_fixed = [this](int i) { return mirrors[z(i)].type == b2_staticBody; };
+    if (outside_.touches.empty() || !is_anchored()) return;
+    for (const Touch& t : outside_.touches) {
+      const bool touches = !t.at_seam && !t.is_near();
+      if (touches && ((stands(t.in_a) && is_fixed(t.in_b)) || (stands(t.in_b) && is_fixed(t.in_a))))
+        visit(*t.contact);
+    }
+  }
   /// Contacts whose impulses of this step are those of a blow; some may be no more.
   std::span<const Struck> struck() const { return {struck_contacts_.data(), struck_contacts_.size()}; }
   /// Something about its joints was changed: the next step is not this one.

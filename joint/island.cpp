@@ -112,6 +112,7 @@ void Island::velocity(const b2SolverData& data) {
     c->advance(data);
     look_for_breaks(*c);
   }
+  hold_apart(data.step.dt);
 }
 
 void Island::position(const b2SolverData& data) {
@@ -362,7 +363,10 @@ void Island::hand_back(Component& component) {
 }
 
 auto Island::state() const -> State {
-  State s{.next_id = next_id, .components = {}, .holds_bullets = holds_bullets_};
+  State s{.next_id = next_id,
+          .components = {},
+          .holds_bullets = holds_bullets_,
+          .holds_contacts = holds_contacts_};
   for (const auto& c : components) {
     auto& formed = s.components.emplace_back(State::Formed{*c, {}});
     for (const Member* m : c->members) formed.members.emplace_back(m->structure, m->id);
@@ -374,6 +378,7 @@ void Island::restore(const State& s) {
   const Pool::Use use(pool_);
   next_id = s.next_id;
   holds_bullets_ = s.holds_bullets;
+  holds_contacts_ = s.holds_contacts;
   forget_last();
   components.clear();
   for (const State::Formed& saved : s.components) {

@@ -38,10 +38,14 @@ class Island {
   Component& form(std::span<Member* const> group, std::span<const BodyPair> touching,
                   std::span<b2Body* const> order = {});
 
-  // After a step (first_touch.cpp, bullets.cpp).
+  // After a step (first_touch.cpp, bullets.cpp, flush.cpp).
   void meet_guests(b2World& in);
-  void let_bullets_go(b2World& in);
-  bool holds_bullets() const { return holds_bullets_; }
+  /// What was held back from continuous collision: bullets, and contacts of what is flush.
+  void let_go(b2World& in) {
+    let_bullets_go(in);
+    let_contacts_go(in);
+  }
+  bool holds_any() const { return holds_bullets_ || holds_contacts_; }
 
   /// All that goes from step to step.
   struct State {
@@ -51,7 +55,7 @@ class Island {
       std::vector<std::pair<Structure::Impl*, std::uint32_t>> members;  // by id
     };
     std::vector<Formed> components;
-    bool holds_bullets;
+    bool holds_bullets, holds_contacts;
   };
   State state() const;
   /// After that of its structures.
@@ -84,6 +88,10 @@ class Island {
   bool distribute();
   // bullets.cpp
   void hold_bullets();
+  void let_bullets_go(b2World& in);
+  // flush.cpp
+  void hold_apart(float h);
+  void let_contacts_go(b2World& in);
   // first_touch.cpp
   void forget_blows(b2World& in);
 
@@ -96,6 +104,7 @@ class Island {
   std::vector<StockJoint> stock_;  // that hold its pieces, and what touches these
   std::vector<Struck> struck_;     // in this step
   bool holds_bullets_ = false;     // bodies that are marked: bullets that are none until update()
+  bool holds_contacts_ = false;    // contacts that are marked: disabled until update()
 };
 
 /// Stops a body of the island whose velocity is no finite number: it would spread to all that hangs

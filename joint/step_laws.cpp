@@ -163,7 +163,8 @@ double StepLaws::most_growth(System& system, double last_h) {
 // may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
 // than it stores: the strain that it will be half a step on gives less. But where its force stopped growing
 // it was strained too far, and what it moved back by is no rate.
-void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_growth) const {
+void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& parted,
+                          double most_growth) const {
   Rows spring = r.law.spring;
   const double longer = r.law.h > 0 ? h_ / r.law.h : 1;
   const std::array<bool, 3> was_rigid{is_rigid(r, 0), is_rigid(r, 1), is_rigid(r, 2)};
@@ -178,7 +179,7 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, double most_gr
       j.neutral[i] += strain[i] * (1 - by);
       strain[i] *= by;
     };
-    const double ahead = h_ / 2 * j.rate[i];
+    const double ahead = h_ / 2 * j.rate[i] - longer * parted[i] / 2;
     j.rate[i] /= longer;
     if (was_implicit[i] && j.is_newmark(i)) {
       j.rate[i] = j.moved[i] = j.mean[i] = 0;
@@ -296,7 +297,7 @@ void StepLaws::unite(System& system, double parts) {
 // What turning bodies part by in a step, T = (p − u₋)/2, is as the square of its length. An implicit row
 // closes by the T of the last step in each, and one of Newmark's is strained by half of it when the step
 // begins. In a step of another length that, p and u₋ are to be those of its own T, and what is left of the
-// gap is drift.
+// gap is drift. So it is where a row is Newmark's now, or no more.
 void StepLaws::follow_turn_drift(Joint& j, JointRecord& r, const Rows& parted, unsigned newmark,
                                  double last_h) const {
   const double by = h_ * h_ / (last_h * last_h);
@@ -305,10 +306,28 @@ void StepLaws::follow_turn_drift(Joint& j, JointRecord& r, const Rows& parted, u
     if (j.is_overdamped(i)) j.rate[i] *= by;  // which is T/h, and 0 where the row was not
     const double before = (newmark >> i & 1u) != 0 ? 0.5 : 1, now = j.is_newmark(i) ? 0.5 : 1;
     r.drift[i] += (before - now * by) * parted[i];
-    if (!j.is_newmark(i) || (newmark >> i & 1u) == 0) continue;
-    j.rate[i] -= (1 - by) * parted[i] / h_;
-    j.moved[i] += (1 - by) * parted[i];
+    if (!j.is_newmark(i)) continue;
+    const double change = (newmark >> i & 1u) != 0 ? (by - 1) * parted[i] : by * parted[i];
+    j.rate[i] += change / h_;
+    j.moved[i] -= change;
     j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+  }
+}
+
+void StepLaws::hold_parted(Joint& j, JointRecord& r) {
+  r.drift = {};
+  r.turn_drifts = false;
+  if (!(r.law.h > 0)) return;
+  const Rows parted = parted_by_turn(j, r.law.h);
+  for (unsigned i = 0; i < 2; ++i) {
+    if (parted[i] == 0) continue;
+    if (j.is_overdamped(i)) {
+      j.rate[i] = 0;
+      continue;
+    }
+    j.rate[i] -= parted[i] / r.law.h;
+    j.moved[i] += parted[i];
+    if (j.is_newmark(i)) j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
   }
 }
 
@@ -343,6 +362,7 @@ bool StepLaws::begin(System& system, double h) {
     }
     return false;
   }
+  const bool may_switch = last_h > 0 && changed && least_delta != 1 && !divided_ && !(drifts && h < moved_by);
   find_gaps(system);
   turn_drifts_ = false;
   const double growth = changed ? most_growth(system, last_h) : 1;
@@ -350,8 +370,9 @@ bool StepLaws::begin(System& system, double h) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
     const unsigned newmark = j.newmark;
-    const Rows parted = differs && turn_in(system, j, h) < squared_turn ? parted_by_turn(j, last_h) : Rows{};
-    const bool turns = parted[0] != 0 || parted[1] != 0;
+    const Rows parted =
+        (differs || may_switch) && turn_in(system, j, h) < squared_turn ? parted_by_turn(j, last_h) : Rows{};
+    const bool turns = differs && (parted[0] != 0 || parted[1] != 0);
     if (!r.turn_drifts && turns) r.drift = {};
     if (turns) {
       r.turn_drifts = true;
@@ -364,8 +385,10 @@ bool StepLaws::begin(System& system, double h) {
     Rows strain;
     for (unsigned i = 0; i < 3; ++i)
       strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
-    if (changed) follow_law(j, r, strain, growth);
-    if (turns) follow_turn_drift(j, r, parted, newmark, last_h);
+    if (changed) follow_law(j, r, strain, parted, growth);
+    const bool switches = newmark != j.newmark && (parted[0] != 0 || parted[1] != 0);
+    if (turns || switches) follow_turn_drift(j, r, parted, newmark, last_h);
+    r.turn_drifts |= switches;
     double most = 0;
     for (unsigned i = 0; i < 3; ++i) {
       r.drift[i] *= r.turn_drifts && i < 2 ? std::max(0.0, 1 - h / turn_time) : deferred;

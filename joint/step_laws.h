@@ -51,6 +51,8 @@ class StepLaws {
     tape(h_, moved_by, known_, divided_, last_turn_, turn_drifts_, caps_raised_, some_halt_, of_step_,
          guarded_, of_contacts_, drift_time);
   }
+  /// The joint's rows hold its bodies where turning has parted them: they take nothing of that back.
+  static void hold_parted(Joint& joint, JointRecord& record);
   /// A joint's law anew, of this step, as its material was changed.
   void set_law(Joint& joint, JointRecord& record) const;
 
@@ -60,7 +62,8 @@ class StepLaws {
   void bound_drift(const Joint& joint, JointRecord& record) const;
   void rescale(System& system, double by);
   double most_growth(System& system, double last_h);
-  void follow_law(Joint& joint, JointRecord& record, Rows& strain, double most_growth) const;
+  void follow_law(Joint& joint, JointRecord& record, Rows& strain, const Rows& parted,
+                  double most_growth) const;
   void follow_turn_drift(Joint& joint, JointRecord& record, const Rows& parted, unsigned newmark,
                          double last_h) const;
   void allow_turn(const Joint& joint, JointRecord& record, const Rows& parted, double last_h) const;

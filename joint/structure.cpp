@@ -27,7 +27,7 @@ void Structure::Impl::enter_world() {
 
 Structure::Impl::~Impl() {
   if (watch == nullptr) return;
-  island->let_bullets_go(*world);
+  island->let_go(*world);
   island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   std::vector<ElasticPlasticJoint*> broken;
@@ -41,7 +41,7 @@ Structure::Impl::~Impl() {
 void Structure::Impl::watch_is_gone(bool with_world) {
   // Destroying the watch by hand comes here too: the joints, still there, go on as welds.
   if (watch == nullptr) return;
-  if (!with_world) island->let_bullets_go(*world);
+  if (!with_world) island->let_go(*world);
   island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
   members.clear();
@@ -156,7 +156,7 @@ void Structure::Impl::update() {
   if (watch == nullptr || events.delivering) return;
   if (world->IsLocked())
     throw std::logic_error("structure: update() while the world is stepping; call it after b2World::Step");
-  island->let_bullets_go(*world);
+  island->let_go(*world);
   if (def.solver == SolverKind::direct && !world->GetSubStepping()) island->meet_guests(*world);
   reports.close_step();
   for (const auto& c : island->components) {
@@ -195,8 +195,7 @@ bool Structure::Impl::delivered_all() const {
   const auto open = [this](const auto& c) { return c->account.open && c->is_of(*this); };
   const auto broken = [](const auto& m) { return m->broken; };
   return !reports.stepped && events.pending.empty() && nodes.orphans.empty() && !events.delivering &&
-         !island->holds_bullets() &&
-         std::none_of(island->components.begin(), island->components.end(), open) &&
+         !island->holds_any() && std::none_of(island->components.begin(), island->components.end(), open) &&
          std::none_of(members.begin(), members.end(), broken);
 }
 

@@ -1681,6 +1681,28 @@ TEST(Contacts, Sleep) {
   EXPECT_LT(block->GetPosition().y, -0.5);
 }
 
+// A deck that is flush with a wall, or nearly, stands still and falls asleep; continuous collision moved its
+// last piece back by a centimetre in each step, and woke it. Contacts are enabled when the game sees them.
+TEST(Contacts, OfWhatIsFlushWithAWallLetItSleep) {
+  for (const double gap : {0.0, 0.002, 0.004, 0.006}) {
+    Beam beam(light);
+    beam.world.SetAllowSleeping(true);
+    add_box(beam.world,
+            {.x = light.length + 1 + gap, .width = 2, .height = 4, .type = b2_staticBody, .group = 0});
+    beam.run(1);
+    b2Body* last = beam.pieces.back();
+    const b2Vec2 at = last->GetPosition();
+    for (int i = 0; i < 30; ++i) {
+      beam.run(1 / 60.0);
+      EXPECT_LT(b2Distance(last->GetPosition(), at), 1e-6) << gap;
+    }
+    const b2Contact* contact = last->GetContactList()->contact;
+    EXPECT_TRUE(contact->IsTouching() && contact->IsEnabled()) << gap;
+    beam.run(8);
+    EXPECT_FALSE(last->IsAwake()) << gap;
+  }
+}
+
 // A guest may go without a word.
 TEST(Contacts, OfBodiesThatAreDestroyed) {
   Beam beam(light);
