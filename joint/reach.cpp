@@ -173,7 +173,8 @@ void Island::follow(b2Body& body) {
   for (b2JointEdge* e = body.GetJointList(); e != nullptr && stock_.size() < joints() + far_joints;
        e = e->next) {
     b2Body& other = *e->other;
-    if (!is_stock(*e->joint) || !may_take(other) || is_piece(other) || contacts_.is_followed(other)) continue;
+    const bool is_known = other.GetType() == b2_dynamicBody && is_piece(other);
+    if (!is_stock(*e->joint) || !may_take(other) || is_known || contacts_.is_followed(other)) continue;
     stock_.push_back({.joint = e->joint});
     contacts_.reach(other);
   }

@@ -454,6 +454,28 @@ TEST(StockWelds, ThatAStructureLeftHoldADeck) {
   EXPECT_NEAR(root->GetReactionTorque(60), weight * n / 2, 1e-6 * weight * n / 2);
 }
 
+// A hanger of 5 kg bears the far end of a deck on a pin: on a ground of its own, or on that which holds the
+// deck, as most games have but one.
+TEST(StockJoints, MayHangOnTheBodyThatHoldsTheStructure) {
+  for (const bool same : {true, false}) {
+    Beam beam({.pieces = 9, .length = 9, .height = 0.3, .density = 100 / 0.3});
+    beam.joints[0]->set_caps(rotation, 0, 0);
+    b2BodyDef ground;
+    b2Body* above = same ? beam.wall : beam.world.CreateBody(&ground);
+    b2Body* hanger =
+        add_box(beam.world, {.x = 8.5, .y = 1, .width = 0.2, .height = 2, .mass = 5, .group = 0});
+    b2RevoluteJointDef pin;
+    pin.Initialize(beam.pieces.back(), hanger, vec(8.5, 0));
+    beam.world.CreateJoint(&pin);
+    pin.Initialize(above, hanger, vec(8.5, 2));
+    b2Joint* held = beam.world.CreateJoint(&pin);
+    beam.run(5);
+    const double statics = gravity * (9 * 100 * 4.5 / 8.5 + 5);
+    EXPECT_NEAR(held->GetReactionForce(60).y, statics, 1e-5 * statics) << same;
+    EXPECT_NEAR(hanger->GetPosition().y, 1, 1e-5) << same;
+  }
+}
+
 // Whichever came first: the order of joints in an island is that of their making, turned round.
 TEST(StockJoints, MayBeMadeBeforeTheStructure) {
   for (const bool before : {false, true}) {
