@@ -18,6 +18,7 @@ DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
 // The index of a body in the island that is being solved. b2WeldJoint::InitVelocityConstraints would fetch it
 // at the cost of a sine, a cosine and a matrix inverse per joint; so it is a load per body.
 DUCTILE_REVEAL(b2Body, m_islandIndex, int32);
+DUCTILE_REVEAL(b2Contact, m_flags, uint32);
 DUCTILE_REVEAL(b2Contact, m_toiCount, int32);
 DUCTILE_REVEAL(b2Joint, m_islandFlag, bool);
 DUCTILE_REVEAL(b2Fixture, m_proxies, b2FixtureProxy*);

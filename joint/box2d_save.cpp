@@ -29,7 +29,6 @@ DUCTILE_REVEAL(b2Body, m_linearDamping, float);
 DUCTILE_REVEAL(b2Body, m_angularDamping, float);
 DUCTILE_REVEAL(b2Body, m_gravityScale, float);
 DUCTILE_REVEAL(b2Body, m_sleepTime, float);
-DUCTILE_REVEAL(b2Contact, m_flags, uint32);
 DUCTILE_REVEAL(b2Contact, m_toi, float);
 }  // namespace ductile::dynamics
 

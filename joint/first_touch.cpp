@@ -123,15 +123,15 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there, cons
   return true;
 }
 
-/// By how much what is at this velocity is to be slowed where it is moved: what it is raised by it pays for.
-b2Vec2 price(const b2Vec2& v, const b2Vec2& way, const b2Vec2& gravity) {
-  const float gain = -b2Dot(gravity, way), speed2 = v.LengthSquared();
+/// By how much what is at this velocity is to be slowed for so many J/kg that it gains by being moved.
+b2Vec2 price(const b2Vec2& v, float gain) {
+  const float speed2 = v.LengthSquared();
   return speed2 > 0 && speed2 > 2 * gain ? (std::sqrt(1 - 2 * gain / speed2) - 1) * v : b2Vec2(0, 0);
 }
 
 void pay(b2Body& body, const b2Vec2& way, const b2Vec2& gravity) {
   const b2Vec2 v = body.GetLinearVelocity();
-  body.SetLinearVelocity(v + price(v, way, body.GetGravityScale() * gravity));
+  body.SetLinearVelocity(v + price(v, -body.GetGravityScale() * b2Dot(gravity, way)));
 }
 
 void put_back(b2Body& guest, const b2Sweep& moving, float share, const b2Vec2& gravity) {
@@ -181,6 +181,8 @@ struct Group {
   }
   /// It goes elsewhere as it is, its strains with it.
   void move(const b2Vec2& way, const b2Vec2& gravity) const;
+  /// It is slowed by so many J.
+  void pay(float energy) const;
 };
 
 /// The share that one group has of the way by which it and another go apart. What is held, or would be moved
@@ -203,18 +205,19 @@ bool is_touching(const b2Body& body) {
 
 void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
   float weight = 0;
-  b2Vec2 momentum(0, 0);
-  for (const b2Body* b : bodies) {
-    weight += b->GetMass() * b->GetGravityScale();
-    momentum += b->GetMass() * b->GetLinearVelocity();
-  }
-  const float whole = mass();
-  const b2Vec2 slower = price(1 / whole * momentum, way, weight / whole * gravity);
   for (b2Body* b : bodies) {
+    weight += b->GetMass() * b->GetGravityScale();
     b->SetTransform(b->GetPosition() + way, of(*b, b2Body_m_sweep{}).a);
-    b->SetLinearVelocity(b->GetLinearVelocity() + slower);
     if (Component* c = Member::component_of(*b)) c->shift(*b, way);
   }
+  pay(-weight * b2Dot(gravity, way));
+}
+
+void Group::pay(float energy) const {
+  b2Vec2 momentum(0, 0);
+  for (const b2Body* b : bodies) momentum += b->GetMass() * b->GetLinearVelocity();
+  const b2Vec2 slower = price(1 / mass() * momentum, energy / mass());
+  for (b2Body* b : bodies) b->SetLinearVelocity(b->GetLinearVelocity() + slower);
 }
 
 using Groups = std::vector<std::unique_ptr<Group>>;
@@ -253,6 +256,40 @@ void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piec
   }
   if (share > 0) one.move(share * way, world.GetGravity());
   if (share < 1) other.move((share - 1) * way, world.GetGravity());
+}
+
+// A wheel on a spring that rolls on to a piece is stopped there along its axis, and what it carries is not:
+// it goes out of the piece along the axis, alone, and all pay for what that strains the spring by. If all
+// went back, to where the first of several wheels touched, the others would hang in the air, and come down on
+// the road in each step again. False where it does not roll, has no room, or would go beyond the joint's
+// limits.
+bool raise_wheel(const b2World& world, Groups& groups, b2Body& wheel, b2Body& piece, const b2Contact& contact,
+                 const b2Sweep& motion, const b2Vec2& normal) {
+  const b2Vec2 gone = motion.c - motion.c0;
+  if (!(2 * std::abs(b2Dot(gone, normal)) < std::abs(b2Cross(gone, normal)))) return false;
+  const b2JointEdge* edge = wheel.GetJointList();
+  if (edge == nullptr || edge->next != nullptr || edge->joint->GetType() != e_wheelJoint) return false;
+  auto& joint = static_cast<b2WheelJoint&>(*edge->joint);
+  const b2Vec2 axis = joint.GetBodyA()->GetWorldVector(joint.GetLocalAxisA());
+  const float along = b2Dot(axis, normal);
+  if (!(joint.GetStiffness() > 0) || !(2 * along * along > 1)) return false;
+  const b2Vec2 out = along > 0 ? axis : -axis;
+  const float from = 2 * gone.Length();
+  b2Sweep way_out = of(wheel, b2Body_m_sweep{});
+  way_out.c0 = way_out.c + from * out;
+  way_out.a0 = way_out.a;
+  way_out.alpha0 = 0;
+  const b2Vec2 way = (1 - way_to(contact, piece, wheel, way_out).share) * from * out;
+  const float moved = joint.GetBodyB() == &wheel ? b2Dot(axis, way) : -b2Dot(axis, way);
+  const float was = joint.GetJointTranslation(), now = was + moved;
+  if (joint.IsLimitEnabled() && (now < joint.GetLowerLimit() || now > joint.GetUpperLimit())) return false;
+  b2Transform there = wheel.GetTransform();
+  there.p += way;
+  if (!has_room(world, wheel, there)) return false;
+  wheel.SetTransform(there.p, way_out.a);
+  const float rise = -wheel.GetGravityScale() * b2Dot(world.GetGravity(), way);
+  group_of(wheel, groups).pay(joint.GetStiffness() * (now * now - was * was) / 2 + wheel.GetMass() * rise);
+  return true;
 }
 
 // What hangs on a guest goes back with it, as far as it has not for another one: a car with its wheel. Else
@@ -375,6 +412,7 @@ void Island::meet_guests(b2World& in) {
     if (!m.straight) {
       move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
+      if (raise_wheel(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal)) continue;
       const b2Vec2 from = m.body->GetWorldCenter();
       if (put_group_back(in, groups, *m.body, *m.piece, m.motion, m.way.share)) continue;
       put_back(*m.body, m.motion, m.way.share, in.GetGravity());

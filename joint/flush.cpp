@@ -11,7 +11,6 @@
 #include "structure.h"
 
 namespace ductile::dynamics {
-DUCTILE_REVEAL(b2Contact, m_flags, uint32);
 
 namespace {
 
