@@ -20,6 +20,19 @@ double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   return h * (r.x[i] - j.bias[i]) - (std::clamp(e + share * h * rate, -limit, limit) - e);
 }
 
+namespace {
+
+// The elastic strain at the step's end beyond that of the caps, of a spring that no step resolves, by which
+// it rings from side to side: the caps bound the force in the step's middle, and not that. It would be thrown
+// from cap to cap for good, and the slider take up nothing of it.
+double beyond_yield(const Joint& j, const JointRecord& r, unsigned i) {
+  if (!j.is_newmark(i) || r.material.rate != nullptr) return 0;
+  const double k = r.law.spring[i], e = strain_of_bias(j, i) + r.law.h * (r.x[i] - j.bias[i]);
+  return e - std::clamp(e, -r.material.cap_reverse[i] / k, r.material.cap[i] / k);
+}
+
+}  // namespace
+
 void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const Motion& motion) {
   const double h = laws.step();
   Rows slip{};
@@ -35,7 +48,10 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
     const double s = impulse_at_yield(j, r, i);
     const double increment = slip[i];
     // On a yield surface single rows may give back, all three together never; but by rounding, at its apex.
-    if (!(increment * r.x[i] > 0) && j.regime != on_surface) continue;
+    if (!(increment * r.x[i] > 0) && j.regime != on_surface) {
+      j.neutral[i] += beyond_yield(j, r, i);
+      continue;
+    }
     j.neutral[i] += increment;
     if (is_driven(r, i)) continue;
     r.plastic.net[i] += increment;
