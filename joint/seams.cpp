@@ -47,22 +47,34 @@ bool meets_cover(const b2Contact& contact, const b2Fixture& piece, const b2Fixtu
   });
 }
 
-bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b2Body& other) {
-  if (piece.GetType() != b2Shape::e_polygon) return false;
-  for (const b2JointEdge* j = piece.GetBody()->GetJointList(); j != nullptr; j = j->next) {
-    if (ElasticPlasticJoint::cast(j->joint) == nullptr) continue;
-    // What stands still may have very many contacts.
-    const bool from_neighbour = j->other->GetType() == b2_dynamicBody;
-    const b2Body &from = from_neighbour ? *j->other : other, &to = from_neighbour ? other : *j->other;
-    for (const b2ContactEdge* e = from.GetContactList(); e != nullptr; e = e->next) {
-      const b2Contact& beside = *e->contact;
-      if (e->other != &to || !beside.IsTouching() || !beside.IsEnabled() || is_sensor(beside)) continue;
-      const bool is_a = beside.GetFixtureA()->GetBody() == j->other;
-      const b2Fixture& neighbour = is_a ? *beside.GetFixtureA() : *beside.GetFixtureB();
-      if (meets_cover(contact, piece, neighbour) && !meets_cover(beside, neighbour, piece)) return true;
-    }
+/// Whether a fixture of `beside`, a joined piece or that of `piece` itself, covers it there and carries
+/// `other`.
+bool is_carried_by(const b2Body& beside, const b2Contact& contact, const b2Fixture& piece,
+                   const b2Body& other) {
+  // What stands still may have very many contacts.
+  const bool from_beside = beside.GetType() == b2_dynamicBody;
+  const b2Body &from = from_beside ? beside : other, &to = from_beside ? other : beside;
+  for (const b2ContactEdge* e = from.GetContactList(); e != nullptr; e = e->next) {
+    const b2Contact& c = *e->contact;
+    if (e->other != &to || !c.IsTouching() || !c.IsEnabled() || is_sensor(c)) continue;
+    const b2Fixture& neighbour = c.GetFixtureA()->GetBody() == &beside ? *c.GetFixtureA() : *c.GetFixtureB();
+    if (&neighbour != &piece && meets_cover(contact, piece, neighbour) && !meets_cover(c, neighbour, piece))
+      return true;
   }
   return false;
+}
+
+bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b2Body& other) {
+  if (piece.GetType() != b2Shape::e_polygon) return false;
+  const b2Body& body = *piece.GetBody();
+  bool is_joined = false;
+  for (const b2JointEdge* j = body.GetJointList(); j != nullptr; j = j->next) {
+    if (ElasticPlasticJoint::cast(j->joint) == nullptr) continue;
+    if (is_carried_by(*j->other, contact, piece, other)) return true;
+    is_joined = true;
+  }
+  const bool has_more = body.GetFixtureList()->GetNext() != nullptr;
+  return is_joined && has_more && is_carried_by(body, contact, piece, other);
 }
 
 }  // namespace
