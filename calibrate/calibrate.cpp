@@ -947,11 +947,15 @@ class Planner {
             i + 1 < first_piece_.size() ? first_piece_[i + 1] : static_cast<int>(plan_.pieces.size())};
   }
 
-  // The first piece of a body that has a point inside or, but for rounding, on its boundary.
+  // The first piece of a body that has a point inside or, but for rounding, on its boundary; levels have it
+  // from floats, and people type it.
   int piece_under(const std::string& body, Point at, const std::string& place) {
-    const auto [first, last] = pieces_of(body);
-    for (int i = first; i < last; ++i)
-      if (distance(plan_.pieces[i], at) <= 1e-9 * length(at - plan_.pieces[i].center)) return i;
+    constexpr double rounding = 1e-6;
+    const int nearest = nearest_piece(body, at);
+    const Piece& piece = plan_.pieces[nearest];
+    if (distance(piece, at) <=
+        rounding * std::max({length(at - piece.center), std::abs(at.x), std::abs(at.y)}))
+      return nearest;
     problems_.push_back({place, "there is nothing of '" + body + "' at " + to_string(at),
                          "put it on the body, or on its boundary"});
     return -1;

@@ -206,14 +206,22 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
 }
 
 std::string run(const Options& options) {
+  keep_input(options.scene.name, "--picture", options.pictures);
   if (options.to == "scene") {
     const std::string given = read_text(options.scene.name);
+    if (is_rube(given))
+      throw InvalidInput(
+          {{"command line:--to",
+            "'" + options.scene.name + "' is a level of R.U.B.E., which no scene file holds all of",
+            "write the level with its joints calibrated: --to rube"}});
+    if (is_drawing(given)) keep_input(options.scene.name, "--out", options.out);
     const std::filesystem::path beside = options.out.empty() ? options.scene.name : options.out;
     std::string text = edited_scene(given, scene_of(options.scene, given), beside.parent_path());
     if (options.out.empty()) return text;
     write_text(options.out, text);
     return "";
   }
+  if (options.to != "rube") keep_input(options.scene.name, "--out", options.out);
   const bool whole = !options.leave_out && (options.to.empty() || options.to == "rube");
   Plan plan = plan_of(options.scene, whole ? NotInPlan::made : NotInPlan::refused, options.target_error);
   std::string left_out;

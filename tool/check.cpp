@@ -121,6 +121,7 @@ std::string picture(const Plan& plan, const StaticCheck& check, const Options& o
 }
 
 std::string run(const Options& options) {
+  keep_input(options.scene.name, "--picture", options.pictures);
   const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Order order = options.second_order ? Order::second : Order::first;
   const Found found = in_file(options.scene, [&] {

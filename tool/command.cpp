@@ -303,6 +303,18 @@ std::string title_of(const std::string& scene_file) {
   return name;
 }
 
+void keep_input(const std::string& input, const std::string& option, const std::string& output) {
+  std::error_code none;  // what is not there is no file of this name
+  if (std::filesystem::equivalent(input, output, none))
+    throw InvalidInput({{"command line:" + option, "'" + output + "' is the file that is read",
+                         "give another one: it would be lost"}});
+}
+
+void keep_input(const std::string& input, const std::string& option,
+                const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) keep_input(input, option, output);
+}
+
 CLI::Option* add_picture(CLI::App* command, std::vector<std::string>& files, const std::string& what) {
   const CLI::Validator name(
       [](const std::string& file) -> std::string {

@@ -43,6 +43,10 @@ void add_scene(CLI::App* command, SceneFile& scene);
 /// --scale alone.
 void add_scale(CLI::App* command, double& metres_per_unit);
 
+/// Refuses to write what an option names over the file that is read.
+void keep_input(const std::string& input, const std::string& option, const std::string& output);
+void keep_input(const std::string& input, const std::string& option, const std::vector<std::string>& outputs);
+
 /// The scene of a drawing or a scene file, whose text it is; warnings of what was not taken on stderr.
 SceneDef scene_of(const SceneFile& file, const std::string& text);
 

@@ -216,7 +216,8 @@ std::string run(const Options& options) {
   const std::string text = read_text(options.scene.name);
   if (is_rube(text))
     throw InvalidInput(
-        {{options.scene.name, "is a level of R.U.B.E.", "design works on scene files and drawings"}});
+        {{options.scene.name, "is a level of R.U.B.E.",
+          "design works on scene files and drawings; give the scene that the level was made of"}});
   const SceneDef scene = scene_of(options.scene, text);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
   const Found answer = in_file(options.scene, [&] {

@@ -121,6 +121,7 @@ std::string picture(const Plan& plan, const Found& found, const Options& options
 }
 
 std::string run(const Options& options) {
+  keep_input(options.scene.name, "--picture", options.pictures);
   const Plan plan = plan_of(options.scene, NotInPlan::left_out);
   const Found found = in_file(options.scene, [&] {
     Found all{.critical = critical_load(plan)};

@@ -168,6 +168,7 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
 }
 
 std::string run(const Options& options) {
+  keep_input(options.file, "--picture", options.pictures);
   const Subject subject = read(options);
   const Section section = in_file(options.file, [&] { return Section(subject.regions); });
   const Point d = direction(options.angle);

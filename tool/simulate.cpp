@@ -200,6 +200,9 @@ struct Result {
 };
 
 Result run(const Options& options) {
+  keep_input(options.scene.name, "--picture", options.pictures);
+  keep_input(options.scene.name, "--history", options.history);
+  keep_input(options.scene.name, "--replay", options.replay);
   const double steps = std::round(options.time / options.stepping.dt);
   if (steps < 1 && options.time > 0) {
     throw InvalidInput(

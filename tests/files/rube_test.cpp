@@ -276,6 +276,22 @@ TEST(Rube, ARevoluteJointIsAPinAtItsAnchor) {
   }
 }
 
+// A load at a corner, of bars whose pieces' vertices are no floats: a level holds the one in double, the
+// others not.
+TEST(Rube, LoadsAtCornersStandOnTheirBodies) {
+  for (const double length : {1.0, 4.0, 7.3, 20.0}) {
+    for (const int pieces : {3, 5, 10, 11, 12}) {
+      SceneDef scene = beam_on_wall();
+      scene.bodies[1].outline = {{{0, 0}, {length, 0}, {length, 1}, {0, 1}}, {}};
+      scene.bodies[1].pieces = pieces;
+      scene.loads = {{.body = "beam", .at = {length, 1}, .force = {0, -1}}};
+      const Plan read = parse_plan(rube_text(calibrate(scene)));
+      ASSERT_EQ(read.loads.size(), 1u) << length << ", " << pieces;
+      EXPECT_NEAR(read.loads[0].at.x, length, 1e-6 * length);
+    }
+  }
+}
+
 TEST(Rube, LoadsAreProperties) {
   SceneDef scene = beam_on_wall();
   scene.gravity_ramp = 2;

@@ -121,6 +121,23 @@ TEST(CalibrateCommand, WritesDefinitionsToAFile) {
   EXPECT_EQ(run("calibrate --to json " + scene).json(), run("calibrate --json " + scene).json());
 }
 
+TEST(CalibrateCommand, WritesNothingOverWhatItReads) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  const std::string drawing = folder.write(
+      "plate.svg",
+      "<svg width='4m' height='1m' viewBox='0 0 4 1'><rect id='plate' width='4' height='1'/></svg>");
+  for (const std::string& command :
+       {"calibrate " + scene + " --to cpp --out " + scene, "calibrate " + scene + " --out " + scene,
+        "calibrate " + drawing + " --to scene --out " + drawing,
+        "calibrate " + drawing + " --picture " + drawing, "check " + drawing + " --picture " + drawing,
+        "simulate " + scene + " --time 0.1 --history " + scene,
+        "simulate " + scene + " --time 0.1 --replay " + scene})
+    expect_bad_input(run(command), "is the file that is read");
+  EXPECT_EQ(slurp(scene), cantilever());
+  EXPECT_EQ(run("calibrate " + scene + " --to scene --out " + scene).exit, 0);
+}
+
 TEST(CalibrateCommand, WritesNothingOfWhatFails) {
   const Folder folder;
   const std::string out = (folder / "plan.json").string();
@@ -289,6 +306,11 @@ TEST(CalibrateCommand, ReadsFromAPipe) {
     EXPECT_EQ(std::system(piped.c_str()), 0);
     EXPECT_EQ(slurp(out), run("calibrate --json " + file).out);
   }
+}
+
+TEST(CalibrateCommand, ALevelIsNoScene) {
+  const Folder folder;
+  expect_bad_input(run("calibrate --to scene " + folder.write("level.json", level + "}")), "--to rube");
 }
 
 TEST(CalibrateCommand, ASpoiltLevelIsBadInput) {
