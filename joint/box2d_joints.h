@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <typeinfo>
 
 #include "ductile/joint.h"
 #include "system.h"
@@ -55,6 +56,12 @@ struct StockJoint {
   b2Body* b() const { return joint->GetBodyB(); }
 };
 
+/// Whether a structure has the joint. What one left when it went is a weld of Box2D's.
+inline bool is_ours(const b2Joint& joint) {
+  return typeid(joint) == typeid(ElasticPlasticJoint) &&
+         static_cast<const ElasticPlasticJoint&>(joint).id() != UINT32_MAX;
+}
+
 /// Calls visit() with the joint as what it is; false where its rows are not known.
 template <class Visit>
 bool as_it_is(b2Joint& joint, const Visit& visit) {
@@ -72,8 +79,7 @@ bool as_it_is(b2Joint& joint, const Visit& visit) {
     case e_pulleyJoint:
       return visit(static_cast<b2PulleyJoint&>(joint)), true;
     case e_weldJoint:
-      if (const auto* ours = ElasticPlasticJoint::cast(&joint); ours != nullptr && ours->id() != UINT32_MAX)
-        return false;
+      if (is_ours(joint)) return false;
       return visit(static_cast<b2WeldJoint&>(joint)), true;
     default:
       return false;

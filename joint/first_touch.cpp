@@ -79,6 +79,17 @@ Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2
   return {touching, body_is_a ? -normal : normal};
 }
 
+/// The way by which a body goes out of a piece in a direction, as it is turned, until it only touches it; of
+/// no more than so many metres.
+b2Vec2 way_out(const b2Contact& contact, b2Body& piece, const b2Body& body, float most,
+               const b2Vec2& direction) {
+  b2Sweep in = of(body, b2Body_m_sweep{});
+  in.c0 = in.c + most * direction;
+  in.a0 = in.a;
+  in.alpha0 = 0;
+  return (1 - way_to(contact, piece, body, in).share) * most * direction;
+}
+
 using Bodies = std::unordered_set<const b2Body*>;
 
 /// Whether a body would overlap nothing there by more than its skin, but pieces, what it so overlaps where it
@@ -235,11 +246,7 @@ void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piec
   const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
                      contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
   const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
-  b2Sweep along = of(body, b2Body_m_sweep{});
-  along.c0 = along.c + from * normal;
-  along.a0 = along.a;
-  along.alpha0 = 0;
-  const b2Vec2 way = (1 - way_to(contact, piece, body, along).share) * from * normal;
+  const b2Vec2 way = way_out(contact, piece, body, from, normal);
   if (way.LengthSquared() == 0) return;
   const Group& one = group_of(body, groups);
   if (one.has(&piece)) return;
@@ -274,19 +281,14 @@ bool raise_wheel(const b2World& world, Groups& groups, b2Body& wheel, b2Body& pi
   const float along = b2Dot(axis, normal);
   if (!(joint.GetStiffness() > 0) || !(2 * along * along > 1)) return false;
   const b2Vec2 out = along > 0 ? axis : -axis;
-  const float from = 2 * gone.Length();
-  b2Sweep way_out = of(wheel, b2Body_m_sweep{});
-  way_out.c0 = way_out.c + from * out;
-  way_out.a0 = way_out.a;
-  way_out.alpha0 = 0;
-  const b2Vec2 way = (1 - way_to(contact, piece, wheel, way_out).share) * from * out;
+  const b2Vec2 way = way_out(contact, piece, wheel, 2 * gone.Length(), out);
   const float moved = joint.GetBodyB() == &wheel ? b2Dot(axis, way) : -b2Dot(axis, way);
   const float was = joint.GetJointTranslation(), now = was + moved;
   if (joint.IsLimitEnabled() && (now < joint.GetLowerLimit() || now > joint.GetUpperLimit())) return false;
   b2Transform there = wheel.GetTransform();
   there.p += way;
   if (!has_room(world, wheel, there)) return false;
-  wheel.SetTransform(there.p, way_out.a);
+  wheel.SetTransform(there.p, motion.a);
   const float rise = -wheel.GetGravityScale() * b2Dot(world.GetGravity(), way);
   group_of(wheel, groups).pay(joint.GetStiffness() * (now * now - was * was) / 2 + wheel.GetMass() * rise);
   return true;

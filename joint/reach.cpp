@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <typeinfo>
 
 #include "box2d_private.h"
 #include "structure.h"
@@ -22,12 +21,6 @@ constexpr std::size_t far_joints = 64;
 bool is_fast(const b2Body& body) {
   return body.GetLinearVelocity().LengthSquared() > blow_speed * blow_speed ||
          std::abs(body.GetAngularVelocity()) > blow_turn;
-}
-
-/// What a structure left when it went is a weld of Box2D's.
-bool is_ours(const b2Joint& joint) {
-  return typeid(joint) == typeid(ElasticPlasticJoint) &&
-         static_cast<const ElasticPlasticJoint&>(joint).id() != UINT32_MAX;
 }
 
 /// Calls visit() for the joints that are none of ours and stand in the body's list beside this edge, of one

@@ -51,6 +51,13 @@ Rows parted_by_turn(const Joint& j, double h) {
   return parted;
 }
 
+// Makes T of a row so much more, of p and of −u₋ alike.
+void part_by(Joint& j, const RowLaw& law, unsigned i, double more) {
+  j.rate[i] += more / law.h;
+  j.moved[i] -= more;
+  if (j.is_newmark(i)) j.trend[i] = law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+}
+
 // The angle by which the faster of a joint's bodies turns in a step, as the last one left it or as it now is.
 double turn_in(const System& system, const Joint& j, double h) {
   double rate = 0;
@@ -306,11 +313,8 @@ void StepLaws::follow_turn_drift(Joint& j, JointRecord& r, const Rows& parted, u
     if (j.is_overdamped(i)) j.rate[i] *= by;  // which is T/h, and 0 where the row was not
     const double before = (newmark >> i & 1u) != 0 ? 0.5 : 1, now = j.is_newmark(i) ? 0.5 : 1;
     r.drift[i] += (before - now * by) * parted[i];
-    if (!j.is_newmark(i)) continue;
-    const double change = (newmark >> i & 1u) != 0 ? (by - 1) * parted[i] : by * parted[i];
-    j.rate[i] += change / h_;
-    j.moved[i] -= change;
-    j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+    if (j.is_newmark(i))
+      part_by(j, r.law, i, (newmark >> i & 1u) != 0 ? (by - 1) * parted[i] : by * parted[i]);
   }
 }
 
@@ -321,13 +325,10 @@ void StepLaws::hold_parted(Joint& j, JointRecord& r) {
   const Rows parted = parted_by_turn(j, r.law.h);
   for (unsigned i = 0; i < 2; ++i) {
     if (parted[i] == 0) continue;
-    if (j.is_overdamped(i)) {
+    if (j.is_overdamped(i))
       j.rate[i] = 0;
-      continue;
-    }
-    j.rate[i] -= parted[i] / r.law.h;
-    j.moved[i] += parted[i];
-    if (j.is_newmark(i)) j.trend[i] = r.law.trend(i, j.moved[i], j.mean[i], j.mean[i]);
+    else
+      part_by(j, r.law, i, -parted[i]);
   }
 }
 
@@ -372,7 +373,7 @@ bool StepLaws::begin(System& system, double h) {
     const unsigned newmark = j.newmark;
     const Rows parted =
         (differs || may_switch) && turn_in(system, j, h) < squared_turn ? parted_by_turn(j, last_h) : Rows{};
-    const bool turns = differs && (parted[0] != 0 || parted[1] != 0);
+    const bool parts = parted[0] != 0 || parted[1] != 0, turns = differs && parts;
     if (!r.turn_drifts && turns) r.drift = {};
     if (turns) {
       r.turn_drifts = true;
@@ -386,7 +387,7 @@ bool StepLaws::begin(System& system, double h) {
     for (unsigned i = 0; i < 3; ++i)
       strain[i] = is_implicit(r, i) ? elastic_strain(j, r, i) : r.gap[i] - j.neutral[i];
     if (changed) follow_law(j, r, strain, parted, growth);
-    const bool switches = newmark != j.newmark && (parted[0] != 0 || parted[1] != 0);
+    const bool switches = parts && newmark != j.newmark;
     if (turns || switches) follow_turn_drift(j, r, parted, newmark, last_h);
     r.turn_drifts |= switches;
     double most = 0;

@@ -170,6 +170,7 @@ std::string definitions_of(const Plan& plan, const Options& options) {
     const std::string text = read_text(options.scene.name);
     const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;
     if (is_rube(text)) return calibrated_rube(text, options.scene, as);
+    keep_input(options.scene.name, "--out", options.out);
     for (const PlannedJoint& joint : plan.joints)
       if (joint.end || joint.drive)
         fmt::print(stderr, "warning: {}: joint '{}' is written as R.U.B.E. has it: {}\n", options.scene.name,

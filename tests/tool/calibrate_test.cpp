@@ -129,6 +129,7 @@ TEST(CalibrateCommand, WritesNothingOverWhatItReads) {
       "<svg width='4m' height='1m' viewBox='0 0 4 1'><rect id='plate' width='4' height='1'/></svg>");
   for (const std::string& command :
        {"calibrate " + scene + " --to cpp --out " + scene, "calibrate " + scene + " --out " + scene,
+        "calibrate " + scene + " --to rube --out " + scene,
         "calibrate " + drawing + " --to scene --out " + drawing,
         "calibrate " + drawing + " --picture " + drawing, "check " + drawing + " --picture " + drawing,
         "simulate " + scene + " --time 0.1 --history " + scene,
