@@ -307,7 +307,7 @@ struct Component {
     }
   }
   void book_parts();
-  bool weaken_what_breaks();
+  bool weaken_what_breaks(bool may_weaken);
   void project(bool try_goal);
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);

@@ -271,25 +271,27 @@ void Component::next_velocity(const b2SolverData& data) {
   }
 }
 
-// Joints that break in this step hold until they do. A joint whose break somebody may veto holds through it.
-bool Component::weaken_what_breaks() {
-  if (!solver.struck() || !solver.any_flows()) return false;
+// Joints that break in this step hold until they do, and flow no farther. A joint whose break somebody may
+// veto holds through it.
+bool Component::weaken_what_breaks(bool may_weaken) {
+  constexpr double beyond = 1e-6;  // the limit, of the flow, which no rounding loses
+  if (!solver.any_flows()) return false;
   bool any = false;
   for (const Member* m : members) {
     const Joint& j = solver.joints[m->index];
     if (j.regime == 0 || m->broken || m->structure->events.veto) continue;
-    JointRecord& r = solver.records[m->index];
+    const JointRecord& r = solver.records[m->index];
     double share = 1;
     for (unsigned i = 0; i < 3; ++i) {
       if (!flows(j.regime, i) || !(j.G[i] > 0)) continue;
       const double slip = slip_of(j, r, i), left = m->limits.left(r.plastic, i, slip);
-      if (std::abs(slip) > left) share = std::min(share, std::max(left, 0.0) / std::abs(slip));
+      if (std::abs(slip) > left) share = std::min(share, std::max(left, 0.0) / std::abs(slip) + beyond);
     }
-    if (share < 0.95 * r.held) {
+    if (may_weaken && share < 0.95 * r.held) {
       solver.weaken(m->index, share);
       any = true;
-    } else if (r.held < 1) {
-      r.held = share;
+    } else if (share < 1 || r.held < 1) {
+      solver.hold(m->index, share);
     }
   }
   return any;
@@ -314,7 +316,7 @@ void Component::solve_direct() {
     solver.touch(outside_.links, outside_.contacts);
     solver.solve(solved);
   }
-  for (int pass = 0; pass < 3 && weaken_what_breaks(); ++pass) solver.solve(solved);
+  for (int pass = 0; weaken_what_breaks(pass < 3); ++pass) solver.solve(solved);
   report([&solved](Reports& r) {
     StepReport& step = r.step;
     ++step.solves;

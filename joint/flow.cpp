@@ -9,7 +9,8 @@
 namespace ductile::dynamics {
 
 double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
-  const double h = r.law.h, s = j.impulse[i];
+  // What breaks within the step holds at its cap until it does.
+  const double h = r.law.h, s = r.held < 1 ? impulse_at_yield(j, r, i) : j.impulse[i];
   const double e = strain_of_bias(j, i);
   const double rate = s / j.G[i] - j.bias[i];
   // Of a rated row the spring holds its force at the step's end (rate.h).
@@ -54,9 +55,10 @@ void flow(Joint& j, JointRecord& r, const Rows& gap, const StepLaws& laws, const
     }
     j.neutral[i] += increment;
     if (is_driven(r, i)) continue;
-    r.plastic.net[i] += increment;
-    (increment > 0 ? r.plastic.forward : r.plastic.back)[i] += std::abs(increment);
-    if (work >= 0) r.dissipated[i] += r.held * s / h * increment;
+    const double flowed = r.held * increment;
+    r.plastic.net[i] += flowed;
+    (increment > 0 ? r.plastic.forward : r.plastic.back)[i] += std::abs(flowed);
+    if (work >= 0) r.dissipated[i] += s / h * flowed;
     if (r.material.hardening[i] > 0) {
       // Isotropic: the slider of modulus H in series with the spring raises the cap in both directions.
       const double growth = r.material.slider_modulus(i, r.law.spring[i]) * std::abs(increment);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "blow.h"
 #include "drive.h"
 #include "objective.h"
 
@@ -57,6 +58,15 @@ void Ledger::open(const System& system, std::span<const Vec3> before, double h) 
     energies.numerical -= dot(returned_[i], system.bodies[i].v + before[i]) / 2;
 }
 
+namespace {
+
+// Of an implicit row: what flows did so at its cap, also where it held for a part of the step only.
+double force_after(const Joint& j, const JointRecord& r, unsigned i) {
+  return (flows(j.regime, i) ? impulse_at_yield(j, r, i) : j.impulse[i]) / r.law.h;
+}
+
+}  // namespace
+
 void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Rows& slip, const Rows& work) {
   const double h = r.law.h;
   for (unsigned i = 0; i < 3; ++i) {
@@ -72,7 +82,7 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
     const double third = r.law.third[i], m = (u + p) / 2;
     // Implicit rows store what their force stands for, and beside heavy dampers rows store no more: the gap
     // holds constraint drift, too.
-    const double half = e + u / 2, by_force = j.impulse[i] / (h * k);
+    const double half = e + u / 2, by_force = force_after(j, r, i) / k;
     const double after = is_implicit(r, i) ? by_force : within(e + u, by_force);
     const double unturned = third > 0 ? u - (j.moved[i] - p) / 2 : u;
     r.stored[i] = k / 2 *

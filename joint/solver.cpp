@@ -105,7 +105,13 @@ void Solver::strike(double closing) {
 
 void Solver::weaken(std::size_t joint, double share) {
   dynamics::weaken(joints[joint], records[joint], share);
+  weakened_ = true;
   newton_.forget();
+}
+
+void Solver::hold(std::size_t joint, double share) {
+  records[joint].held = share;
+  weakened_ = true;
 }
 
 void Solver::touch(std::span<const Link> links_now, std::span<const Contact> contacts_now) {
@@ -207,7 +213,8 @@ void Solver::advance() {
   }
   remember_turn_rates(*this, turned_);
   biases_known = true;
-  if (std::exchange(struck_, false)) close_blow(*this);
+  const bool weakened = std::exchange(weakened_, false);
+  if (std::exchange(struck_, false) || weakened) close_blow(*this);
   if (lower_caps(*this, laws_)) hessian_.forget();
 }
 

@@ -14,7 +14,8 @@
 //   keep_friction()  begin                              caps of friction are those of the last solve
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
 //                    push or weaken
-//   weaken(j, share) solve of a struck step             joint j breaks within it
+//   weaken(j, share) solve                              joint j breaks within the step
+//   hold(j, share)   solve                              so it does, or did, with the caps that it has
 //   scale(share)     solve                              all velocities to a share of them
 //   advance()        solve, scale                       poses move by h v, plastic flow is booked
 //   project(goal)    begin or advance                   the bodies follow a push, strained by none
@@ -80,9 +81,10 @@ class Solver : public System {
   double strained_by_blow() const { return dynamics::strained_by_blow(*this, before_blow_); }
   /// Of the step that advance() ended: see blow.h.
   const LeftOut& left_out() const { return left_out_; }
-  /// Of a blow: a joint breaks after this share of what the last solve lets it flow by (blow.h); solve()
-  /// again.
+  /// A joint breaks after this share of what the last solve lets it flow by (blow.h); solve() again.
   void weaken(std::size_t joint, double share);
+  /// So much of what it flows by is booked; the last solve stands.
+  void hold(std::size_t joint, double share);
   /// What else holds or touches bodies in this step, after begin() and before its first solve. `pairs` has
   /// them.
   void touch(std::span<const Link> links, std::span<const Contact> contacts);
@@ -160,6 +162,7 @@ class Solver : public System {
   Motion motion_;                // of the present step
   bool predicted_ = false;       // the next solve starts where prediction_ says
   bool struck_ = false;          // the present step is that of a blow
+  bool weakened_ = false;        // a joint breaks within the present step
   double closing_ = 0;           // whose fastest contact closes so fast, m/s
   LeftOut left_out_;             // of the last step
   bool keeps_friction_ = false;  // in the present step

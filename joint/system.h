@@ -152,7 +152,7 @@ struct JointRecord {
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Material material;
   Rows m_eff{};     // effective masses of the rows at rest, kg or kg m²
-  double held = 1;  // share of this step's flow before which the joint does not break
+  double held = 1;  // share of this step's flow after which the joint breaks
 
   void keep(Tape& tape) {
     tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, halts, plastic, dissipated,

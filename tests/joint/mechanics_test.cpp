@@ -613,6 +613,7 @@ TEST_P(BreakingJoint, BreaksWhereItsOwnMaximumIsExceeded) {
     structure.update();
   }
   EXPECT_GT(used, 1);
+  EXPECT_NEAR(used, 1, 1e-5);  // it flows no farther than to where it breaks
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, JointEvent::yield);
   EXPECT_EQ(events[1].kind, JointEvent::broke);
@@ -644,7 +645,7 @@ TEST_P(BreakingJoint, NoOtherMaximumBreaksIt) {
 }
 
 TEST_P(BreakingJoint, BackAndForthAccumulates) {
-  for (const auto any : all_limits) def.*any = 3 * limit;
+  for (const auto any : all_limits) def.*any = 4 * limit;
   const ElasticPlasticJoint* joint = structure.create_joint(def);
   int turns = 0;
   double sign = GetParam().sign, largest = 0, forward = 0, back = 0, last = 0;
@@ -657,7 +658,7 @@ TEST_P(BreakingJoint, BackAndForthAccumulates) {
     last = now;
     if (std::abs(now) > limit / 2 && now * sign > 0) sign = -sign, ++turns;
     const double accumulated = GetParam().row == axial ? std::max(forward, back) : forward + back;
-    EXPECT_NEAR(joint->capacity_used(), accumulated / (3 * limit), 1e-12);
+    EXPECT_NEAR(joint->capacity_used(), accumulated / (4 * limit), 1e-12);
     structure.update();
   }
   EXPECT_TRUE(structure.joints().empty());
