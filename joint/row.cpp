@@ -28,9 +28,9 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
     if (h * h * k < how.rigid_from * m_eff[i]) {
       c = 2 * material.damping_ratio[i] * std::sqrt(k * m_eff[i]) + material.damping[i];
       double of_damper = c / (k * h);
-      // Where bodies turn, J of u and v is right to first order only; a damper that is beyond what the row's
-      // own frequency lets the step resolve would store what that misses.
-      if (i < 2 && least < 1 && h * h * k > m_eff[i]) of_damper = std::min(of_damper, 1.0);
+      // Where bodies turn far, J of u and v is right to first order only; a damper that is beyond what the
+      // row's own frequency lets the step resolve would store what that misses.
+      if (i < 2 && least > 0 && least < 1 && h * h * k > m_eff[i]) of_damper = std::min(of_damper, 1.0);
       if (special(i)) of_damper = std::max(of_damper, special_delta);
       // Beside implicit Euler, the damper is one of its own.
       delta = least < 1 ? std::max(least, of_damper) : 1 + of_damper;

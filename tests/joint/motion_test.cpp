@@ -440,6 +440,49 @@ TEST(Motion, AFrameInResonanceYieldsAsInFineSteps) {
 }
 
 // However short an arm is, and so however slow, its hinge stops it at ½ I ω²/M_p.
+// The ratio of the first mode of n masses in a row, each on the line to the one before, with dampers c = τk:
+// ζ = ωτ/2 of ω = 2 √(k/m) sin(π/(4n + 2)).
+double ratio_of_lines(double frequency, double ratio, double rate) {
+  const int n = 80;
+  const double mass = 10, omega = 2 * pi * frequency;
+  const double angle = pi / (4 * n + 2), stiffness = mass * std::pow(omega / (2 * std::sin(angle)), 2);
+  b2World world({0, 0});
+  Structure structure(world);
+  b2Body* last = add_box(world, {.type = b2_staticBody});
+  std::vector<b2Body*> masses;
+  std::vector<double> mode;
+  for (int i = 1; i <= n; ++i) {
+    b2Body* body = add_box(world, {.x = 2.0 * i, .mass = mass});
+    ElasticPlasticJointDef line;
+    line.InitializeLine(last, body, last->GetWorldCenter(), body->GetWorldCenter());
+    line.rows[axial] = {.stiffness = stiffness, .damping = 2 * ratio / omega * stiffness};
+    structure.create_joint(line);
+    mode.push_back(std::sin(2 * i * angle));
+    body->SetLinearVelocity(vec(2 * mode.back(), 0));
+    masses.push_back(last = body);
+  }
+  std::vector<double> q{0, 0}, peaks;
+  const int periods = 6;
+  for (double t = 0; t < periods / frequency; t += 1 / rate) {
+    world.Step(static_cast<float>(1 / rate), 8, 3);
+    structure.update();
+    q.push_back(0);
+    for (std::size_t i = 0; i < mode.size(); ++i)
+      q.back() += mode[i] * (masses[i]->GetPosition().x - 2 * (static_cast<double>(i) + 1));
+    const double a = q[q.size() - 3], b = q[q.size() - 2], c = q.back();
+    if (b > a && b >= c) peaks.push_back(vertex(a, b, c));
+  }
+  EXPECT_GE(peaks.size(), 5u);
+  return damping_ratio(peaks[0], peaks[4], 4);
+}
+
+// Each of these lines alone would swing within a step, and its damper is heavier than a step resolves.
+TEST(Motion, WhatHangsOnLinesIsDampedAsAsked) {
+  for (const double rate : {30., 60., 120., 240., 480., 960.})
+    for (const double ratio : {0.05, 0.1})
+      EXPECT_NEAR(ratio_of_lines(1, ratio, rate), ratio, 0.02 * ratio) << rate << " Hz";
+}
+
 TEST(Motion, AShortArmThatIsSetTurningStopsAtItsWork) {
   for (const double length : {0.05, 0.3}) {
     for (const double rate : {0.3, 1.0, 6.0}) {
