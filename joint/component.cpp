@@ -168,6 +168,7 @@ void Component::admit(std::size_t first, std::size_t free_bodies) {
   }
   std::sort(solver.pairs.begin(), solver.pairs.end());
   solver.pairs.erase(std::unique(solver.pairs.begin(), solver.pairs.end()), solver.pairs.end());
+  groups_.clear();
   const auto was_solved = [](const Member* m) { return !m->own.fresh; };
   const auto joining = members.begin() + static_cast<std::ptrdiff_t>(first);
   const bool adapts = std::any_of(joining, members.end(), was_solved);  // its impulses, to the step
@@ -276,6 +277,7 @@ void Component::remove(Member& m) {
   members[m.index] = members.back();
   members[m.index]->index = m.index;
   members.pop_back();
+  groups_.clear();
   rest_ = Rest::none;
 }
 
@@ -321,6 +323,7 @@ void Component::keep(Tape& tape) {
   tape(origin, formed_of_, changed_, touched_, displaced_, struck_, jam_time_, rests, mirrors, parts_,
        solver);
   rest_ = rests ? Rest::expected : Rest::none;
+  if (tape.reads()) groups_.clear();
 }
 
 }  // namespace ductile::dynamics

@@ -178,10 +178,9 @@ struct Component {
     const auto stands = [&](int i) {
       const Mirror& m = mirrors[z(i)];
       const float speed = m.given.v.Length() + 2 * m.mass.gyration * std::abs(m.given.w);
-      return !m.guest() && h * speed < b2_linearSlop;
+      return !m.guest() && is_anchored(i) && h * speed < b2_linearSlop;
     };
     const auto is_fixed = [this](int i) { return mirrors[z(i)].type == b2_staticBody; };
-    if (outside_.touches.empty() || !is_anchored()) return;
     for (const Touch& t : outside_.touches) {
       const bool touches = !t.at_seam && !t.is_near();
       if (touches && ((stands(t.in_a) && is_fixed(t.in_b)) || (stands(t.in_b) && is_fixed(t.in_a))))
@@ -268,7 +267,10 @@ struct Component {
   void remember_blow();
   void return_ties();
   bool is_jammed() const;
-  bool is_anchored() const;
+  void find_groups();
+  bool is_anchored(int body) const {
+    return !solver.is_free(body) || groups_[z(groups_[z(body)].part_of)].anchored;
+  }
   void solve(const b2SolverData& data);
   void solve_direct();
   void move();
@@ -315,6 +317,14 @@ struct Component {
   Vector<std::pair<const b2Body*, int>> by_address_;  // bodies, and where they are in the solver
   Outside outside_;
   Vector<Struck> struck_contacts_;
+  // Free bodies that joints hold together, each of them a part of one, which knows whether what does not give
+  // holds all of them.
+  struct Group {
+    int part_of = 0;
+    bool anchored = false;
+  };
+  Vector<Group> groups_;                   // of the free bodies; none: they are to be found
+  bool ties_in_groups_ = false;            // stock joints, which come and go
   Vector<Pose> goal_;                      // of a projection
   std::size_t formed_of_;                  // so many joints
   std::size_t changed_ = 0, touched_ = 0;  // since then: joints that left or came; pairs of bodies that came

@@ -200,7 +200,7 @@ void Component::read_touches() {
 // be brought back. So it would be from what does not move: skins may overlap there, as they do where a
 // structure was made flush with a wall.
 void Component::return_contacts() {
-  const bool anchored = is_anchored();
+  if (groups_.empty() && !outside_.touches.empty()) find_groups();
   auto row = solver.contacts.begin();
   for (const Touch& t : outside_.touches) {
     if (t.at_seam) {
@@ -219,10 +219,11 @@ void Component::return_contacts() {
     settle(*t.velocity);
     const Mirror &a = mirrors[z(t.in_a)], &b = mirrors[z(t.in_b)];
     const auto yields = [](const Mirror& m) { return m.guest() && m.type == b2_dynamicBody; };
-    if (anchored && !a.guest() && yields(b)) hold_a(*t.position);
-    if (anchored && !b.guest() && yields(a)) hold_b(*t.position);
+    const bool anchored_a = !a.guest() && is_anchored(t.in_a), anchored_b = !b.guest() && is_anchored(t.in_b);
+    if (anchored_a && yields(b)) hold_a(*t.position);
+    if (anchored_b && yields(a)) hold_b(*t.position);
     const auto stands = [](const Mirror& m) { return m.type != b2_dynamicBody; };
-    if (anchored && ((!a.guest() && stands(b)) || (!b.guest() && stands(a)))) let_skins_overlap(*t.position);
+    if ((anchored_a && stands(b)) || (anchored_b && stands(a))) let_skins_overlap(*t.position);
   }
 }
 

@@ -1,10 +1,12 @@
 // Stock joints of a step as rows of a component: read from Box2D, and given back to it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "component.h"
 #include "frames.h"
 #include "structure.h"
+#include "whole.h"
 
 namespace ductile::dynamics {
 
@@ -60,6 +62,7 @@ void Component::set_ties_aside(const b2SolverData& data) {
 // As one of so many parts of a step.
 void Component::enter_ties(int parts) {
   outside_.links.clear();
+  if (std::exchange(ties_in_groups_, !outside_.ties.empty()) || ties_in_groups_) groups_.clear();
   const b2Vec2 near = origin.in_floats();
   // What also touches something may be unable to close its gaps. Rows that went on to ask for it would press
   // harder in each step, without end; Box2D's iterations of positions do not press.
@@ -112,13 +115,26 @@ bool Component::is_held() const {
                      [](const Mirror& m) { return !m.guest(); });
 }
 
-// Whether what does not give holds a body of the structure.
-bool Component::is_anchored() const {
-  const auto anchors = [this](const StockJoint& t) {
-    return t.rows.near && t.rows.count > 0 && (!solver.is_free(t.in_a) || !solver.is_free(t.in_b)) &&
-           !(mirrors[z(t.in_a)].guest() && mirrors[z(t.in_b)].guest()) && t.joint->GetType() != e_mouseJoint;
+// What the structures' joints and stock joints hold together, and whether what does not give holds it.
+void Component::find_groups() {
+  groups_.resize(solver.free_bodies());
+  for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i] = {.part_of = static_cast<int>(i)};
+  const auto hold = [this](int a, int b) {
+    if (!solver.is_free(a) && !solver.is_free(b)) return;
+    if (!solver.is_free(a)) std::swap(a, b);
+    const int root = root_of(groups_, a);
+    if (!solver.is_free(b)) {
+      groups_[z(root)].anchored = true;
+      return;
+    }
+    const int other = root_of(groups_, b);
+    groups_[z(other)].anchored |= groups_[z(root)].anchored;
+    groups_[z(root)].part_of = other;
   };
-  return is_held() || std::any_of(outside_.ties.begin(), outside_.ties.end(), anchors);
+  for (const Joint& j : solver.own_joints()) hold(j.a, j.b);
+  for (const StockJoint& t : outside_.ties)
+    if (t.rows.near && t.rows.count > 0 && t.joint->GetType() != e_mouseJoint) hold(t.in_a, t.in_b);
+  for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i].part_of = root_of(groups_, static_cast<int>(i));
 }
 
 }  // namespace ductile::dynamics
