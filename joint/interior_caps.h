@@ -113,7 +113,7 @@ class CappedRows {
     for (unsigned i = 0; i < 3; ++i) {
       Row& r = rows_[i];
       const Pair products = r.z * r.p;
-      d.products += products[0] + products[1];
+      d.products += std::abs(products[0]) + std::abs(products[1]);
       if (r.G == 0) continue;
       r.lack = x[i] - r.s * r.compliance - (r.z[0] - r.z[1]) - (i == 0 ? parting() : 0);
       d.lack += r.G * r.lack * r.lack / 2;
@@ -163,6 +163,36 @@ class CappedRows {
     }
   }
 
+  // interior_settle.cpp
+  /// Takes for active what a direction brings to p = 0 sooner than to z = 0; returns how many bounds are
+  /// others than those of the last time.
+  int recognise();
+  /// p of impulses and caps as they are. By its changes alone it would not know what impulses have lost of
+  /// their last bits on a detour by what a rigid row made of a bound that was wrong.
+  void renew(const RowLaw& law);
+  /// D where active bounds are met, p = 0, and all others have z = 0.
+  Coupling hold_active();
+  /// After hold_active(): ds₁/dx₀, as follows().
+  double follows_active() const { return -friction_ * rows_[1].sign() * rows_[0].D; }
+  /// The direction to there, where the rows' velocities change by so much; Δs.
+  Rows settle(const Rows& change);
+  /// After a whole step along it: an active bound with z < 0 is none, and another with p < 0 is one. Returns
+  /// how many such there were.
+  int correct_active();
+  /// What move() changes.
+  struct State {
+    std::array<Pair, 3> p, z;
+    Rows s;
+  };
+  State state() const {
+    State now;
+    for (unsigned i = 0; i < 3; ++i) now.p[i] = rows_[i].p, now.z[i] = rows_[i].z, now.s[i] = rows_[i].s;
+    return now;
+  }
+  void restore(const State& to) {
+    for (unsigned i = 0; i < 3; ++i) rows_[i].p = to.p[i], rows_[i].z = to.z[i], rows_[i].s = to.s[i];
+  }
+
   void move(double step) {
     for (Row& r : rows_) {
       r.s += step * r.ds;
@@ -184,8 +214,11 @@ class CappedRows {
 
  private:
   static constexpr double far = 1e300;
+  static constexpr int none = -1;
   using Two = std::tuple<double, double>;
 
+  // Of a contact that is to be open, and has no friction.
+  bool is_open() const { return friction_ > 0 && rows_[0].is_active(); }
   double parting() const { return parts_ ? friction_ * (rows_[1].z[0] + rows_[1].z[1] - slip_) : 0; }
   Coupling eliminate_both() {
     const Row &n = rows_[0], &t = rows_[1];
@@ -237,6 +270,10 @@ class CappedRows {
     double G = 0, compliance = 0, hardening = 0;
     double give = 0;       // compliance in a round
     double last_bits = 0;  // times s²: what rounding of s makes of the gap
+    int active = none;     // the side of its active cap
+
+    bool is_active() const { return active != none; }
+    double sign() const { return active == 0 ? 1 : active == 1 ? -1 : 0; }
   };
   std::array<Row, 3> rows_;
   double friction_ = 0;         // μ, where row 1 follows row 0

@@ -56,6 +56,7 @@ void InteriorPoint::form(const System& system) {
   turns_.reserve(system.turn_inertias.capacity());
   impulses_.reserve(room);
   best_.reserve(room);
+  kept_.reserve(room);
   d_.assign(system.bodies.size(), {});
   rows_.assign(most + 4, {});
   order_.assign(most + 4, 0);
@@ -158,13 +159,6 @@ void InteriorPoint::open_friction(System& system) {
   }
 }
 
-// Calls act(k, μ) for each contact's row k that has friction.
-template <class Act>
-void InteriorPoint::each_friction(const System& system, const Act& act) {
-  for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k)
-    if (system.joints[k].G[1] > 0) act(k, system.contacts[k - system.first_contact()].friction);
-}
-
 // f − min f is at most Σ z p + ½ Σ G lack² (Fenchel's inequality, joint by joint).
 Distance InteriorPoint::measure(const System& system) {
   Distance d;
@@ -218,11 +212,24 @@ void InteriorPoint::factor(System& system, Hessian& hessian, bool follows) {
     system.records[k].tangent =
         surface_of_[k] < 0 ? caps_[k].eliminate() : surfaces_[z(surface_of_[k])].eliminate({rows_, order_});
   }
-  if (!follows) return hessian.factor_given(system);
-  follows_.assign(system.contacts.size(), 0);
-  each_friction(system,
-                [&](std::size_t k, double) { follows_[k - system.first_contact()] = caps_[k].follows(); });
-  hessian.factor_following(system, follows_);
+  factor_tangents(system, hessian, follows, [](const CappedRows& rows) { return rows.follows(); });
+}
+
+// From what the rows of joints ask for in d_ what velocities change by, and what that means for turn rows.
+void InteriorPoint::answer(const System& system, const Hessian& hessian, bool follows) {
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const TurnInertia& t = system.turn_inertias[k];
+    t.add(-t.inertia * turns_[k].lack, d_[z(t.a)], d_[z(t.b)]);
+  }
+  for (std::size_t i = 0; i < d_.size(); ++i) {
+    if (i >= system.free) d_[i] = {};
+    if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
+  }
+  follows ? hessian.solve_following({d_.data(), system.free}) : hessian.solve({d_.data(), system.free});
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const TurnInertia& t = system.turn_inertias[k];
+    turns_[k].ds = t.inertia * (turns_[k].lack + t.rate_of(d_[z(t.a)], d_[z(t.b)]));
+  }
 }
 
 // Newton's step for z p = μ, with so much of the second-order term Δz Δp of the last direction. Unknowns are
@@ -236,24 +243,12 @@ Direction InteriorPoint::find_direction(const System& system, const Hessian& hes
     const Rows ds = rows.aim(mu, second_order);
     add_transposed(j, {-ds[0], -ds[1], -ds[2]}, d_[z(j.a)], d_[z(j.b)]);
   });
-  for (std::size_t k = 0; k < turns_.size(); ++k) {
-    const TurnInertia& t = system.turn_inertias[k];
-    t.add(-t.inertia * turns_[k].lack, d_[z(t.a)], d_[z(t.b)]);
-  }
-  for (std::size_t i = 0; i < d_.size(); ++i) {
-    if (i >= system.free) d_[i] = {};
-    if (system.bodies[i].inverse_inertia == 0) d_[i].w = 0;
-  }
-  follows ? hessian.solve_following({d_.data(), system.free}) : hessian.solve({d_.data(), system.free});
+  answer(system, hessian, follows);
   Direction direction;
   each([&](std::size_t k, auto& rows) {
     const Joint& j = system.joints[k];
     rows.direct(relative_velocity(j, d_[z(j.a)], d_[z(j.b)]), direction);
   });
-  for (std::size_t k = 0; k < turns_.size(); ++k) {
-    const TurnInertia& t = system.turn_inertias[k];
-    turns_[k].ds = t.inertia * (turns_[k].lack + t.rate_of(d_[z(t.a)], d_[z(t.b)]));
-  }
   return direction;
 }
 
@@ -326,7 +321,9 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
   int short_steps = 0;                                // one after the other
   double last_lack = infinity;
   const double first_scale = scale;
-  int slip_rounds = 0;  // in which what slides parts, but for its slip in the same round
+  bool parts = !surfaces_.empty();  // of rows whose bounds settle() does not know
+  int settles_from = 0;             // this round on
+  int slip_rounds = 0;              // in which what slides parts, but for its slip in the same round
   for (int round = 0, idle = 0, careful = 0;; ++round) {
     if (slip_rounds > 0) {
       slip_rounds = earlier[1] > tunables.slip_goal * scale ? slip_rounds - 1 : 0;
@@ -366,13 +363,26 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     if (follows && (ends || halts || now.lack > 4 * last_lack + tunables.tolerance * scale)) {
       if (scale > 10 * first_scale) return false;
       follows = false;
+      parts |= !ends;
       slip_rounds = ends ? 0 : tunables.slip_rounds;
-      each_friction(system,
-                    [&](std::size_t k, double) { ends ? caps_[k].stop_following() : caps_[k].part(); });
+      each_friction(system, [&](std::size_t k, double) {
+        if (!ends) return caps_[k].part();
+        set_friction(system.joints[k], system.records[k], caps_[k].friction());
+        caps_[k].stop_following();
+      });
       outcome.gap = infinity;
       idle = 0;
     }
     last_lack = now.lack;
+
+    if (round > 0 && round >= settles_from && !parts && now.gap() <= tunables.settle_gap * scale &&
+        static_cast<double>(others_) <= tunables.settle_share * static_cast<double>(caps_.size())) {
+      if (settle(system, hessian, follows, outcome.factorisations)) {
+        scale = balance(system);
+        continue;
+      }
+      settles_from = round + tunables.settle_pause;
+    }
 
     factor(system, hessian, follows);
     ++outcome.factorisations;
@@ -399,6 +409,8 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
     const double step = corrector.step_within(reach);
     short_steps = step < 0.1 ? short_steps + 1 : 0;
     if (step > 0.9) careful = 0;
+    others_ = 0;
+    for (CappedRows& rows : caps_) others_ += rows.recognise();
     move(step);
     scale = balance(system);
   }
@@ -484,7 +496,8 @@ std::size_t InteriorPoint::bytes() const {
   return caps_.capacity() * sizeof(CappedRows) + surfaces_.capacity() * sizeof(SurfaceRows) +
          bounds_.capacity() * sizeof(SurfaceRows::Bound) + surface_of_.capacity() * sizeof(int) +
          (impulses_.capacity() + best_.capacity()) * sizeof(Rows) + d_.capacity() * sizeof(Vec3) +
-         rows_.capacity() * sizeof(Row4) + order_.capacity() * sizeof(std::size_t);
+         kept_.capacity() * sizeof(CappedRows::State) + rows_.capacity() * sizeof(Row4) +
+         order_.capacity() * sizeof(std::size_t);
 }
 
 }  // namespace ductile::dynamics

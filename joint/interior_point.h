@@ -35,12 +35,19 @@ struct InteriorPointTunables {
   double tolerance = 1e-12;
   /// Share of the bounds that the impulses of the last step are drawn within: further out, the first rounds
   /// go but small steps.
-  double inside = 0.9;
+  double inside = 0.7;
   /// Mean of z p at the start as a share of the work that is asked for.
   double start = 1;
   /// Likewise with contacts: with less, those that open let the first rounds go but small steps, one after
   /// the other.
-  double contact_start = 5;
+  double contact_start = 2;
+  /// Likewise: the gap from which settle() is tried. From further out it finds as many joints to be wrong as
+  /// rounds would have told apart.
+  double settle_gap = 1e-3;
+  /// As long as the last round changed its mind about no more than this share of the joints.
+  double settle_share = 0.03;
+  /// Rounds until it is tried again.
+  int settle_pause = 2;
   /// Rounds without gain, where all that is left is lack, after which rounding is asked for what it may make
   /// of all impulses together.
   int idle_rounds = 8;
@@ -82,15 +89,31 @@ class InteriorPoint {
   void moderate_start(const System& system);
   bool start(const System& system);
   void open_friction(System& system);
+  /// Calls act(k, μ) for each contact's row k that has friction.
   template <class Act>
-  void each_friction(const System& system, const Act& act);
+  void each_friction(const System& system, const Act& act) {
+    for (std::size_t k = system.first_contact(); k < system.joints.size(); ++k)
+      if (system.joints[k].G[1] > 0) act(k, system.contacts[k - system.first_contact()].friction);
+  }
+  /// The records' tangents, and ds₁/dx₀ of the contacts where friction follows.
+  template <class Follows>
+  void factor_tangents(const System& system, Hessian& hessian, bool follows, const Follows& of) {
+    if (!follows) return hessian.factor_given(system);
+    follows_.assign(system.contacts.size(), 0);
+    each_friction(system,
+                  [&](std::size_t k, double) { follows_[k - system.first_contact()] = of(caps_[k]); });
+    hessian.factor_following(system, follows_);
+  }
   double balance(System& system);
   Distance measure(const System& system);
   double rounding_of_best(const System& system);
   void factor(System& system, Hessian& hessian, bool follows);
   Direction find_direction(const System& system, const Hessian& hessian, double mu, double second_order,
                            bool follows);
+  void answer(const System& system, const Hessian& hessian, bool follows);
   void move(double step);
+  bool settle(System& system, Hessian& hessian, bool follows, int& factorisations);
+  int step_to_active(System& system, const Hessian& hessian, bool follows);
   double share_without_gain(System& system);
   void finish(System& system, bool reached, Evaluation& at);
 
@@ -115,11 +138,13 @@ class InteriorPoint {
   /// the rate w.
   struct TurnRow {
     double s = 0, ds = 0, lack = 0;  // N m s, N m s, rad/s
-    double best = 0;
+    double best = 0, kept = 0;       // the best so far, and as kept_
   };
   Vector<TurnRow> turns_;  // of the system's turn inertias
   bool start_known_ = false, follows_friction_ = true;
-  Vector<double> follows_;  // of the contacts: CappedRows::follows()
+  Vector<double> follows_;          // of the contacts: CappedRows::follows()
+  Vector<CappedRows::State> kept_;  // of the rows of all joints, should settle() lead nowhere
+  int others_ = 0;  // bounds that the last round found to be active, or not, unlike the one before
   Vector<Vec3> d_;
   Vector<Row4> rows_;
   Vector<std::size_t> order_;

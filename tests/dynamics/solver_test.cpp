@@ -74,6 +74,7 @@ struct Line {
     solver.tunables().flow_rounds = rounds < 100 ? 0 : 5;
     solver.tunables().round_bound = rounds < 100 ? 1 : 100;
     solver.interior_point_tunables().round_bound = rounds;
+    solver.interior_point_tunables().settle_gap = rounds < 100 ? 0 : 1e-3;  // which ends before the bound
   }
   SolveReport step(double h) {
     SolveReport report;
