@@ -439,7 +439,6 @@ TEST(Motion, AFrameInResonanceYieldsAsInFineSteps) {
   EXPECT_NEAR(plastic_work(60), fine, 0.05 * fine);
 }
 
-// However short an arm is, and so however slow, its hinge stops it at ½ I ω²/M_p.
 // The ratio of the first mode of n masses in a row, each on the line to the one before, with dampers c = τk:
 // ζ = ωτ/2 of ω = 2 √(k/m) sin(π/(4n + 2)).
 double ratio_of_lines(double frequency, double ratio, double rate) {
@@ -483,6 +482,7 @@ TEST(Motion, WhatHangsOnLinesIsDampedAsAsked) {
       EXPECT_NEAR(ratio_of_lines(1, ratio, rate), ratio, 0.02 * ratio) << rate << " Hz";
 }
 
+// However short an arm is, and so however slow, its hinge stops it at ½ I ω²/M_p.
 TEST(Motion, AShortArmThatIsSetTurningStopsAtItsWork) {
   for (const double length : {0.05, 0.3}) {
     for (const double rate : {0.3, 1.0, 6.0}) {
