@@ -108,6 +108,7 @@ struct Component {
     bool open = false;         // until close_ledger()
     Vector<b2Velocity> began;  // before gravity
     Vector<Vec3> lost;         // what limit_speed() took since: may be far more than what is left
+    double lost_in_parts = 0;  // J, by limit_speed_in_part()
   };
 
   /// Of these joints, and of what touches their bodies. Where the order of elimination is given, it has all
@@ -271,6 +272,8 @@ struct Component {
   bool is_anchored(int body) const {
     return !solver.is_free(body) || groups_[z(groups_[z(body)].part_of)].anchored;
   }
+  double share_within_limits(double h) const;
+  void limit_speed_in_part();
   void solve(const b2SolverData& data);
   void solve_direct();
   void move();

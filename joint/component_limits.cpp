@@ -10,17 +10,29 @@
 
 namespace ductile::dynamics {
 
+namespace {
+
+constexpr double just_within = 1 - 1e-5;  // Box2D shall have nothing left to do
+
+// Of a speed, so that a body goes no further than the limit.
+double share_allowed(double limit, double way) { return std::min(1.0, just_within * limit / way); }
+
+}  // namespace
+
+// Of all velocities, so that no body goes further than the limits in so many seconds.
+double Component::share_within_limits(double h) const {
+  return std::min(share_allowed(b2_maxTranslation, h * solver.fastest()),
+                  share_allowed(b2_maxRotation, h * solver.fastest_turn()));
+}
+
 // Box2D moves a body by no more than 2 m and π/2 a step, each for itself, which would tear at the joints. So
 // what is too fast is slowed here, where the joints can still answer to it; what is too fast after that, all
 // together. So is what gets much faster by it: joints may give one body more than was taken from another, and
 // more again in each pass.
 void Component::limit_speed(const b2SolverData& data) {
   if (!direct()) return;
-  constexpr double rounding = 1 - 1e-5;  // Box2D shall have nothing left to do
-  constexpr double most_answered = 4;    // times the kinetic energy that there was
-  const auto share = [&](double limit, double speed) {
-    return std::min(1.0, rounding * limit / (solver.step() * speed));
-  };
+  constexpr double most_answered = 4;  // times the kinetic energy that there was
+  const double h = solver.step();
   const auto kinetic = [&] {
     double sum = 0;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -34,8 +46,7 @@ void Component::limit_speed(const b2SolverData& data) {
   };
   double before = 0;
   for (int pass = 0;; ++pass) {
-    const double least =
-        std::min(share(b2_maxTranslation, solver.fastest()), share(b2_maxRotation, solver.fastest_turn()));
+    const double least = share_within_limits(h);
     if (least == 1) {
       if (pass > 0) slow(1 - kinetic() / before);
       return;
@@ -52,8 +63,8 @@ void Component::limit_speed(const b2SolverData& data) {
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       Body& b = solver.bodies[i];
       const double linear =
-          together ? least : share(b2_maxTranslation, std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
-      const double angular = together ? least : share(b2_maxRotation, std::abs(b.v.w));
+          together ? least : share_allowed(b2_maxTranslation, h * std::sqrt(b.v.x * b.v.x + b.v.y * b.v.y));
+      const double angular = together ? least : share_allowed(b2_maxRotation, h * std::abs(b.v.w));
       const Vec3 less{(1 - linear) * b.v.x, (1 - linear) * b.v.y, (1 - angular) * b.v.w};
       account.lost[i] += into_world(solver.places[i].turn, less);
       if (together) continue;
@@ -69,10 +80,24 @@ void Component::limit_speed(const b2SolverData& data) {
   }
 }
 
+// What a step is solved in parts gets no faster in these, either: from part to part it would, without bound,
+// where a body spins so fast that one turns it far. All of it is slowed together.
+void Component::limit_speed_in_part() {
+  const double share = share_within_limits(parts_.count * solver.step());
+  if (share == 1) return;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Body& b = solver.bodies[i];
+    if (mirrors[i].guest()) continue;
+    account.lost_in_parts += (1 - share) * dot(momentum(b, b.v), solver.before[i] + share * b.v) / 2;
+  }
+  solver.scale(share);
+  report([share](Reports& r) { r.step.slowed = std::max(r.step.slowed, 1 - share * share); });
+}
+
 double Component::close_ledger() {
   if (!std::exchange(account.open, false)) return 0;
   const float h = static_cast<float>(solver.step());
-  double clamped = 0;
+  double clamped = std::exchange(account.lost_in_parts, 0);
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const Mirror& m = mirrors[i];
     solver.before[i] = {};

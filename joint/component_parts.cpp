@@ -375,6 +375,7 @@ void Component::solve_part(double h, bool first, bool blow) {
     solver.keep_friction();
   }
   solve_direct();
+  limit_speed_in_part();
 
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
     Parts::OfContact& sum = parts_.sums[k];
