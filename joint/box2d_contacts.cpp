@@ -92,6 +92,14 @@ bool IslandContacts::is_followed(const b2Body& body) const {
   return body.GetType() == b2_dynamicBody && marks_[place_of(body)] == followed;
 }
 
+// As b2ClipSegmentToLine tells it.
+bool is_end_of_face(const b2Manifold& manifold, const b2ManifoldPoint& point) {
+  const b2ContactFeature& f = point.id.cf;
+  const bool of_a = manifold.type == b2Manifold::e_faceA;
+  return manifold.type != b2Manifold::e_circles && (of_a ? f.typeA : f.typeB) == b2ContactFeature::e_vertex &&
+         (of_a ? f.typeB : f.typeA) == b2ContactFeature::e_face;
+}
+
 std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along) {
   float first = b2_maxFloat, last = -b2_maxFloat;
   for (int32 i = 0; i < polygon.m_count; ++i) {

@@ -144,6 +144,10 @@ b2Vec2 slide(const Touch& touch, float h);
 /// PostSolve of points that did not touch when the step began.
 void tell_of_near(const Touch& touch);
 
+/// Whether a point of a manifold is an end of the face that its normal is of: a corner of that face's body,
+/// on the other's face.
+bool is_end_of_face(const b2Manifold& manifold, const b2ManifoldPoint& point);
+
 /// From where to where a polygon and its skin reach in a direction.
 std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along);
 

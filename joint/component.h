@@ -279,6 +279,7 @@ struct Component {
   void move();
   // component_parts.cpp
   std::size_t cost_of_parts() const;  // in bodies
+  int parts_of(double h) const;
   bool may_divide(const b2SolverData& data) const;
   bool goes_on_in_parts(const b2SolverData& data) const;
   bool is_strained() const;
@@ -295,6 +296,7 @@ struct Component {
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
   void begin_parts();
+  float goes_with_b(const Touch& touch, const PointConstraint& point) const;
   bool is_beside(const Touch& touch, const PointConstraint& point) const;
   void carry_arms();
   void solve_part(double h, bool first, bool blow);

@@ -31,9 +31,11 @@ constexpr double most_turn_of_normals = 0.5;  // rad in a step
 constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given back where parts end
 
 // A step of 1/60 s in parts costs as much as 32 whole ones. Where bodies jam, a pair that touches costs as
-// much as eight bodies do. The sum over all that a structure solves in parts in one step is bounded; the rest
-// has whole steps.
-constexpr std::size_t bodies_per_touch = 8, most_in_parts = 240;
+// much as eight bodies do. The sum over all that a structure solves in parts in one step is bounded: what is
+// more than that is divided by 2 or 4 times as long parts, and the rest has whole steps.
+constexpr std::size_t bodies_per_touch = 8;
+constexpr double most_in_parts = 240;
+constexpr int longest_part = 4;  // in shortest ones
 
 // A push as weak as what its body goes on without, or weaker, is told as so many times what it is, at most.
 constexpr double most_told = 4;
@@ -77,6 +79,17 @@ std::size_t Component::cost_of_parts() const {
   return solver.bodies.size() + bodies_per_touch * outside_.touches.size();
 }
 
+// Into how many parts a step may be divided; 1 where that would cost too much.
+int Component::parts_of(double h) const {
+  double left = most_in_parts;
+  for (const Structure::Impl* s : structures) left = std::min(left, most_in_parts - s->reports.in_parts);
+  const auto cost = static_cast<double>(cost_of_parts());
+  const int most = static_cast<int>(std::lround(h / part));
+  for (int longer = 1; longer <= longest_part && most >= 2 * longer; longer *= 2)
+    if (cost <= longer * left) return most / longer;
+  return 1;
+}
+
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
   // Of supports that are there; one alone may turn.
@@ -87,17 +100,14 @@ bool Component::may_divide(const b2SolverData& data) const {
     const Vec3 apart = m.exact - first->exact;
     return &m == first || (dot(apart, apart) == 0 && m.exact.w == 0);
   };
-  const auto has_room = [this](const Structure::Impl* s) {
-    return s->reports.in_parts + cost_of_parts() <= most_in_parts;
-  };
   // A distance joint has no rows where its two anchors are one.
   const auto has_rows = [](const StockJoint& t) { return t.rows.count > 0; };
   return coupling_ != Coupling::partly && std::all_of(outside_.ties.begin(), outside_.ties.end(), has_rows) &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      moves_alike) &&
-         !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 && h > 1.5 * part &&
-         std::all_of(structures.begin(), structures.end(), has_room) &&
-         h * solver.fastest() < b2_maxTranslation && h * solver.fastest_turn() < b2_maxRotation;
+         !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 &&
+         parts_of(h) > 1 && h * solver.fastest() < b2_maxTranslation &&
+         h * solver.fastest_turn() < b2_maxRotation;
 }
 
 bool Component::goes_on_in_parts(const b2SolverData& data) const {
@@ -240,8 +250,8 @@ bool Component::normals_held() const {
 
 void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   const bool hard = parts_.count == 1 || (blow && strikes_hard());
+  const int count = parts_of(data.step.dt);
   const std::size_t cost = cost_of_parts();
-  const int count = std::max(2, static_cast<int>(std::lround(data.step.dt / part)));
   const double h = double{data.step.dt} / count;
   if (parts_.count != count) {
     if (parts_.count > 1) solver.unite(parts_.count);
@@ -259,9 +269,10 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   end_parts(data);
   parts_.advanced = true;
   if (blow_) remember_blow();
-  report([cost](Reports& r) {
+  const double share = part / h;
+  report([cost, share](Reports& r) {
     ++r.step.divided;
-    r.in_parts += cost;
+    r.in_parts += share * static_cast<double>(cost);
   });
 }
 
@@ -303,13 +314,26 @@ void Component::begin_parts() {
   }
 }
 
+// Whether a point goes with a corner or circle of body a, b or, of two circles, neither.
+float Component::goes_with_b(const Touch& t, const PointConstraint& p) const {
+  const b2Manifold& m = *t.manifold;
+  if (m.type == b2Manifold::e_circles) return 0.5f;
+  return (m.type == b2Manifold::e_faceA) != is_end_of_face(m, m.points[&p - t.velocity->points]) ? 1.0f
+                                                                                                 : 0.0f;
+}
+
 // Whether a point is beyond the end of the face that it touches: it has slid off that, or is not there yet.
 bool Component::is_beside(const Touch& t, const PointConstraint& p) const {
+  const float with_b = goes_with_b(t, p);
+  if (with_b == 0.5f) return false;
+  const bool on_a = with_b == 1;
   const b2Manifold& m = *t.manifold;
-  if (m.type == b2Manifold::e_circles) return false;
-  return m.type == b2Manifold::e_faceA
-             ? is_beyond(*t.contact->GetFixtureA(), m.localNormal, p.ra, solver.places[z(t.in_a)].pose.angle)
-             : is_beyond(*t.contact->GetFixtureB(), m.localNormal, p.rb, solver.places[z(t.in_b)].pose.angle);
+  const double angle = solver.places[z(on_a ? t.in_a : t.in_b)].pose.angle;
+  const b2Vec2 normal = on_a == (m.type == b2Manifold::e_faceA)
+                            ? m.localNormal
+                            : b2MulT(b2Rot(static_cast<float>(angle)), t.velocity->normal);
+  return is_beyond(on_a ? *t.contact->GetFixtureA() : *t.contact->GetFixtureB(), normal, on_a ? p.ra : p.rb,
+                   angle);
 }
 
 // A contact's two impulses act at one point, or friction would take angular momentum as bodies slide: it goes
@@ -318,8 +342,7 @@ void Component::carry_arms() {
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Pose &a = solver.places[z(t.in_a)].pose, &b = solver.places[z(t.in_b)].pose;
     const b2Vec2 apart = b2Vec2(static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)) + p.rb - p.ra;
-    const b2Manifold::Type type = t.manifold->type;
-    const float share = type == b2Manifold::e_faceA ? 1.0f : type == b2Manifold::e_faceB ? 0.0f : 0.5f;
+    const float share = goes_with_b(t, p);
     p.ra += share * apart;
     p.rb -= (1 - share) * apart;
     parts_.sums[k].beside = is_beside(t, p);

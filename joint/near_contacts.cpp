@@ -4,6 +4,9 @@
 // Its listener is asked by PreSolve before, and told by PostSolve after, though the contact begins in the
 // next step.
 //
+// A tilted polygon would be met by its own face, which is nearer to the next piece than that piece's; so the
+// two are looked at from as far away as they may come nearer, along the normal of the touch that there is.
+//
 // What slides along pieces would be caught by the next one's corner, as manifolds keep their normals in a
 // step: its points are those of where it slides to, on faces that go on as the one that it touches does.
 #include <algorithm>
@@ -43,15 +46,23 @@ bool cut_to(const b2Fixture& face, const b2Transform& to_face, b2Manifold& m) {
   if (std::max(at[0], at[1]) < first || std::min(at[0], at[1]) > last) return false;
   for (int k = 0; k < 2; ++k) {
     const float missing = b2Clamp(at[k], first, last) - at[k];
-    if (missing != 0) m.points[k].localPoint += missing / (at[1 - k] - at[k]) * (ends[1 - k] - ends[k]);
+    if (missing == 0) continue;
+    m.points[k].localPoint += missing / (at[1 - k] - at[k]) * (ends[1 - k] - ends[k]);
+    b2ContactFeature& f = m.points[k].id.cf;
+    f.typeA = m.type == b2Manifold::e_faceA ? b2ContactFeature::e_vertex : b2ContactFeature::e_face;
+    f.typeB = m.type == b2Manifold::e_faceA ? b2ContactFeature::e_face : b2ContactFeature::e_vertex;
   }
   return true;
 }
 
-// The cosine between points' normal and the way that a touch of one of the two bodies faces.
-float faces(const b2Vec2& normal, const Touch& touch, const b2Body& a, const b2Body& b) {
-  const float along = b2Dot(normal, touch.velocity->normal);
-  return touch.a() == &a || touch.b() == &b ? along : -along;
+bool are_polygons(const b2Fixture& a, const b2Fixture& b) {
+  return a.GetType() == b2Shape::e_polygon && b.GetType() == b2Shape::e_polygon;
+}
+
+// The normal of a touch of one of the two bodies, as if it were between them.
+b2Vec2 normal_of(const Touch& touch, const b2Body& a, const b2Body& b) {
+  const b2Vec2& n = touch.velocity->normal;
+  return touch.a() == &a || touch.b() == &b ? n : -n;
 }
 
 // Whether one of so many points strikes within h seconds, and does not slide along what it meets; or is
@@ -131,10 +142,13 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
   if (touching == b2_maxManifoldPoints || is_known || near_count_ == near_.size()) return;
   Near& near = near_[near_count_];
   const float radius = fb.GetShape()->m_radius;
-  fb.GetShape()->m_radius = radius + std::min(way_of(contact, h) + h * driven, b2_maxTranslation);
+  const float way = std::min(way_of(contact, h) + h * driven, b2_maxTranslation);
+  const b2Vec2 lift = touch != nullptr && are_polygons(fa, fb) ? way * normal_of(*touch, a, b) : b2Vec2_zero;
+  fb.GetShape()->m_radius = radius + way + lift.Length();
   const b2Transform& at_a = a.GetTransform();
   b2Transform at_b = b.GetTransform();
-  at_b.p += slide;
+  const b2Vec2 moved = slide + lift;
+  at_b.p += moved;
   contact.Evaluate(&near.manifold, at_a, at_b);
   fb.GetShape()->m_radius = radius;
   if (near.manifold.pointCount == 0) return;
@@ -143,8 +157,9 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
 
   b2WorldManifold world;
   world.Initialize(&near.manifold, at_a, fa.GetShape()->m_radius, at_b, radius);
-  if (touch == nullptr ? !strikes_within(a, b, world, near.manifold.pointCount, h, driven)
-                       : faces(world.normal, *touch, a, b) < (slide == b2Vec2_zero ? same_way : goes_on))
+  if (touch == nullptr
+          ? !strikes_within(a, b, world, near.manifold.pointCount, h, driven)
+          : b2Dot(world.normal, normal_of(*touch, a, b)) < (slide == b2Vec2_zero ? same_way : goes_on))
     return;
   VelocityConstraint& v = near.velocity = {};
   PositionConstraint& p = near.position = {};
@@ -154,10 +169,12 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
     if (std::any_of(known.points, end, [&](const b2ManifoldPoint& q) { return q.id.key == point.id.key; }))
       continue;
     // Where the corner or circle is now that comes there on the other's face.
-    const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? world.points[k] - slide : world.points[k];
+    const bool of_b = (near.manifold.type == b2Manifold::e_faceA) != is_end_of_face(near.manifold, point);
+    const b2Vec2 half_way = world.separations[k] / 2 * world.normal;
+    const b2Vec2 now = of_b ? world.points[k] + half_way - moved : world.points[k] - half_way;
     v.points[v.count].ra = now - a.GetWorldCenter();
     v.points[v.count].rb = now - b.GetWorldCenter();
-    const float gap = world.separations[k] - b2Dot(slide, world.normal);
+    const float gap = world.separations[k] - b2Dot(moved, world.normal);
     v.points[v.count].bounce = -(std::max(gap, 0.0f) + b2_linearSlop) / h;
     p.points[v.count] = point.localPoint;
     near.manifold.points[v.count++] = point;

@@ -45,7 +45,7 @@ struct Reports {
   int stopped = 0;       // velocities since the start that were no finite numbers
   LeftOut left_out;      // since the start, by blows: flow is a maximum, work a sum
   bool stepped = false;  // since the last update()
-  std::size_t in_parts = 0;  // cost of the components that `step` counts as divided
+  double in_parts = 0;   // cost of the components that `step` counts as divided
 
   void open_step();
   void close_step();
