@@ -165,6 +165,9 @@ inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia
 /// In the iterations of positions only what overlaps by more than two polygons' skins is too deep.
 inline void let_skins_overlap(PositionConstraint& p) { p.radius_a -= 2 * b2_polygonRadius - b2_linearSlop; }
 
+/// In the iterations of positions nothing is too deep.
+inline void let_overlap(PositionConstraint& p) { p.radius_a -= b2_maxTranslation; }
+
 /// The contact presses nothing in this step.
 void silence(const Touch& touch);
 

@@ -320,8 +320,8 @@ bool Component::is_of(const Structure::Impl& structure) const {
 
 void Component::keep(Tape& tape) {
   bool rests = rest_ != Rest::none;
-  tape(origin, formed_of_, changed_, touched_, displaced_, struck_, jam_time_, rests, mirrors, parts_,
-       solver);
+  tape(origin, formed_of_, changed_, touched_, displaced_, struck_, jam_time_, pieces_jam_, rests, mirrors,
+       parts_, solver);
   rest_ = rests ? Rest::expected : Rest::none;
   if (tape.reads()) groups_.clear();
 }

@@ -316,6 +316,7 @@ struct Component {
   void book_parts();
   bool weaken_what_breaks(bool may_weaken);
   void project(bool try_goal);
+  void look_for_jam();
   void give(const b2SolverData& data);
   void write_poses(const b2SolverData& data);
 
@@ -337,6 +338,7 @@ struct Component {
   double jam_time_ = 0;                    // s in which stock joints still leave their gaps to Box2D
   bool struck_ = false;                    // velocities were changed between the steps
   bool stepped_ = false;                   // since leave_step()
+  bool pieces_jam_ = false;                // joints took back what overlapping pieces were pushed by
   bool blow_ = false;                      // something struck in this step
   bool snapped_ = false;                   // in this step a rope goes taut in a jerk
   Parts parts_;

@@ -391,9 +391,29 @@ void Component::position(const b2SolverData& data) {
   } else {
     for (std::size_t i = solver.free_bodies(); i < goal_.size(); ++i) goal_[i] = solver.places[i].pose;
     project(false);
+    look_for_jam();
   }
   rest_ = Rest::none;
   write_poses(data);
+}
+
+// Whether joints took a push back that overlapping pieces had from Box2D: it would push them in each step,
+// for good, and never let them sleep. What has room turns or flows, and stays out.
+void Component::look_for_jam() {
+  constexpr double taken_back = 0.1;  // of it, what is left at most
+  double pushed = 0, went = 0;
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    if (!mirrors[i].present || mirrors[i].guest()) continue;
+    const Pose from = origin.relative(mirrors[i].left), &to = solver.places[i].pose, &wanted = goal_[i];
+    const auto way = [&](const Pose& p) {
+      const Body& b = solver.bodies[i];
+      const double x = p.x - from.x, y = p.y - from.y, w = p.angle - from.angle;
+      return b.mass * (x * x + y * y) + b.inertia * w * w;
+    };
+    pushed += way(wanted);
+    went += way(to);
+  }
+  pieces_jam_ = went < taken_back * taken_back * pushed;
 }
 
 void Component::write_poses(const b2SolverData& data) {

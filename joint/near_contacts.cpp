@@ -168,10 +168,10 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
     const b2ManifoldPoint point = near.manifold.points[k];
     if (std::any_of(known.points, end, [&](const b2ManifoldPoint& q) { return q.id.key == point.id.key; }))
       continue;
-    // Where the corner or circle is now that comes there on the other's face.
-    const bool of_b = (near.manifold.type == b2Manifold::e_faceA) != is_end_of_face(near.manifold, point);
+    // Where the point is now that comes there on the face that the normal is of.
     const b2Vec2 half_way = world.separations[k] / 2 * world.normal;
-    const b2Vec2 now = of_b ? world.points[k] + half_way - moved : world.points[k] - half_way;
+    const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? world.points[k] + half_way - moved
+                                                                 : world.points[k] - half_way;
     v.points[v.count].ra = now - a.GetWorldCenter();
     v.points[v.count].rb = now - b.GetWorldCenter();
     const float gap = world.separations[k] - b2Dot(moved, world.normal);

@@ -1931,6 +1931,36 @@ TEST(Contacts, OfWhatIsFlushWithAWallLetItSleep) {
   }
 }
 
+// Bars that fold onto each other, with joints that bend: what Box2D pushes them apart by these take back. As
+// long as it went on pushing nothing slept, and each step was solved anew.
+TEST(Contacts, OfPiecesThatFoldLetThemSleep) {
+  for (const double hz : {30., 60., 120.}) {
+    b2World world({0, -10});
+    Structure structure(world);
+    add_box(world, {.y = -1, .width = 120, .height = 2, .type = b2_staticBody, .group = 0});
+    const auto bar = [&world](double x, double y, double width, double height) {
+      return add_box(
+          world,
+          {.x = x, .y = y, .width = width, .height = height, .mass = 900 * width * height, .group = 0});
+    };
+    b2Body *lower = bar(0, 0.1, 2, 0.2), *upright = bar(1.1, 0.5, 0.2, 1), *upper = bar(0.1, 0.9, 2, 0.2);
+    const auto join = [&structure](b2Body* a, b2Body* b, double y) {
+      ElasticPlasticJointDef def;
+      def.Initialize(a, b, vec(1.1, y), {1, 0});
+      def.rows[rotation] = {.stiffness = 3000, .damping_ratio = 0.3, .cap = 300, .cap_reverse = 300};
+      structure.create_joint(def);
+    };
+    join(lower, upright, 0.1);
+    join(upright, upper, 0.9);
+    for (int i = 0; i < 5 * hz && upper->IsAwake(); ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+    }
+    EXPECT_FALSE(upper->IsAwake()) << hz;
+    EXPECT_LT(upper->GetWorldPoint({-1, 0}).y, 0.5f) << hz;  // it came down
+  }
+}
+
 // A guest may go without a word.
 TEST(Contacts, OfBodiesThatAreDestroyed) {
   Beam beam(light);
