@@ -147,8 +147,7 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
   fb.GetShape()->m_radius = radius + way + lift.Length();
   const b2Transform& at_a = a.GetTransform();
   b2Transform at_b = b.GetTransform();
-  const b2Vec2 moved = slide + lift;
-  at_b.p += moved;
+  at_b.p += slide + lift;
   contact.Evaluate(&near.manifold, at_a, at_b);
   fb.GetShape()->m_radius = radius;
   if (near.manifold.pointCount == 0) return;
@@ -168,13 +167,12 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
     const b2ManifoldPoint point = near.manifold.points[k];
     if (std::any_of(known.points, end, [&](const b2ManifoldPoint& q) { return q.id.key == point.id.key; }))
       continue;
-    // Where the point is now that comes there on the face that the normal is of.
-    const b2Vec2 half_way = world.separations[k] / 2 * world.normal;
-    const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? world.points[k] + half_way - moved
-                                                                 : world.points[k] - half_way;
+    // Where the corner or circle is now that comes there on the other's face: half way between the two.
+    const b2Vec2 there = world.points[k] - 0.5f * lift;
+    const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? there - slide : there;
     v.points[v.count].ra = now - a.GetWorldCenter();
     v.points[v.count].rb = now - b.GetWorldCenter();
-    const float gap = world.separations[k] - b2Dot(moved, world.normal);
+    const float gap = world.separations[k] - b2Dot(slide + lift, world.normal);
     v.points[v.count].bounce = -(std::max(gap, 0.0f) + b2_linearSlop) / h;
     p.points[v.count] = point.localPoint;
     near.manifold.points[v.count++] = point;
