@@ -80,10 +80,11 @@ void Component::limit_speed(const b2SolverData& data) {
   }
 }
 
-// What a step is solved in parts gets no faster in these, either: from part to part it would, without bound,
-// where a body spins so fast that one turns it far. All of it is slowed together.
+// The limits hold for each part of a step as well, by what it takes: from part to part bodies would get
+// faster, without bound, where they spin so fast that one turns them far. All are slowed together. For the
+// whole of the step they do not, as light pieces may go far faster for a part or two than they are thrown.
 void Component::limit_speed_in_part() {
-  const double share = share_within_limits(parts_.count * solver.step());
+  const double share = share_within_limits(solver.step());
   if (share == 1) return;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Body& b = solver.bodies[i];
