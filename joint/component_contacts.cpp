@@ -201,12 +201,13 @@ void Component::read_touches() {
 // structure was made flush with a wall. So are pieces of one structure that overlap, where their joints take
 // back what they are pushed by: those stay as they are.
 void Component::return_contacts() {
-  if (groups_.empty() && !(outside_.touches.empty() && outside_.corners.empty())) find_groups();
   const bool stand_jammed = pieces_jam_ && solver.fastest() < b2_linearSleepTolerance &&
                             solver.fastest_turn() < b2_angularSleepTolerance;
-  const auto is_one_group = [this](const Touch& t) {
-    return solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
-           groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of;
+  if (groups_.empty() && (stand_jammed || !outside_.touches.empty())) find_groups();
+  const auto let_be = [&](const Touch& t) {
+    if (stand_jammed && solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
+        groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of)
+      let_overlap(*t.position);
   };
   auto row = solver.contacts.begin();
   for (const Touch& t : outside_.touches) {
@@ -231,10 +232,9 @@ void Component::return_contacts() {
     if (anchored_b && yields(a)) hold_b(*t.position);
     const auto stands = [](const Mirror& m) { return m.type != b2_dynamicBody; };
     if ((anchored_a && stands(b)) || (anchored_b && stands(a))) let_skins_overlap(*t.position);
-    if (stand_jammed && is_one_group(t)) let_overlap(*t.position);
+    let_be(t);
   }
-  for (const Touch& t : outside_.corners)
-    if (stand_jammed && is_one_group(t)) let_overlap(*t.position);
+  for (const Touch& t : outside_.corners) let_be(t);
 }
 
 void Component::remember_blow() {

@@ -314,7 +314,8 @@ void Component::begin_parts() {
   }
 }
 
-// Whether a point goes with a corner or circle of body a, b or, of two circles, neither.
+// How far a point goes with body b, as against body a: it is a corner or a circle of one of them; of two
+// circles it is half way.
 float Component::goes_with_b(const Touch& t, const PointConstraint& p) const {
   const b2Manifold& m = *t.manifold;
   if (m.type == b2Manifold::e_circles) return 0.5f;
@@ -324,9 +325,7 @@ float Component::goes_with_b(const Touch& t, const PointConstraint& p) const {
 
 // Whether a point is beyond the end of the face that it touches: it has slid off that, or is not there yet.
 bool Component::is_beside(const Touch& t, const PointConstraint& p) const {
-  const float with_b = goes_with_b(t, p);
-  if (with_b == 0.5f) return false;
-  const bool on_a = with_b == 1;
+  const bool on_a = goes_with_b(t, p) == 1;  // two circles have no face, and no end of one
   const b2Manifold& m = *t.manifold;
   const double angle = solver.places[z(on_a ? t.in_a : t.in_b)].pose.angle;
   const b2Vec2 normal = on_a == (m.type == b2Manifold::e_faceA)
