@@ -66,20 +66,25 @@ struct Component {
   };
   /// The steps of a blow are solved in parts.
   struct Parts {
-    int count = 1;          // of the step that the solver's laws are for
-    double since_blow = 0;  // s, a hard one
-    bool goes_on = false;   // the next step has parts, too
-    bool advanced = false;  // this step was solved so: poses have moved
-    struct OfBody {         // velocities in world axes
+    int count = 1;           // of the step that the solver's laws are for
+    double since_blow = 0;   // s, a hard one
+    bool goes_on = false;    // the next step has parts, too
+    bool advanced = false;   // this step was solved so: poses have moved
+    bool withholds = false;  // whole steps are to follow, with the means of velocities (go_on_with_means())
+    bool restores = false;   // the last step withheld, and nothing came between
+    struct OfBody {          // velocities in world axes
       Pose start;
       double gap = unlimited;  // m, to what it struck in this step
       b2Vec2 to_it{0, 0};      // direction of the gap
       Vec3 before;             // at the step's start
+      Vec3 restored;           // of that, what the last step withheld
       Vec3 given;              // by gravity and loads in a part
       Vec3 sum;                // of the means of all parts
       Vec3 mean;               // of the step: by which it comes where it is
-      double energy = 0;       // that a blow gives it, J
-      bool rebounds = false;   // restitution throws it, or what strikes it, back
+      Vec3 late;              // what blows gave it, times the share of the step that was over: no mean has it
+      Vec3 withheld;          // what it had at the step's end, beyond what it goes on with
+      double energy = 0;      // that a blow gives it, J
+      bool rebounds = false;  // restitution throws it, or what strikes it, back
     };
     Vector<OfBody> bodies;
     struct OfContact {
@@ -99,8 +104,10 @@ struct Component {
     Vector<OfLink> links;
 
     void keep(Tape& tape) {
-      tape(count, since_blow, goes_on);
+      tape(count, since_blow, goes_on, withholds);
       if (count < 1) tape.refuse(), count = 1;
+      if (!withholds) return;
+      for (OfBody& body : bodies) tape(body.withheld);
     }
   };
   /// What the ledger needs of a step, when one is kept. Velocities are those of the bodies.
@@ -299,10 +306,12 @@ struct Component {
   float goes_with_b(const Touch& touch, const PointConstraint& point) const;
   bool is_beside(const Touch& touch, const PointConstraint& point) const;
   void carry_arms();
-  void solve_part(double h, bool first, bool blow);
+  void solve_part(double h, int number, bool blow);
   void end_parts(const b2SolverData& data);
   void keep_in_touch(double h);
   double go_on_with_means();
+  Vec3 lasting(std::size_t body) const;
+  Vec3 told(std::size_t body) const;
   void tell_of_means();
   /// Calls visit(row, touch, point) for each contact that is a row.
   template <class Visit>

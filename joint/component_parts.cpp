@@ -261,7 +261,7 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   coupling_ = Coupling::whole;
   begin_parts();
   for (int k = 0; k < count; ++k) {
-    solve_part(h, k == 0, blow);
+    solve_part(h, k, blow);
     move();
     look_for_breaks(*this);
   }
@@ -276,16 +276,19 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   });
 }
 
-// What gravity and loads give a body in the step they give it evenly.
+// What gravity and loads give a body in the step they give it evenly. A blow on what has just been solved in
+// parts finds it with the velocities that those ended with.
 void Component::begin_parts() {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     Parts::OfBody& body = parts_.bodies[i];
+    const Vec3 withheld = parts_.restores ? body.withheld : Vec3{};
     body = {.start = solver.places[i].pose};
     if (!m.present) continue;
-    body.before = in_doubles(velocity_of(*m.body));
-    body.given = 1.0 / parts_.count * (m.exact - body.before);
-    m.exact = body.before;
+    const Vec3 told = in_doubles(velocity_of(*m.body));
+    body.given = 1.0 / parts_.count * (m.exact - told);
+    body.restored = withheld;
+    m.exact = body.before = told + withheld;
   }
   outside_.touches.insert(outside_.touches.end(), outside_.near.begin(), outside_.near.end());
   read_touches();
@@ -349,7 +352,8 @@ void Component::carry_arms() {
 }
 
 // Contacts keep their directions in the world, and close no further than their gap since the step's start.
-void Component::solve_part(double h, bool first, bool blow) {
+void Component::solve_part(double h, int number, bool blow) {
+  const bool first = number == 0;
   const auto enter = [this](std::size_t i) {
     const Vec3& v = mirrors[i].exact;
     solver.before[i] = into_own_frame(solver.places[i].turn, v);
@@ -390,6 +394,7 @@ void Component::solve_part(double h, bool first, bool blow) {
   }
   solver.touch(outside_.links, outside_.contacts);
   const bool strikes = (first && blow) || fastest > blow_speed;
+  const double over = static_cast<double>(number) / parts_.count;
   if (strikes) {
     solver.strike(fastest);
     blow_ = true;
@@ -422,7 +427,9 @@ void Component::solve_part(double h, bool first, bool blow) {
   }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Vec3 v = into_world(solver.places[i].turn, solver.bodies[i].v);
-    parts_.bodies[i].sum += 0.5 * (mirrors[i].exact + v);
+    Parts::OfBody& body = parts_.bodies[i];
+    body.sum += 0.5 * (mirrors[i].exact + v);
+    if (strikes) body.late += over * (v - mirrors[i].exact - body.given);
     mirrors[i].exact = v;
   }
   each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
@@ -448,7 +455,7 @@ void Component::end_parts(const b2SolverData& data) {
   const bool thrown = throws();
   parts_.goes_on = parts_.since_blow < (thrown ? 2 : 1) * blow_time && normals_held() &&
                    (snapped_ || is_strained() || thrown);
-  if (!parts_.goes_on) tell_of_means();
+  tell_of_means();
   const double lost = parts_.goes_on ? 0 : go_on_with_means();
   return_contacts();
   return_ties();
@@ -500,12 +507,13 @@ void Component::keep_in_touch(double h) {
 
 // Where whole steps follow, bodies go on with their mean velocities, which belong to the middle of this one:
 // else all forces would act half a step too early from then on, and a flow that is braked by a cap would be
-// v h/2 short. What rings within the step is lost then. But the angular momentum of what hung together in the
-// step, and nothing held, is that of the parts' last velocities where bodies are now; the means belong to
-// other places. So all of it turns as one about its centre of mass by what they miss: its momentum stays, and
-// no other motion that gives it back takes less energy. What turns far is left with the means: their chords
-// are so much shorter than its way that what they miss would be a spin of another kind. Returns what is lost,
-// J.
+// v h/2 short. But what struck in the step has struck, and does not do so again in the next: the means are
+// those of a step at whose start it did. What rings within the step is lost then. But the angular momentum of
+// what hung together in the step, and nothing held, is that of the parts' last velocities where bodies are
+// now; the means belong to other places. So all of it turns as one about its centre of mass by what they
+// miss: its momentum stays, and no other motion that gives it back takes less energy. What turns far is left
+// with the means: their chords are so much shorter than its way that what they miss would be a spin of
+// another kind. Returns what is lost, J.
 double Component::go_on_with_means() {
   write_contacts(solver);  // which pressed in some part
   find_wholes(solver);
@@ -513,11 +521,11 @@ double Component::go_on_with_means() {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Body& b = solver.bodies[i];
     const Pose& at = solver.places[i].pose;
-    const Vec3 mean = parts_.bodies[i].mean, less = mirrors[i].exact - mean;
+    const Vec3 mean = lasting(i), less = mirrors[i].exact - mean;
     Whole& whole = whole_of(solver, static_cast<int>(i));
     whole.moment += b.mass * ((at.x - whole.x) * less.y - (at.y - whole.y) * less.x) + b.inertia * less.w;
     lost += dot(momentum(b, mirrors[i].exact), mirrors[i].exact) / 2;
-    mirrors[i].exact = mean;
+    parts_.bodies[i].withheld = std::exchange(mirrors[i].exact, mean);
   }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Pose& at = solver.places[i].pose;
@@ -527,19 +535,33 @@ double Component::go_on_with_means() {
     if (std::abs(turn) * parts_.count * solver.step() < most_turn_of_whole)
       v += turn * Vec3{whole.y - at.y, at.x - whole.x, 1};
     lost -= dot(momentum(solver.bodies[i], v), v) / 2;
+    parts_.bodies[i].withheld -= v;
   }
+  parts_.withholds = true;
   return lost;
 }
 
+// What it goes on with where whole steps follow.
+Vec3 Component::lasting(std::size_t body) const {
+  return parts_.bodies[body].mean + parts_.bodies[body].late;
+}
+
+// The velocity that Box2D, and who observes it, knows of the step's start.
+Vec3 Component::told(std::size_t body) const {
+  return parts_.bodies[body].before - parts_.bodies[body].restored;
+}
+
 // What pushes guests in the last step is told as what their velocities go on with: what is more is given
-// again, and told again, by the next step. One that a stock joint holds has other impulses, too.
+// again, and told again, by the next step, or told alone, where that is one in parts that restores it. One
+// that a stock joint holds has other impulses, too.
 void Component::tell_of_means() {
   const auto is_tied = [this](int i) {
     return std::any_of(outside_.ties.begin(), outside_.ties.end(),
                        [i](const StockJoint& t) { return t.in_a == i || t.in_b == i; });
   };
   const auto goes_on = [this](int i) {
-    const Vec3 push = pushed(z(i)), more = mirrors[z(i)].exact - parts_.bodies[z(i)].mean;
+    const Vec3 push = pushed(z(i)), end = mirrors[z(i)].exact;
+    const Vec3 more = end - (parts_.goes_on ? end : lasting(z(i))) - parts_.bodies[z(i)].restored;
     const double square = push.x * push.x + push.y * push.y;
     return square > 0 ? std::clamp(1 - (push.x * more.x + push.y * more.y) / square, 0.0, most_told) : 1;
   };
@@ -565,12 +587,13 @@ void Component::book_parts() {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Parts::OfBody& body = parts_.bodies[i];
     const Body& b = solver.bodies[i];
-    const Vec3 beyond = body.sum - 0.5 * parts_.count * (body.before + mirrors[i].exact);
+    const Vec3 beyond = body.sum - 0.5 * parts_.count * (told(i) + mirrors[i].exact);
+    weight += (dot(momentum(b, body.before), body.before) - dot(momentum(b, told(i)), told(i))) / 2;
     weight +=
         b.mass * (body.given.x * beyond.x + body.given.y * beyond.y) + b.inertia * body.given.w * beyond.w;
   }
   const auto twice_mean = [this](int i) {
-    return (solver.is_free(i) ? parts_.bodies[z(i)].before : mirrors[z(i)].exact) + mirrors[z(i)].exact;
+    return (solver.is_free(i) ? told(z(i)) : mirrors[z(i)].exact) + mirrors[z(i)].exact;
   };
   each_point([&](std::size_t k, const Touch& t, PointConstraint& p) {
     const Parts::OfContact& sum = parts_.sums[k];

@@ -51,6 +51,8 @@ void Component::look(const b2SolverData& data) {
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
     alone &= i >= solver.free_bodies() || m.only_ours();
+    if (parts_.withholds && i < solver.free_bodies() && !same_bits(velocity_of(*m.body), m.given))
+      parts_.bodies[i].withheld = {};
     if (rest_ == Rest::none) take(m, data);  // while the body is in the cache
   }
   coupling_ = alone ? Coupling::none : Coupling::partly;
@@ -145,6 +147,7 @@ void Component::first_velocity(const b2SolverData& data) {
   blow_ = false;
   struck_contacts_.clear();
   parts_.advanced = false;
+  parts_.restores = std::exchange(parts_.withholds, false);
   if (!alone() && is_whole())
     coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
