@@ -71,7 +71,6 @@ struct Component {
     bool goes_on = false;    // the next step has parts, too
     bool advanced = false;   // this step was solved so: poses have moved
     bool withholds = false;  // whole steps are to follow, with the means of velocities (go_on_with_means())
-    bool restores = false;   // the last step withheld, and nothing came between
     struct OfBody {          // velocities in world axes
       Pose start;
       double gap = unlimited;  // m, to what it struck in this step

@@ -276,19 +276,19 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   });
 }
 
-// What gravity and loads give a body in the step they give it evenly. A blow on what has just been solved in
-// parts finds it with the velocities that those ended with.
+// What gravity and loads give a body in the step they give it evenly. Where the last step ended in parts,
+// too, bodies begin with the velocities at its end, not with the means.
 void Component::begin_parts() {
+  const bool restores = std::exchange(parts_.withholds, false);
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     Parts::OfBody& body = parts_.bodies[i];
-    const Vec3 withheld = parts_.restores ? body.withheld : Vec3{};
-    body = {.start = solver.places[i].pose};
+    const Vec3 restored = restores && m.present ? body.withheld : Vec3{};
+    body = {.start = solver.places[i].pose, .restored = restored};
     if (!m.present) continue;
     const Vec3 told = in_doubles(velocity_of(*m.body));
     body.given = 1.0 / parts_.count * (m.exact - told);
-    body.restored = withheld;
-    m.exact = body.before = told + withheld;
+    m.exact = body.before = told + restored;
   }
   outside_.touches.insert(outside_.touches.end(), outside_.near.begin(), outside_.near.end());
   read_touches();
@@ -524,7 +524,7 @@ double Component::go_on_with_means() {
     const Vec3 mean = lasting(i), less = mirrors[i].exact - mean;
     Whole& whole = whole_of(solver, static_cast<int>(i));
     whole.moment += b.mass * ((at.x - whole.x) * less.y - (at.y - whole.y) * less.x) + b.inertia * less.w;
-    lost += dot(momentum(b, mirrors[i].exact), mirrors[i].exact) / 2;
+    lost += twice_kinetic(b, mirrors[i].exact) / 2;
     parts_.bodies[i].withheld = std::exchange(mirrors[i].exact, mean);
   }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
@@ -534,7 +534,7 @@ double Component::go_on_with_means() {
     const double turn = whole.held ? 0 : whole.moment / whole.inertia;
     if (std::abs(turn) * parts_.count * solver.step() < most_turn_of_whole)
       v += turn * Vec3{whole.y - at.y, at.x - whole.x, 1};
-    lost -= dot(momentum(solver.bodies[i], v), v) / 2;
+    lost -= twice_kinetic(solver.bodies[i], v) / 2;
     parts_.bodies[i].withheld -= v;
   }
   parts_.withholds = true;
@@ -551,17 +551,18 @@ Vec3 Component::told(std::size_t body) const {
   return parts_.bodies[body].before - parts_.bodies[body].restored;
 }
 
-// What pushes guests in the last step is told as what their velocities go on with: what is more is given
-// again, and told again, by the next step, or told alone, where that is one in parts that restores it. One
-// that a stock joint holds has other impulses, too.
+// What pushes guests is told as what their velocities go on with: what is more, where whole steps follow, is
+// given again, and told again, by the next step. If that has parts after all, it restores that much, and
+// tells it besides what it gives. One that a stock joint holds has other impulses, too.
 void Component::tell_of_means() {
   const auto is_tied = [this](int i) {
     return std::any_of(outside_.ties.begin(), outside_.ties.end(),
                        [i](const StockJoint& t) { return t.in_a == i || t.in_b == i; });
   };
   const auto goes_on = [this](int i) {
-    const Vec3 push = pushed(z(i)), end = mirrors[z(i)].exact;
-    const Vec3 more = end - (parts_.goes_on ? end : lasting(z(i))) - parts_.bodies[z(i)].restored;
+    const Vec3 push = pushed(z(i));
+    Vec3 more = parts_.goes_on ? Vec3{} : mirrors[z(i)].exact - lasting(z(i));
+    more -= parts_.bodies[z(i)].restored;
     const double square = push.x * push.x + push.y * push.y;
     return square > 0 ? std::clamp(1 - (push.x * more.x + push.y * more.y) / square, 0.0, most_told) : 1;
   };
@@ -581,14 +582,14 @@ void Component::tell_of_means() {
 }
 
 // An observer of the whole step counts impulses, where they acted when it began, times the mean of the
-// velocities before and after it.
+// velocities before and after it. What the step restored of its velocities is told by no impulse.
 void Component::book_parts() {
   double contacts = 0, weight = 0;
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Parts::OfBody& body = parts_.bodies[i];
     const Body& b = solver.bodies[i];
     const Vec3 beyond = body.sum - 0.5 * parts_.count * (told(i) + mirrors[i].exact);
-    weight += (dot(momentum(b, body.before), body.before) - dot(momentum(b, told(i)), told(i))) / 2;
+    weight += (twice_kinetic(b, body.before) - twice_kinetic(b, told(i))) / 2;
     weight +=
         b.mass * (body.given.x * beyond.x + body.given.y * beyond.y) + b.inertia * body.given.w * beyond.w;
   }

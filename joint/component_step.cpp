@@ -147,7 +147,6 @@ void Component::first_velocity(const b2SolverData& data) {
   blow_ = false;
   struck_contacts_.clear();
   parts_.advanced = false;
-  parts_.restores = std::exchange(parts_.withholds, false);
   if (!alone() && is_whole())
     coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
@@ -441,6 +440,7 @@ void Component::advance(const b2SolverData& data) {
     }
   }
   move();
+  parts_.withholds = false;
   bool kinematic = false;
   // Where nothing else moves them, position() writes their poses, if it is called at all.
   const bool later = alone() && data.step.positionIterations > 0;

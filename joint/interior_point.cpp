@@ -16,8 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double energy_of(const Body& b, const Vec3& v) { return dot(v, momentum(b, v)); }
-
 double turn_rate(const System& system, const TurnInertia& t) {
   return t.rate_of(system.bodies[z(t.a)].v, system.bodies[z(t.b)].v);
 }
@@ -85,7 +83,7 @@ double InteriorPoint::balance(System& system) {
     Body& b = system.bodies[i];
     const Vec3 change{b.inverse_mass * d_[i].x, b.inverse_mass * d_[i].y, b.inverse_inertia * d_[i].w};
     b.v = b.v_free - change;
-    scale += energy_of(b, change) + energy_of(b, b.v);
+    scale += twice_kinetic(b, change) + twice_kinetic(b, b.v);
   }
   return scale;
 }
@@ -116,7 +114,7 @@ void InteriorPoint::moderate_start(const System& system) {
 bool InteriorPoint::start(const System& system) {
   double energy = 0;  // what impulses may have to answer to
   for (std::size_t i = 0; i < system.free; ++i)
-    energy += energy_of(system.bodies[i], system.bodies[i].v_free);
+    energy += twice_kinetic(system.bodies[i], system.bodies[i].v_free);
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const Rows &bias = system.joints[k].bias, &m_eff = system.records[k].m_eff;
     for (unsigned i = 0; i < 3; ++i) energy += m_eff[i] * bias[i] * bias[i];
@@ -301,7 +299,7 @@ bool InteriorPoint::go(System& system, Hessian& hessian, bool follows, Outcome& 
       asked += std::min(j.G[i], m_eff[i]) * x[i] * x[i];
     }
   }
-  for (std::size_t i = 0; i < system.free; ++i) moving += energy_of(system.bodies[i], system.bodies[i].v);
+  for (std::size_t i = 0; i < system.free; ++i) moving += twice_kinetic(system.bodies[i], system.bodies[i].v);
   const bool alone = system.contacts.empty();
   std::size_t bounds = 0;
   each([&](std::size_t, auto& rows) { bounds += rows.count(); });
@@ -432,7 +430,7 @@ double InteriorPoint::share_without_gain(System& system) {
     given += turns_[k].s * turn_rate(system, system.turn_inertias[k]);
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
-    const double change = energy_of(b, b.v - b.v_free);
+    const double change = twice_kinetic(b, b.v - b.v_free);
     given += change;
     taken += change / 2;
   }
@@ -487,8 +485,8 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
     at.see(b);
-    at.impulse2 += energy_of(b, b.v - b.v_free);
-    at.speed2 += energy_of(b, b.v);
+    at.impulse2 += twice_kinetic(b, b.v - b.v_free);
+    at.speed2 += twice_kinetic(b, b.v);
   }
 }
 

@@ -44,6 +44,9 @@ inline double square(const Body& b, const Vec3& g) {
 /// M v of one body.
 inline Vec3 momentum(const Body& b, const Vec3& v) { return {b.mass * v.x, b.mass * v.y, b.inertia * v.w}; }
 
+/// |v|²_M of one body: twice its kinetic energy, J.
+inline double twice_kinetic(const Body& b, const Vec3& v) { return dot(v, momentum(b, v)); }
+
 /// |g|² in the norm of M⁻¹; bodies that do not rotate take no moment.
 double square(const System& system, std::span<Vec3> g);
 
