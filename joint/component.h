@@ -80,9 +80,11 @@ struct Component {
       Vec3 given;              // by gravity and loads in a part
       Vec3 sum;                // of the means of all parts
       Vec3 mean;               // of the step: by which it comes where it is
-      Vec3 late;              // what blows gave it, times the share of the step that was over: no mean has it
-      Vec3 withheld;          // what it had at the step's end, beyond what it goes on with
-      double energy = 0;      // that a blow gives it, J
+      Vec3 late;          // what blows gave it, times the share of the step that was over: no mean has it
+      Vec3 withheld;      // what it had at the step's end, beyond what it goes on with
+      Vec3 push, more;    // momentum of all that hangs together, at its root: by contacts, and not told yet
+      bool tied = false;  // by a stock joint, to what is not part of that
+      double energy = 0;  // that a blow gives it, J
       bool rebounds = false;  // restitution throws it, or what strikes it, back
     };
     Vector<OfBody> bodies;
@@ -224,6 +226,8 @@ struct Component {
   bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
   /// By how much a contact closes at its fastest point, of the velocities at the step's start, m/s.
   static float closes(const Touch& touch);
+  /// Whether a body is one of its pieces, and no joints hold it to this one.
+  bool is_piece_apart(const b2Body& body, const b2Body& from);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
   template <class Count>

@@ -137,4 +137,11 @@ void Component::find_groups() {
   for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i].part_of = root_of(groups_, static_cast<int>(i));
 }
 
+bool Component::is_piece_apart(const b2Body& body, const b2Body& from) {
+  const int i = index_of(&body);
+  if (i < 0 || !solver.is_free(i) || mirrors[z(i)].guest() || is_of_another(i)) return false;
+  if (groups_.empty()) find_groups();
+  return groups_[z(i)].part_of != groups_[z(index_of(&from))].part_of;
+}
+
 }  // namespace ductile::dynamics

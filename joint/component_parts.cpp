@@ -551,33 +551,42 @@ Vec3 Component::told(std::size_t body) const {
   return parts_.bodies[body].before - parts_.bodies[body].restored;
 }
 
-// What pushes guests is told as what their velocities go on with: what is more, where whole steps follow, is
-// given again, and told again, by the next step. If that has parts after all, it restores that much, and
-// tells it besides what it gives. One that a stock joint holds has other impulses, too.
+// What pushes bodies is told as what those that hang together go on with: what is more, where whole steps
+// follow, is given again, and told again, by the next step. If that has parts after all, it restores that
+// much, and tells it besides what it gives. What is held has other impulses, too.
 void Component::tell_of_means() {
-  const auto is_tied = [this](int i) {
-    return std::any_of(outside_.ties.begin(), outside_.ties.end(),
-                       [i](const StockJoint& t) { return t.in_a == i || t.in_b == i; });
-  };
-  const auto goes_on = [this](int i) {
-    const Vec3 push = pushed(z(i));
-    Vec3 more = parts_.goes_on ? Vec3{} : mirrors[z(i)].exact - lasting(z(i));
-    more -= parts_.bodies[z(i)].restored;
-    const double square = push.x * push.x + push.y * push.y;
-    return square > 0 ? std::clamp(1 - (push.x * more.x + push.y * more.y) / square, 0.0, most_told) : 1;
-  };
+  if (groups_.empty()) find_groups();
+  const auto all_of = [this](int i) -> Parts::OfBody& { return parts_.bodies[z(groups_[z(i)].part_of)]; };
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Parts::OfBody& body = parts_.bodies[i];
+    Vec3 more = parts_.goes_on ? Vec3{} : mirrors[i].exact - lasting(i);
+    more -= body.restored;
+    Parts::OfBody& all = all_of(static_cast<int>(i));
+    all.push += solver.bodies[i].mass * pushed(i);
+    all.more += solver.bodies[i].mass * more;
+  }
+  for (const StockJoint& t : outside_.ties) {
+    const bool inside = solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
+                        groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of;
+    for (const int i : {t.in_a, t.in_b})
+      if (solver.is_free(i)) all_of(i).tied |= !inside;
+  }
   each_point([&](std::size_t k, const Touch& t, const PointConstraint&) {
     double share = 0;
-    int guests = 0;
+    int told = 0;
     for (const int i : {t.in_a, t.in_b}) {
-      if (!mirrors[z(i)].guest() || !solver.is_free(i) || is_tied(i)) continue;
-      share += goes_on(i);
-      ++guests;
+      if (is_anchored(i)) continue;
+      const Parts::OfBody& all = all_of(i);
+      const double square = all.push.x * all.push.x + all.push.y * all.push.y;
+      if (all.tied) continue;
+      const double along = all.push.x * all.more.x + all.push.y * all.more.y;
+      share += square > 0 ? std::clamp(1 - along / square, 0.0, most_told) : 1;
+      ++told;
     }
-    if (guests == 0) return;
+    if (told == 0) return;
     Parts::OfContact& sum = parts_.sums[k];
-    solver.contacts[k].normal = sum.normal *= share / guests;
-    solver.contacts[k].tangent = sum.tangent *= share / guests;
+    solver.contacts[k].normal = sum.normal *= share / told;
+    solver.contacts[k].tangent = sum.tangent *= share / told;
   });
 }
 

@@ -80,8 +80,9 @@ void Island::choose_contacts(const b2SolverData& data) {
 }
 
 // What strikes a piece meets it at more points than the first, or more pieces, before the step is over: a
-// block that comes down a little tilted. So do pieces that fall on what stands; Box2D would stop each of them
-// alone. A rebound is left to the step after it, which knows how fast they met.
+// block that comes down a little tilted. So do pieces that fall on what stands, or on those of another
+// structure; Box2D would stop each of them alone. A rebound is left to the step after it, which knows how
+// fast they met.
 void Island::find_near(float h) {
   if (world().GetSubStepping()) return;
   const auto may_be_met = [](const b2Contact& c) {
@@ -93,8 +94,19 @@ void Island::find_near(float h) {
     return c != nullptr && c->enlisted == c->members.size() && c->fits_bodies();
   };
   const auto goes_on = [&](const Component* c) { return c->in_parts() && lasts(c); };
+  // Two pieces that no joints hold to each other: of one component, or of two of which some others touch.
+  const auto meet = [&](Component& c, const b2Body& piece, const b2Body& other) {
+    if (c.is_piece_apart(other, piece)) return true;
+    const Component* of_other = is_piece(other) ? component_of(other) : nullptr;
+    if (of_other == &c || !lasts(of_other)) return false;
+    const std::span<const Touch> all = contacts_.touches();
+    return std::any_of(all.begin(), all.end(), [&](const Touch& t) {
+      const Component *a = component_of(*t.a()), *b = component_of(*t.b());
+      return Component::closes(t) > blow_speed && ((a == &c && b == of_other) || (a == of_other && b == &c));
+    });
+  };
   const std::size_t touching = contacts_.touches().size();
-  for (const Component* component : active_) {
+  for (Component* component : active_) {
     float driven = goes_on(component) ? static_cast<float>(component->solver.fastest()) : 0;
     for (std::size_t k = 0; k < touching; ++k) {
       const Touch& t = contacts_.touches()[k];
@@ -109,9 +121,10 @@ void Island::find_near(float h) {
     for (const Mirror& m : free) {
       if (!may_meet(m)) continue;
       for (b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
-        if (e->other->GetType() == b2_staticBody && may_be_met(*e->contact) &&
+        const bool stands = e->other->GetType() == b2_staticBody;
+        if ((stands || meet(*component, *m.body, *e->other)) && may_be_met(*e->contact) &&
             !share_a_neighbour(*m.body, *e->other))
-          contacts_.add_near(*e->contact, nullptr, h, driven);
+          contacts_.add_near(*e->contact, nullptr, h, stands ? driven : 0);
       }
     }
   }

@@ -532,9 +532,12 @@ TEST(SolvedInParts, WhileWheelsSpin) {
 }
 
 // A block that comes down on a beam a little tilted meets it with its second corner before the step is over,
-// be it with the next piece. The corner that Box2D did not see then went into the beam, and the block turned.
-TEST(SolvedInParts, OfWhatComesDownTilted) {
-  const auto plastic_work = [](double tilt, double rate) {
+// be it with the next piece. The corner that Box2D did not see then went into the beam, and the block turned;
+// so it did if it was of two halves that a joint holds together, each a piece that meets another.
+class ComesDownTilted : public ::testing::TestWithParam<int> {};
+TEST_P(ComesDownTilted, MeetsAllThatItWouldInFineSteps) {
+  const int parts = GetParam();
+  const auto plastic_work = [parts](double tilt, double rate) {
     double sum = 0;
     for (const double gap : {0.021, 0.031, 0.041, 0.051}) {
       Beam beam({.pieces = 12,
@@ -549,15 +552,26 @@ TEST(SolvedInParts, OfWhatComesDownTilted) {
       end.axisFollow = 0;
       end.rows[axial] = end.rows[rotation] = RowDef::free();
       beam.structure.create_joint(end);
-      b2BodyDef def;
-      def.type = b2_dynamicBody;
-      def.angle = static_cast<float>(tilt);
-      def.position = vec(3, 0.075 + 0.25 * (std::cos(tilt) + std::sin(tilt)) + gap);
-      def.linearVelocity = vec(0, -3);
-      b2Body* block = beam.world.CreateBody(&def);
-      b2PolygonShape box;
-      box.SetAsBox(0.25f, 0.25f);
-      block->CreateFixture(&box, 1800 / 0.25f);
+      const b2Vec2 along = vec(std::cos(tilt), std::sin(tilt));
+      const b2Vec2 middle = vec(3, 0.075 + 0.25 * (std::cos(tilt) + std::sin(tilt)) + gap);
+      b2Body* last = nullptr;
+      for (int i = 0; i < parts; ++i) {
+        b2BodyDef def;
+        def.type = b2_dynamicBody;
+        def.angle = static_cast<float>(tilt);
+        def.position = middle + static_cast<float>((i + 0.5) * 0.5 / parts - 0.25) * along;
+        def.linearVelocity = vec(0, -3);
+        b2Body* block = beam.world.CreateBody(&def);
+        b2PolygonShape box;
+        box.SetAsBox(0.25f / static_cast<float>(parts), 0.25f);
+        block->CreateFixture(&box, 1800 / 0.25f);
+        if (last != nullptr) {
+          ElasticPlasticJointDef joint;
+          joint.Initialize(last, block, middle + static_cast<float>(i * 0.5 / parts - 0.25) * along, along);
+          beam.structure.create_joint(joint);
+        }
+        last = block;
+      }
       beam.run(0.25, 1 / rate);
       sum += beam.structure.energy().dissipated / 4;
     }
@@ -570,6 +584,7 @@ TEST(SolvedInParts, OfWhatComesDownTilted) {
       EXPECT_NEAR(plastic_work(tilt, rate), fine, (rate < 60 ? 0.25 : 0.15) * fine) << tilt << ", " << rate;
   }
 }
+INSTANTIATE_TEST_SUITE_P(InParts, ComesDownTilted, ::testing::Values(1, 2));
 
 // A plate comes down on one edge, far from flat, and so fast that it turns flat on the next piece, and on
 // past it, within the step. That piece was met by no point, as a face of the plate was nearer to it than its
@@ -1746,6 +1761,40 @@ TEST(Contacts, TellAllThatABlowGives) {
         EXPECT_NEAR(told.y, given, 5e-3 * mass * piece_mass * (speed + def.gravity * time))
             << hz << ", " << mass << ", " << speed;
       }
+    }
+  }
+}
+
+// Two free bars of four pieces that meet, the one across the other's end: what PostSolve tells is what each
+// has given the other.
+TEST(Contacts, TellAllThatStructuresGiveEachOther) {
+  for (const double hz : {30.0, 60.0, 120.0}) {
+    for (const double phase : {0.1, 0.5, 0.9}) {
+      BeamDef def = light;
+      def.pieces = 4, def.length = 4, def.gravity = 0;
+      def.youngs_modulus = 210e9;
+      def.moment_cap = 3e5;
+      Beam bar(def);
+      bar.world.DestroyJoint(bar.joints.front());
+      std::vector<b2Body*> other;
+      for (int i = 0; i < 4; ++i) {
+        other.push_back(add_box(
+            bar.world,
+            {.x = 3.6, .y = 0.7 + i + 8 * phase / hz, .width = 0.2, .height = 1, .mass = 100, .group = 0}));
+        other.back()->SetLinearVelocity(vec(0, -8));
+        if (i == 0) continue;
+        ElasticPlasticJointDef joint;
+        joint.Initialize(other.end()[-2], other.back(), other.back()->GetPosition() - vec(0, 0.5), {0, 1});
+        bar.structure.create_joint(joint);
+      }
+      Impulses told(other.front());
+      bar.world.SetContactListener(&told);
+      bar.run(0.3, 1 / hz);
+      bar.world.SetContactListener(nullptr);
+      double given = 0;
+      for (const b2Body* b : other) given += b->GetMass() * (b->GetLinearVelocity().y + 8);
+      EXPECT_GT(given, 400);
+      EXPECT_NEAR(told.y, given, 5e-3 * given) << hz << ", " << phase;
     }
   }
 }
