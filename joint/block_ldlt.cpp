@@ -194,9 +194,4 @@ void BlockLdlt::backward(std::span<Vec3> x) const {
   }
 }
 
-std::size_t BlockLdlt::bytes() const {
-  return (column_.size() + row_.size() + targets_.size()) * sizeof(int) +
-         (lower_.size() + diagonal_.size()) * sizeof(Block) + unscaled_.size() * sizeof(unscaled_[0]);
-}
-
 }  // namespace ductile::dynamics

@@ -111,7 +111,6 @@ class BlockLdlt {
   /// Block products of one factorisation and of one solve: what each costs.
   std::size_t factor_work() const { return targets_.size() + 2 * lower_.size() + diagonal_.size(); }
   std::size_t solve_work() const { return (2 * lower_.size() + diagonal_.size()) / 3; }
-  std::size_t bytes() const;
   void keep(Tape& tape) { tape(lower_, diagonal_); }
 
  private:

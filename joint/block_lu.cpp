@@ -137,9 +137,4 @@ void BlockLu::solve(const BlockLdlt& pattern, std::span<Vec3> x) const {
   }
 }
 
-std::size_t BlockLu::bytes() const {
-  return (diagonal_.size() + lower_.size() + upper_.size()) * sizeof(Block) + skew_.size() +
-         column_.size() * (sizeof(Factors) + sizeof(Right));
-}
-
 }  // namespace ductile::dynamics

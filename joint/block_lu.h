@@ -31,7 +31,6 @@ class BlockLu {
   void factor(const BlockLdlt& pattern);
   /// x ← H⁻¹ x with the last factor.
   void solve(const BlockLdlt& pattern, std::span<Vec3> x) const;
-  std::size_t bytes() const;
 
  private:
   // Columns in which L and U differ: of such bodies, and of those that these are eliminated into.

@@ -108,7 +108,8 @@ LeftOut left_out(const System& system, std::span<const Rows> before, double clos
     const auto look_at = [&](int body, double across, double along) {
       if (!system.is_free(body)) return;
       way += std::hypot(across, along);
-      gyration = std::min(gyration, std::sqrt(system.bodies[z(body)].inertia / system.bodies[z(body)].mass));
+      const Body& b = system.bodies[z(body)];
+      if (b.inertia > 0) gyration = std::min(gyration, std::sqrt(b.inertia / b.mass));
     };
     look_at(j.a, j.J.au, j.J.av);
     look_at(j.b, j.J.bu, j.J.bv);

@@ -154,8 +154,16 @@ void WorldArchive::motion(Archive& a) {
     const bool enabled = b.IsEnabled();
     each("flags", of(b, b2Body_m_flags{}));
     if (b.IsEnabled() != enabled) each.refuse("flags", "say another thing than `enabled`");
-    if (!at.p.IsValid() || !sweep.c.IsValid() || !sweep.c0.IsValid() || !b2IsValid(sweep.a) || !v.IsValid())
-      each.refuse("sweep", "and `transform` and `velocity` must be finite");
+    if (!at.p.IsValid() || !sweep.localCenter.IsValid() || !sweep.c.IsValid() || !sweep.c0.IsValid() ||
+        !b2IsValid(sweep.a0) || !b2IsValid(sweep.a))
+      each.refuse("sweep", "and `transform` must be finite");
+    if (!v.IsValid() || !b2IsValid(b.GetAngularVelocity())) each.refuse("velocity", "must be finite");
+    if (!(std::abs(at.q.s * at.q.s + at.q.c * at.q.c - 1) < 1e-3f))
+      each.refuse("transform", "must end with the sine and cosine of an angle");
+    if (!(sweep.alpha0 >= 0 && sweep.alpha0 <= 1)) each.refuse("sweep", "must end with a share of the step");
+    for (const float mass :
+         {of(b, b2Body_m_mass{}), of(b, b2Body_m_invMass{}), of(b, b2Body_m_I{}), of(b, b2Body_m_invI{})})
+      if (!(mass >= 0)) each.refuse("mass", "must be >= 0, as the moment of inertia and what is 1 over both");
   });
   a.list("contacts", contacts_.size(), [&](Archive& each, std::size_t i) { contact(each, *contacts_[i]); });
   broad_phase(a);

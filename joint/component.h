@@ -278,7 +278,7 @@ struct Component {
   void remember_blow();
   void return_ties();
   bool is_jammed() const;
-  void find_groups();
+  void find_groups(std::span<const StockJoint> ties);
   bool is_anchored(int body) const {
     return !solver.is_free(body) || groups_[z(groups_[z(body)].part_of)].anchored;
   }

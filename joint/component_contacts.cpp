@@ -203,7 +203,7 @@ void Component::read_touches() {
 void Component::return_contacts() {
   const bool stand_jammed = pieces_jam_ && solver.fastest() < b2_linearSleepTolerance &&
                             solver.fastest_turn() < b2_angularSleepTolerance;
-  if (groups_.empty() && (stand_jammed || !outside_.touches.empty())) find_groups();
+  if (groups_.empty() && (stand_jammed || !outside_.touches.empty())) find_groups(outside_.ties);
   const auto let_be = [&](const Touch& t) {
     if (stand_jammed && solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
         groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of)

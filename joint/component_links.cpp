@@ -116,7 +116,7 @@ bool Component::is_held() const {
 }
 
 // What the structures' joints and stock joints hold together, and whether what does not give holds it.
-void Component::find_groups() {
+void Component::find_groups(std::span<const StockJoint> ties) {
   groups_.resize(solver.free_bodies());
   for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i] = {.part_of = static_cast<int>(i)};
   const auto hold = [this](int a, int b) {
@@ -132,7 +132,7 @@ void Component::find_groups() {
     groups_[z(root)].part_of = other;
   };
   for (const Joint& j : solver.own_joints()) hold(j.a, j.b);
-  for (const StockJoint& t : outside_.ties)
+  for (const StockJoint& t : ties)
     if (t.rows.near && t.rows.count > 0 && t.joint->GetType() != e_mouseJoint) hold(t.in_a, t.in_b);
   for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i].part_of = root_of(groups_, static_cast<int>(i));
 }
@@ -140,7 +140,8 @@ void Component::find_groups() {
 bool Component::is_piece_apart(const b2Body& body, const b2Body& from) {
   const int i = index_of(&body);
   if (i < 0 || !solver.is_free(i) || mirrors[z(i)].guest() || is_of_another(i)) return false;
-  if (groups_.empty()) find_groups();
+  // Which stock joints there are in this step is not known yet.
+  if (std::exchange(ties_in_groups_, false) || groups_.empty()) find_groups({});
   return groups_[z(i)].part_of != groups_[z(index_of(&from))].part_of;
 }
 

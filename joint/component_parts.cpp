@@ -212,7 +212,13 @@ bool Component::strains_much() const { return solver.strained_by_blow() > strain
 
 // The usage of a row without a cap is NaN, which exceeds no number: such a row is not strained.
 bool Component::is_strained() const {
-  return std::any_of(members.begin(), members.end(), [](const Member* m) {
+  return std::any_of(members.begin(), members.end(), [this](const Member* m) {
+    const JointRecord& r = solver.records[m->index];
+    if (r.law.surface != nullptr) {
+      const Rows& s = solver.joints[m->index].impulse;
+      const double h = r.law.h;
+      return r.law.surface->usage({s[0] / h, s[1] / h, s[2] / h}) > strained;
+    }
     const auto is_strained = [m](Row row) { return m->joint->usage(row) > strained; };
     return is_strained(axial) || is_strained(shear) || is_strained(rotation);
   });
@@ -555,7 +561,7 @@ Vec3 Component::told(std::size_t body) const {
 // follow, is given again, and told again, by the next step. If that has parts after all, it restores that
 // much, and tells it besides what it gives. What is held has other impulses, too.
 void Component::tell_of_means() {
-  if (groups_.empty()) find_groups();
+  if (groups_.empty()) find_groups(outside_.ties);
   const auto all_of = [this](int i) -> Parts::OfBody& { return parts_.bodies[z(groups_[z(i)].part_of)]; };
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Parts::OfBody& body = parts_.bodies[i];

@@ -228,7 +228,7 @@ void Component::first_velocity(const b2SolverData& data) {
     account.open = true;
   }
   if (!direct()) solver.warm_start();
-  jam_time_ = std::max(0.0, jam_time_ - solver.step());
+  jam_time_ = std::max(0.0, jam_time_ - double{data.step.dt});
   enter_ties();
   enter_contacts();
   snapped_ = direct() && snaps_hard();

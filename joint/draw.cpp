@@ -55,6 +55,7 @@ void Structure::draw(b2Draw& canvas, const JointDrawing& how) const {
       const auto moment = static_cast<float>(joint->force(rotation));
       canvas.DrawCircle(at, how.moment * std::abs(moment), moment > 0 ? opening_colour : closing_colour);
     }
+    if (!(how.dot > 0)) continue;
     canvas.DrawPoint(at, how.dot, stage_color(joint->stage()));
     if (joint == how.selected) canvas.DrawPoint(at, 0.4f * how.dot, selection_colour);
   }

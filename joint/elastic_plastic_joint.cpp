@@ -228,6 +228,9 @@ void ElasticPlasticJoint::require(Row row, const RowDef& to) const {
 }
 
 void ElasticPlasticJoint::set_caps(Row row, double cap, double cap_reverse) {
+  if (record().material.surface != nullptr)
+    throw std::invalid_argument(
+        "elastic-plastic joint: its caps are those of its interaction curve; make the joint anew");
   RowDef to = this->row(row);
   to.cap = cap;
   to.cap_reverse = cap_reverse;

@@ -17,7 +17,7 @@ namespace ductile::dynamics {
 /// How a step's velocities came about, and what became of them.
 struct Motion {
   double share = 1;    // of the solution that the bodies move with
-  bool swept = false;  // by Sweep: of rows that flow, x is but the direction
+  bool swept = false;  // in the paper's way (sweep.h): of rows that flow, x is but the direction
 };
 
 /// What a row flows by in the step as it was solved, m or rad.

@@ -62,7 +62,6 @@ class Hessian {
   double factor_work(std::size_t joints) const {
     return static_cast<double>(ldlt_.factor_work() + 3 * joints);
   }
-  std::size_t bytes() const { return ldlt_.bytes() + lu_.bytes(); }
   void keep(Tape& tape) {
     auto made_of = static_cast<std::uint8_t>(factored_);
     tape(made_of, ldlt_);

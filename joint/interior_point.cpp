@@ -490,12 +490,4 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
   }
 }
 
-std::size_t InteriorPoint::bytes() const {
-  return caps_.capacity() * sizeof(CappedRows) + surfaces_.capacity() * sizeof(SurfaceRows) +
-         bounds_.capacity() * sizeof(SurfaceRows::Bound) + surface_of_.capacity() * sizeof(int) +
-         (impulses_.capacity() + best_.capacity()) * sizeof(Rows) + d_.capacity() * sizeof(Vec3) +
-         kept_.capacity() * sizeof(CappedRows::State) + rows_.capacity() * sizeof(Row4) +
-         order_.capacity() * sizeof(std::size_t);
-}
-
 }  // namespace ductile::dynamics

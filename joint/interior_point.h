@@ -66,7 +66,7 @@ class InteriorPoint {
 
   InteriorPointTunables tunables;
 
-  /// Allocates; solve() does not.
+  /// Allocates; solve() does in the first in which friction follows, and where there are more contacts.
   void form(const System& system);
 
   /// Solves from the impulses that the joints held at the last start_from(), or hold. Afterwards they hold
@@ -81,8 +81,6 @@ class InteriorPoint {
 
   /// In another step friction may follow normal impulses again, which led nowhere in the last solve.
   void begin_step() { follows_friction_ = true; }
-
-  std::size_t bytes() const;
 
  private:
   bool go(System& system, Hessian& hessian, bool follows, Outcome& outcome);

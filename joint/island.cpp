@@ -30,6 +30,10 @@ std::size_t Island::joints() const {
   return sum;
 }
 
+std::size_t Island::held_by(const Structure::Impl& structure) const {
+  return pool_.held() * structure.members.size() / std::max<std::size_t>(1, joints());
+}
+
 void Island::enter(Structure::Impl& structure) {
   structures_.push_back(&structure);
   make_room();

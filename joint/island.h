@@ -47,6 +47,9 @@ class Island {
   }
   bool holds_any() const { return holds_bullets_ || holds_contacts_; }
 
+  /// Bytes of its components: of what several structures form together, a share as of the joints.
+  std::size_t held_by(const Structure::Impl& structure) const;
+
   /// All that goes from step to step.
   struct State {
     std::uint32_t next_id;

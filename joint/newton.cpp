@@ -294,9 +294,4 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   return {at, round.number > 0};
 }
 
-std::size_t Newton::bytes() const {
-  return (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
-         pushed_.capacity() * sizeof(std::size_t) + interior_point.bytes();
-}
-
 }  // namespace ductile::dynamics

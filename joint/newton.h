@@ -66,7 +66,6 @@ class Newton {
   /// with.
   Solution solve(System& system, Hessian& hessian, const Evaluation& last, const LinearPrediction* prediction,
                  SolveReport& report);
-  std::size_t bytes() const;
   void keep(Tape& tape) { tape(contraction_, lost_); }
 
   /// One momentum per body, the gradient's own, for who needs it while that is not known.

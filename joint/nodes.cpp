@@ -43,6 +43,7 @@ void Structure::Impl::join_orphans() {
     const ElasticPlasticJointDef& to_hub = left[hub];
     for (; i + 1 < left.size() && left[i + 1].node == to_hub.node; ++i) {
       ElasticPlasticJointDef& o = left[i + 1];
+      if (o.bodyB == to_hub.bodyB) continue;  // by a second joint of the node
       o.bodyA = to_hub.bodyB;
       o.localAnchorA = to_hub.localAnchorB;
       o.referenceAngle -= to_hub.referenceAngle;

@@ -61,9 +61,7 @@ void add_impulses(System& system, std::span<Vec3> g, Evaluation& at) {
 void find_x(System& system) {
   for (const Joint& j : system.joints) {
     if (j.regime != 0) continue;  // known
-    const Rows v = relative_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
-    Rows& x = system.record(j).x;
-    for (unsigned i = 0; i < 3; ++i) x[i] = v[i] + j.bias[i];
+    system.record(j).x = biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
   }
 }
 
@@ -95,16 +93,6 @@ double rounding_of_impulses(const System& system) {
     for (unsigned i = 0; i < 3; ++i) sum += m_eff[i] > 0 ? j.impulse[i] * j.impulse[i] / m_eff[i] : 0;
   }
   return 1e-28 * sum;
-}
-
-void drop_impulses(System& system, Evaluation& at) {
-  at.fastest2 = at.fastest_turn2 = 0;
-  for (std::size_t i = 0; i < system.free; ++i) {
-    Body& b = system.bodies[i];
-    b.v = b.v_free;
-    at.see(b);
-  }
-  for (Joint& j : system.joints) system.record(j).x = j.impulse = {};
 }
 
 }  // namespace ductile::dynamics

@@ -84,7 +84,4 @@ double objective(System& system, const Evaluation& at);
 /// What the last bits of all impulses are in |∇f|².
 double rounding_of_impulses(const System& system);
 
-/// Takes all impulses back: bodies move as if there were no structure.
-void drop_impulses(System& system, Evaluation& at);
-
 }  // namespace ductile::dynamics

@@ -48,7 +48,11 @@ Pool::~Pool() {
 }
 
 void* Pool::take(std::size_t bytes) {
-  if (bytes > largest) return ask(bytes);
+  if (bytes > largest) {
+    void* const all = ask(bytes);
+    held_ += bytes;
+    return all;
+  }
   const std::size_t k = size_class(std::max(bytes, least)), size = least << k;
   if (free_[k] == nullptr && left_ < size) split(k);
   void* piece = free_[k];
@@ -61,6 +65,7 @@ void* Pool::take(std::size_t bytes) {
     left_ -= size;
   }
   ASAN_UNPOISON_MEMORY_REGION(piece, bytes);
+  held_ += bytes;
   return piece;
 }
 
@@ -72,8 +77,8 @@ void Pool::split(std::size_t into) {
   if (from >= free_.size()) return;
   auto* const piece = reinterpret_cast<std::byte*>(free_[from]);
   free_[from] = free_[from]->next;
-  while (from-- > into) give(piece + (least << from), least << from);
-  give(piece, least << into);
+  while (from-- > into) put(piece + (least << from), from);
+  put(piece, into);
 }
 
 // Of so many bytes at least. What is left of the last one becomes free pieces.
@@ -81,7 +86,7 @@ void Pool::begin_block(std::size_t bytes) {
   static_assert(sizeof(Block) <= least);
   while (left_ > 0) {
     const std::size_t size = std::min(std::bit_floor(left_), largest);
-    give(next_, size);
+    put(next_, size_class(size));
     next_ += size;
     left_ -= size;
   }
@@ -94,8 +99,12 @@ void Pool::begin_block(std::size_t bytes) {
 }
 
 void Pool::give(void* piece, std::size_t bytes) noexcept {
+  held_ -= bytes;
   if (bytes > largest) return release(piece, bytes);
-  const std::size_t k = size_class(std::max(bytes, least));
+  put(piece, size_class(std::max(bytes, least)));
+}
+
+void Pool::put(void* piece, std::size_t k) noexcept {
   ASAN_POISON_MEMORY_REGION(piece, least << k);
   ASAN_UNPOISON_MEMORY_REGION(piece, sizeof(Piece));
   free_[k] = new (piece) Piece{free_[k]};

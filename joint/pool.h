@@ -25,6 +25,8 @@ class Pool {
 
   void* take(std::size_t bytes);
   void give(void* piece, std::size_t bytes) noexcept;
+  /// Bytes that were taken and not given back.
+  std::size_t held() const { return held_; }
 
   /// Vectors that are made while one is there, in this thread, have their memory from the pool for good.
   class Use {
@@ -76,6 +78,7 @@ class Pool {
   static std::size_t size_class(std::size_t bytes) {
     return static_cast<std::size_t>(std::bit_width((bytes - 1) / least));
   }
+  void put(void* piece, std::size_t k) noexcept;
   void begin_block(std::size_t bytes);
   void split(std::size_t into);
   void* ask(std::size_t bytes);
@@ -86,7 +89,7 @@ class Pool {
   std::array<Piece*, std::bit_width(largest / least)> free_{};  // of least · 2ᵏ bytes
   Block* blocks_ = nullptr;                                     // the last comes first
   std::byte* next_ = nullptr;                                   // in the last block
-  std::size_t left_ = 0;
+  std::size_t left_ = 0, held_ = 0;
 };
 
 template <class T>

@@ -265,9 +265,4 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
   return kept;
 }
 
-std::size_t Projection::bytes() const {
-  return (g_.capacity() + d_.capacity() + z_.capacity()) * sizeof(Vec3) +
-         (poses_.capacity() + start_.capacity()) * sizeof(Pose) + kept_.capacity() * sizeof(Rows);
-}
-
 }  // namespace ductile::dynamics

@@ -23,7 +23,6 @@ class Projection {
   /// pushed to. `last` and h are those of the last solve.
   bool project(System& system, Hessian& hessian, const Evaluation& last, double h, std::span<const Pose> goal,
                bool try_goal);
-  std::size_t bytes() const;
 
  private:
   struct Work {

@@ -163,6 +163,7 @@ class Structure::Impl::Save {
     fields(a, def);
     Turn axis = m != nullptr ? m->data().frame.axis : Turn{};
     a("axis", axis.c, axis.s);
+    if (!(std::abs(std::hypot(axis.c, axis.s) - 1) < 1e-6)) a.refuse("axis", "must be of length 1");
     if (m == nullptr) m = &make(a, def, axis);
     a("id", m->id);
     a("told", m->said.used, m->said.energy);
@@ -347,12 +348,21 @@ void read(Structure& structure, Archive::Json document) {
   if (world.GetBodyCount() > 1 || world.GetJointCount() > 0)
     throw std::logic_error("save: the world has bodies; load into one that has none");
   const StructureDef before = impl.def;
+  const JointEnergy gone = impl.gone;
+  const int last_node = impl.nodes.last;
+  Archive::Json settings;
+  Archive kept(settings, false);
+  WorldArchive(world).settings(kept);
   Archive archive(document, true);
   try {
     Structure::Impl::Save(impl, archive).run();
   } catch (...) {
     impl.clear();
     impl.def = before;
+    impl.gone = gone;
+    impl.nodes.last = last_node;
+    Archive back(settings, true);
+    WorldArchive(world).settings(back);
     throw;
   }
 }

@@ -293,10 +293,4 @@ bool Solver::at_rest() {
   return rests;
 }
 
-std::size_t Solver::bytes() const {
-  return bodies.capacity() * sizeof(Body) + places.capacity() * sizeof(Place) +
-         joints.capacity() * sizeof(Joint) + records.capacity() * sizeof(JointRecord) + hessian_.bytes() +
-         newton_.bytes() + prediction_.bytes() + projection_.bytes();
-}
-
 }  // namespace ductile::dynamics

@@ -3,7 +3,7 @@
 //
 //   call             may follow                         does
 //   form(n)          filling in bodies, joints,         inverse masses, effective masses, pattern of H;
-//                    records; changed masses            allocates, nothing after it does
+//                    records; changed masses            allocates, what follows at its first use
 //   locate()         put() of any body                  gaps and J anew
 //   begin(h)         form, locate, advance              laws and biases of a step of h seconds
 //   divide(n)        begin, solve, advance              the next n steps are parts of one; unite(n) ends that
@@ -76,7 +76,6 @@ class Solver : public System {
   /// Solves until the next begin() do not settle the contacts' friction anew: its caps are those of the
   /// impulses that the contacts came with.
   void keep_friction() { keeps_friction_ = true; }
-  bool struck() const { return struck_; }
   /// See blow.h.
   double strained_by_blow() const { return dynamics::strained_by_blow(*this, before_blow_); }
   /// Of the step that advance() ended: see blow.h.
@@ -136,7 +135,6 @@ class Solver : public System {
   /// After the step: by what contacts and limits changed velocities after the last solve, world axes.
   void close_ledger(std::span<const Vec3> change) { ledger_.close(change); }
 
-  std::size_t bytes() const;
   void keep(Tape& tape) {
     System::keep(tape);
     if (tape.reads()) place_others();

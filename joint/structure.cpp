@@ -200,15 +200,9 @@ bool Structure::Impl::delivered_all() const {
 }
 
 std::size_t Structure::Impl::bytes() const {
-  std::size_t sum = sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
-                    joints.capacity() * sizeof(void*) + events.pending.capacity() * sizeof(Events::Pending);
-  for (const auto& c : island->components) {
-    if (c->structures.front() != this) continue;
-    sum += sizeof(Component) + c->solver.bytes() + c->members.capacity() * sizeof(void*) +
-           c->mirrors.capacity() * sizeof(Mirror) + c->account.began.capacity() * sizeof(b2Velocity) +
-           c->account.lost.capacity() * sizeof(Vec3);
-  }
-  return sum;
+  return sizeof(*this) + members.capacity() * (sizeof(Member) + sizeof(void*)) +
+         joints.capacity() * sizeof(void*) + events.pending.capacity() * sizeof(Events::Pending) +
+         island->held_by(*this);
 }
 
 auto Structure::Impl::state() const -> State {

@@ -83,7 +83,14 @@ void drop_if_beyond(double times, System& system, double h, Evaluation& at) {
            h * std::abs(given.w) <= times * std::numbers::pi;
   };
   const auto end = system.bodies.begin() + static_cast<std::ptrdiff_t>(system.free);
-  if (!std::all_of(system.bodies.begin(), end, within)) drop_impulses(system, at);
+  if (std::all_of(system.bodies.begin(), end, within)) return;
+  at.fastest2 = at.fastest_turn2 = 0;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    Body& b = system.bodies[i];
+    b.v = b.v_free;
+    at.see(b);
+  }
+  for (Joint& j : system.joints) system.record(j).x = j.impulse = {};
 }
 
 }  // namespace

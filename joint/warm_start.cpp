@@ -109,10 +109,4 @@ bool LinearPrediction::solve(int n, double (&a)[terms]) const {
   return true;
 }
 
-std::size_t LinearPrediction::bytes() const {
-  std::size_t sum = samples_.capacity() * sizeof(Sample);
-  for (const auto& v : past_) sum += v.capacity() * sizeof(Vec3);
-  return sum;
-}
-
 }  // namespace ductile::dynamics

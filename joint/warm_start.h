@@ -29,7 +29,6 @@ class LinearPrediction {
   void fit();
   /// Of all bodies.
   void next(std::span<Vec3> to) const;
-  std::size_t bytes() const;
   void keep(Tape& tape) {
     tape(newest_, known_, past_, share_, samples_, gram_);
     if (newest_ < 0 || newest_ >= terms || known_ < 0 || known_ > most_known)

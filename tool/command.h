@@ -83,8 +83,8 @@ Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.
 std::string shown(double value);
 
-/// What one has to know of a plan's capacities: which bodies break before a hinge turns, and whether a
-/// drawing seems to be in millimetres. As lines of a table and for --json.
+/// What one has to know of a plan's capacities, a remark each: which bodies break before a hinge turns, or
+/// whether a drawing seems to be in millimetres, for two. As lines of a table and for --json.
 std::vector<std::string> remarks(const Plan& plan);
 std::string remark_lines(const Plan& plan);
 

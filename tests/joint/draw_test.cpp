@@ -52,6 +52,13 @@ TEST(Draw, ForcesMomentsAndStages) {
   EXPECT_TRUE(same(seen.marks[9].color, {1, 1, 1}));
 }
 
+TEST(Draw, NoMarkOfScaleZero) {
+  Beam beam({.pieces = 4});
+  Recorder seen;
+  beam.structure.draw(seen, {.dot = 0, .selected = beam.joints[2]});
+  EXPECT_TRUE(seen.marks.empty());
+}
+
 TEST(Draw, NeutralPositionsStayWhereTheJointFlowedTo) {
   Beam beam({.pieces = 4, .moment_cap = 7800 * 10 * 200 / 1.3});
   beam.joints[0]->set_limits(10, unlimited, unlimited, unlimited);

@@ -467,6 +467,21 @@ TEST(Nodes, LoseABarThatGoes) {
   EXPECT_EQ(n.structure.joints().size(), 2u);  // the ceiling's and the weight's with the other bar
 }
 
+// Nor is a body joined with itself that hung on the hub by two joints of the node.
+TEST(Nodes, LeaveNoBodyJoinedWithItself) {
+  Node n;
+  ElasticPlasticJointDef def;
+  def.node = 7;
+  for (b2Body* bar : {n.bars[1], n.bars[0], n.bars[0]}) {
+    def.Initialize(n.weight, bar, {0, 0}, {1, 0});
+    n.structure.create_joint(def);
+  }
+  n.world.DestroyBody(n.weight);
+  run(n.world, n.structure, 1);
+  ASSERT_EQ(n.structure.joints().size(), 3u);  // the ceiling's two, and that of the bars
+  EXPECT_NE(n.structure.joints().back()->GetBodyA(), n.structure.joints().back()->GetBodyB());
+}
+
 TEST(Nodes, KeepWhatDoesNotBreak) {
   Node n;
   ElasticPlasticJointDef like;

@@ -325,6 +325,44 @@ TEST(Save, IsRefusedWhereItCannotBe) {
   }
 }
 
+// What is refused names what cannot be, and the world goes on with the settings that it had.
+TEST(Save, OfNumbersThatCannotBeIsRefused) {
+  Scene s;
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 3);
+  s.run(3);
+  const nlohmann::json good = nlohmann::json::parse(save_json(s.structure));
+  struct Wrong {
+    const char *list, *key;
+    std::size_t number;
+    nlohmann::json value;
+  };
+  for (const Wrong& w : {Wrong{"joints", "axis", 0, 5},
+                         {"joints", "axis", 1, "inf"},
+                         {"bodies", "transform", 2, 3},
+                         {"bodies", "sweep", 0, "nan"},
+                         {"bodies", "sweep", 6, "inf"},
+                         {"bodies", "sweep", 8, 2},
+                         {"bodies", "velocity", 2, "nan"},
+                         {"bodies", "mass", 0, -1},
+                         {"bodies", "mass", 3, "nan"}}) {
+    nlohmann::json document = good;
+    document[w.list][1][w.key][w.number] = w.value;
+    document["world"]["gravity"] = {3, 4};
+    document["world"]["warm_starting"] = false;
+    Scene into;
+    const b2Vec2 gravity = into.world.GetGravity();
+    try {
+      load_json(into.structure, document.dump());
+      FAIL() << w.key << w.number;
+    } catch (const std::invalid_argument& error) {
+      const std::string place = "save: " + std::string(w.list) + "[1]." + w.key + ": ";
+      EXPECT_EQ(std::string(error.what()).substr(0, place.size()), place);
+    }
+    EXPECT_EQ(into.world.GetGravity(), gravity);
+    EXPECT_TRUE(into.world.GetWarmStarting());
+  }
+}
+
 // A document of any content is loaded and can be stepped, or it is refused, and nothing is left of it.
 // Returns whether it was refused.
 bool is_refused_whole(const std::function<void(Scene&)>& load) {

@@ -176,6 +176,17 @@ TEST(YieldSurface, AxialForceLowersTheMomentThatTheRootCarries) {
   }
 }
 
+TEST(YieldSurface, TakesNoOtherCaps) {
+  Beam beam({.pieces = 1});
+  ElasticPlasticJointDef def;
+  def.Initialize(beam.wall, beam.pieces[0], beam.point(0), {1, 0});
+  def.interaction = rectangle(1e6, 1e6, 8);
+  ElasticPlasticJoint* joint = beam.structure.create_joint(def);
+  for (const Row row : {axial, shear, rotation})
+    EXPECT_THROW(joint->set_caps(row, 1e5, 1e5), std::invalid_argument);
+  EXPECT_NO_THROW(beam.joints[0]->set_caps(axial, 1e5, 1e5));
+}
+
 // Rigid joints, all of them on their surfaces by and by.
 TEST(YieldSurface, ACollapsingChainIsSolvedInTime) {
   Beam beam({.pieces = 6, .length = 6, .height = 0.5, .density = 1000});

@@ -137,7 +137,7 @@ class ElasticPlasticJoint : public b2WeldJoint {
   bool stiffness_limited(Row row) const;
 
   /// Changes a row while the world is not stepping; wakes the bodies. Throws std::invalid_argument where a
-  /// def may not have the row so.
+  /// def may not have the row so, and caps of a joint with an interaction curve, which are the curve's.
   void set_caps(Row row, double cap, double cap_reverse);
   /// RowDef::damping of the row becomes 0.
   void set_stiffness(Row row, double stiffness, double damping_ratio);
@@ -327,7 +327,7 @@ class Structure {
   std::vector<std::string> warnings() const;
   /// As of the last update(), which is to follow every step. Needs StructureDef::keep_ledger.
   JointEnergy energy() const;
-  std::size_t bytes() const;  ///< memory held
+  std::size_t bytes() const;  ///< memory held; of what structures of a world form together its joints' share
   /// Draws all joints. Any time outside b2World::Step.
   void draw(b2Draw& canvas, const JointDrawing& how = {}) const;
 
