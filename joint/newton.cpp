@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "line_search.h"
+#include "turn_inertia.h"
 
 namespace ductile::dynamics {
 
@@ -32,6 +33,7 @@ void Newton::form(const System& system) {
   for (auto* v : {&g_, &d_, &z_}) v->assign(system.bodies.size(), {});
   interior_point.form(system);
   pushed_.assign(system.free, 0);
+  regimes_.reserve(system.joints.capacity());  // contacts will come
   forget();
 }
 
@@ -169,6 +171,44 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
   return true;
 }
 
+// From the minimum of what f would be if each row stayed in the regime of the last solution, if that is
+// lower: it is that of one linear system. Of the parts of a step most have no row that changes its regime,
+// though many seem to where they are evaluated with the velocities of the part before. Whether v is another
+// now.
+bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at, SolveReport& report) {
+  const double f = objective(system, at);
+  for (std::size_t k = 0; k < regimes_.size(); ++k) std::swap(system.joints[k].regime, regimes_[k]);
+  hessian.factor_tangents(system, false);
+  ++report.factorisations;
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    d_[i] = b.v;
+    z_[i] = momentum(b, b.v - b.v_free);
+  }
+  for (const Joint& j : system.joints) {
+    const RowLaw& law = system.record(j).law;
+    Rows s = biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
+    for (unsigned i = 0; i < 3; ++i) s[i] = impulse_in(law, j.regime, i, s[i]);
+    add_transposed(j, s, z_[z(j.a)], z_[z(j.b)]);
+  }
+  add_turn_impulses(system, z_);
+  std::fill(z_.begin() + static_cast<std::ptrdiff_t>(system.free), z_.end(), Vec3{});
+  const auto go = [&](std::span<const Vec3> g) {
+    for (std::size_t i = 0; i < system.free; ++i) {
+      z_[i] = -1.0 * g[i];
+      if (system.bodies[i].inverse_inertia == 0) z_[i].w = 0;
+    }
+    hessian.solve({z_.data(), system.free});
+    at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v += z_[i]; });
+  };
+  go(z_);
+  // Where it is the solution, a second step mends what rounding leaves of a row that was far from it.
+  if (!at.crossed) go(g_);
+  if (!at.crossed || (at.gradient2 > target(system, at) && objective(system, at) < f)) return true;
+  at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v = d_[i]; });
+  return false;
+}
+
 // From the lower of the bodies' v and v*.
 void Newton::start_from_lower(System& system, Evaluation& at) {
   const double f = objective(system, at);
@@ -203,6 +243,13 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   interior_point.start_anew();
   if (last.flows || !system.contacts.empty()) interior_point.start_from(system);
   if (prediction != nullptr) prediction->next({z_.data(), system.free});
+  bool had_regimes = last.flows && !round.pushed_only;
+  if (had_regimes) {
+    regimes_.resize(system.joints.size());
+    unsigned any = 0;
+    for (std::size_t k = 0; k < regimes_.size(); ++k) any |= regimes_[k] = system.joints[k].regime;
+    had_regimes = (any & on_surface) == 0;
+  }
   Evaluation at = last;
   if (round.pushed_only) {
     at.gradient2 = std::max(0.0, left2_ + pushed2_);
@@ -217,6 +264,9 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v = system.bodies[i].v_free;
     at = evaluate(system, g_);
   }
+  bool moved = false;
+  if (at.gradient2 > target(system, at) && had_regimes && at.crossed && !at.curved)
+    moved = start_from_regimes(system, hessian, at, report);
   if (at.gradient2 > target(system, at) && at.flows && !round.pushed_only) start_from_lower(system, at);
 
   double best2 = at.gradient2;
@@ -291,7 +341,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   left2_ = at.gradient2;
   pushed2_ = 0;
   pushes_ = 0;
-  return {at, round.number > 0};
+  return {at, moved || round.number > 0};
 }
 
 }  // namespace ductile::dynamics

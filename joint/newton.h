@@ -6,6 +6,7 @@
 // With a fresh factor a round is a Newton step, and within one regime it ends at the solution.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "hessian.h"
@@ -81,11 +82,13 @@ class Newton {
   void preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
                                Round& round);
   bool search(System& system, const Evaluation& at_one, double slope0, double slope1, bool& short_step);
+  bool start_from_regimes(System& system, Hessian& hessian, Evaluation& at, SolveReport& report);
   void start_from_lower(System& system, Evaluation& at);
   Evaluation solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report);
 
-  Vector<Vec3> g_;      // ∇f at the bodies' v, from a solve to the pushes after it
-  Vector<Vec3> d_, z_;  // 0 for bodies whose velocities are prescribed
+  Vector<Vec3> g_;                // ∇f at the bodies' v, from a solve to the pushes after it
+  Vector<Vec3> d_, z_;            // 0 for bodies whose velocities are prescribed
+  Vector<std::uint8_t> regimes_;  // of the joints, in the last solution
   // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
   Vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;

@@ -156,6 +156,13 @@ inline unsigned flowing(unsigned regime) { return regime == on_surface ? 7u : (r
 /// Whether a row flows in a regime.
 inline bool flows(unsigned regime, unsigned i) { return (flowing(regime) >> i & 1u) != 0; }
 
+/// s of a row that stays in a regime of its caps, whatever x is.
+inline double impulse_in(const RowLaw& law, unsigned regime, unsigned i, double x) {
+  if (!flows(regime, i)) return law.G[i] * x;
+  const double cap = (regime >> i & 1u) != 0 ? law.cap[i] : -law.cap_reverse[i];
+  return cap + law.after_yield[i] * (law.G[i] * x - cap);
+}
+
 /// ds/dx of a row in a regime; on a yield surface 0 (see YieldSurface::tangent for all of it).
 inline double tangent(const RowLaw& law, unsigned regime, unsigned i) {
   if (!flows(regime, i)) return law.G[i];
