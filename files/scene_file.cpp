@@ -24,6 +24,7 @@ class SceneReader {
   SceneReader(Problems& problems, fs::path folder) : problems_(problems), folder_(std::move(folder)) {}
 
   SceneDef scene(const Value& value);
+  const std::vector<fs::path>& named() const { return named_; }
 
  private:
   void materials(const Value& value);
@@ -33,10 +34,11 @@ class SceneReader {
   Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
   std::vector<Region> profile(const Value& value, const std::optional<Material>& material);
   /// The text of a file that the scene names; nothing after complaining at the place that names it.
-  std::optional<std::string> named_file(const Value& value, const std::string& file) const;
+  std::optional<std::string> named_file(const Value& value, const std::string& file);
 
   Problems& problems_;
   fs::path folder_;
+  std::vector<fs::path> named_;
   std::map<std::string, Material, std::less<>> materials_;
   std::map<std::string, std::optional<Drawing>, std::less<>> drawings_;  // empty: could not be read
 };
@@ -248,9 +250,10 @@ std::optional<Material> SceneReader::material(const Value& name) const {
   return built_in_material(name, names);
 }
 
-std::optional<std::string> SceneReader::named_file(const Value& value, const std::string& file) const {
+std::optional<std::string> SceneReader::named_file(const Value& value, const std::string& file) {
+  named_.push_back(folder_ / file);
   try {
-    return read_text(folder_ / file);
+    return read_text(named_.back());
   } catch (const InvalidInput& error) {
     for (const Problem& problem : error.problems())
       value.wrong("'" + file + "' " + problem.what, problem.remedy);
@@ -394,11 +397,14 @@ SceneDef SceneReader::scene(const Value& value) {
 
 }  // namespace
 
-SceneDef parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
+SceneDef parse_scene(std::string_view text, const std::string& name, const fs::path& folder,
+                     std::vector<fs::path>* named) {
   const nlohmann::json json = parse_json(text, name);
   Problems problems(name);
-  auto scene = SceneReader(problems, folder).scene(Value(json, "top level", problems));
+  SceneReader reader(problems, folder);
+  auto scene = reader.scene(Value(json, "top level", problems));
   problems.check();
+  if (named) *named = reader.named();
   return scene;
 }
 

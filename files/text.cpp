@@ -65,9 +65,13 @@ void NewFile::write(std::string_view text) {
   if (!out_.write(text.data(), static_cast<std::streamsize>(text.size()))) cannot_write(target_);
 }
 
-void NewFile::keep() {
+void NewFile::close() {
   out_.close();
   if (!out_) cannot_write(target_);
+}
+
+void NewFile::keep() {
+  if (out_.is_open()) close();
   if (fresh_ != target_) fs::rename(fresh_, target_);
 }
 

@@ -53,8 +53,8 @@ int run(std::vector<std::string> words) {
 
 }  // namespace
 
-void write_picture(const fs::path& file, std::string_view svg) {
-  if (file.extension() == ".svg") return write_text(file, svg);
+std::string picture_bytes(const fs::path& file, std::string_view svg) {
+  if (file.extension() == ".svg") return std::string(svg);
   if (file.extension() != ".png") {
     throw InvalidInput({{file.string() + ":name", "is neither .svg nor .png", "name a picture so"}});
   }
@@ -67,7 +67,9 @@ void write_picture(const fs::path& file, std::string_view svg) {
                          "install it (Debian: librsvg2-bin), or name an .svg"}});
   }
   if (code != 0) throw std::runtime_error("rsvg-convert failed for " + file.string());
-  write_text(file, read_text(pixels.file));
+  return read_text(pixels.file);
 }
+
+void write_picture(const fs::path& file, std::string_view svg) { write_text(file, picture_bytes(file, svg)); }
 
 }  // namespace ductile

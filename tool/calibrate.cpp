@@ -170,7 +170,7 @@ std::string definitions_of(const Plan& plan, const Options& options) {
     const std::string text = read_text(options.scene.name);
     const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;
     if (is_rube(text)) return calibrated_rube(text, options.scene, as);
-    keep_input(options.scene.name, "--out", options.out);
+    keep_inputs({options.scene.name}, {{"--out", {options.out}}});
     for (const PlannedJoint& joint : plan.joints)
       if (joint.end || joint.drive)
         fmt::print(stderr, "warning: {}: joint '{}' is written as R.U.B.E. has it: {}\n", options.scene.name,
@@ -207,7 +207,9 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
 }
 
 std::string run(const Options& options) {
-  keep_input(options.scene.name, "--picture", options.pictures);
+  const Outputs outputs{{"--out", {options.out}}, {"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.scene.name}, {outputs.back()});
   if (options.to == "scene") {
     const std::string given = read_text(options.scene.name);
     if (is_rube(given))
@@ -215,16 +217,18 @@ std::string run(const Options& options) {
           {{"command line:--to",
             "'" + options.scene.name + "' is a level of R.U.B.E., which no scene file holds all of",
             "write the level with its joints calibrated: --to rube"}});
-    if (is_drawing(given)) keep_input(options.scene.name, "--out", options.out);
+    if (is_drawing(given)) keep_inputs({options.scene.name}, outputs);
     const std::filesystem::path beside = options.out.empty() ? options.scene.name : options.out;
-    std::string text = edited_scene(given, scene_of(options.scene, given), beside.parent_path());
+    std::string text = edited_scene(given, scene_of(options.scene, given, outputs), beside.parent_path());
     if (options.out.empty()) return text;
     write_text(options.out, text);
     return "";
   }
-  if (options.to != "rube") keep_input(options.scene.name, "--out", options.out);
+  if (options.to != "rube") keep_inputs({options.scene.name}, outputs);
   const bool whole = !options.leave_out && (options.to.empty() || options.to == "rube");
-  Plan plan = plan_of(options.scene, whole ? NotInPlan::made : NotInPlan::refused, options.target_error);
+  Plan plan =
+      plan_of(options.scene, whole ? NotInPlan::made : NotInPlan::refused, outputs, options.target_error);
+  NewFiles files(outputs);
   std::string left_out;
   if (options.leave_out) {
     if (!options.to.empty() && options.to != "json")
@@ -241,11 +245,12 @@ std::string run(const Options& options) {
   const std::string definitions = definitions_of(plan, options);
   if (!options.pictures.empty()) {
     const std::string what = fmt::format("{} pieces, {} joints", plan.pieces.size(), plan.joints.size());
-    const std::string svg =
-        picture_svg(plan, {.title = title_of(options.scene.name), .subtitle = what, .panels = {Panel{}}});
-    for (const std::string& file : options.pictures) write_picture(file, svg);
+    files.write_pictures(
+        options.pictures,
+        picture_svg(plan, {.title = title_of(options.scene.name), .subtitle = what, .panels = {Panel{}}}));
   }
-  if (!options.out.empty()) write_text(options.out, definitions);
+  if (!options.out.empty()) files.write(options.out, definitions);
+  files.keep();
   const bool print_definitions = options.json || (!options.to.empty() && options.out.empty());
   return print_definitions ? definitions : table(plan, options.scene) + left_out;
 }

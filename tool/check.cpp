@@ -121,8 +121,11 @@ std::string picture(const Plan& plan, const StaticCheck& check, const Options& o
 }
 
 std::string run(const Options& options) {
-  keep_input(options.scene.name, "--picture", options.pictures);
-  const Plan plan = plan_of(options.scene, NotInPlan::left_out);
+  const Outputs outputs{{"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.scene.name}, outputs);
+  const Plan plan = plan_of(options.scene, NotInPlan::left_out, outputs);
+  NewFiles files(outputs);
   const Order order = options.second_order ? Order::second : Order::first;
   const Found found = in_file(options.scene, [&] {
     Found all{.check = static_check(plan, order), .critical = critical_load(plan)};
@@ -137,8 +140,9 @@ std::string run(const Options& options) {
     if (std::any_of(found.check.turn.begin(), found.check.turn.end(), [](double t) { return std::isnan(t); }))
       throw InvalidInput({{"command line:--picture", "has no state to show: the structure buckles before",
                            "draw it without --second-order, or its mode by ductile limit"}});
-    for (const std::string& file : options.pictures) write_picture(file, picture(plan, found.check, options));
+    files.write_pictures(options.pictures, picture(plan, found.check, options));
   }
+  files.keep();
   return options.json ? json(plan, found).dump() + "\n" : table(plan, found, options);
 }
 

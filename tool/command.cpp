@@ -9,12 +9,14 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/moments.h"
+#include "ductile/picture.h"
 #include "ductile/rolled.h"
 #include "ductile/section.h"
 
@@ -74,13 +76,17 @@ void tell_of_scale(const SceneFile& file) {
 
 }  // namespace
 
-SceneDef scene_of(const SceneFile& file, const std::string& text) {
-  if (!is_drawing(text)) tell_of_scale(file);
-  return is_drawing(text) ? scene_of_drawing(text, file)
-                          : parse_scene(text, file.name, std::filesystem::path(file.name).parent_path());
+SceneDef scene_of(const SceneFile& file, const std::string& text, const Outputs& outputs) {
+  if (is_drawing(text)) return scene_of_drawing(text, file);
+  tell_of_scale(file);
+  std::vector<std::filesystem::path> named;
+  SceneDef scene = parse_scene(text, file.name, std::filesystem::path(file.name).parent_path(), &named);
+  keep_inputs({named.begin(), named.end()}, outputs);
+  return scene;
 }
 
-Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target_error) {
+Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,
+             std::optional<double> target_error) {
   const std::string& scene_file = file.name;
   const std::string text = read_text(scene_file);  // once: it may be a pipe
   if (is_rube(text)) {
@@ -94,7 +100,7 @@ Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target
       fmt::print(stderr, "warning: {}: {}: statics leaves it out\n", problem.place, problem.what);
     return plan;
   }
-  SceneDef scene = scene_of(file, text);
+  SceneDef scene = scene_of(file, text, outputs);
   if (target_error) scene.target_error = *target_error;
   return in_file(scene_file, [&] { return calibrate(scene); });
 }
@@ -303,11 +309,26 @@ std::string title_of(const std::string& scene_file) {
   return name;
 }
 
-void keep_input(const std::string& input, const std::string& option, const std::string& output) {
+namespace {
+
+/// A device or a pipe is no such file: it may be named twice.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;  // what is not there is no file of this name
-  if (std::filesystem::equivalent(input, output, none))
-    throw InvalidInput({{"command line:" + option, "'" + output + "' is the file that is read",
-                         "give another one: it would be lost"}});
+  if (std::filesystem::is_other(a, none)) return false;
+  if (std::filesystem::equivalent(a, b, none)) return true;
+  const auto whole = [&](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, none), none);
+  };
+  return !whole(a).empty() && whole(a) == whole(b);
+}
+
+/// Each option with each file that it names.
+std::vector<std::pair<std::string, std::string>> single(const Outputs& outputs) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& [option, files] : outputs)
+    for (const std::string& file : files)
+      if (!file.empty()) all.emplace_back(option, file);
+  return all;
 }
 
 void keep_input(const std::string& input, const std::string& option,

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/files.h"
 
 namespace ductile::tool {
 
@@ -43,12 +47,30 @@ void add_scene(CLI::App* command, SceneFile& scene);
 /// --scale alone.
 void add_scale(CLI::App* command, double& metres_per_unit);
 
-/// Refuses to write what an option names over the file that is read.
-void keep_input(const std::string& input, const std::string& option, const std::string& output);
-void keep_input(const std::string& input, const std::string& option, const std::vector<std::string>& outputs);
+/// Files to be written, by the options that name them; a file "" is none.
+using Outputs = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+/// Refuses to write two outputs to one file.
+void keep_apart(const Outputs& outputs);
+
+/// Refuses to write an output over a file that is read.
+void keep_inputs(const std::vector<std::string>& inputs, const Outputs& outputs);
+
+/// Outputs, all of which can be written before any is: they appear together, or none of them does.
+class NewFiles {
+ public:
+  explicit NewFiles(const Outputs& outputs);
+  void write(const std::string& file, std::string_view text);
+  void write_pictures(const std::vector<std::string>& files, std::string_view svg);
+  void keep();
+
+ private:
+  std::map<std::string, NewFile> files_;
+};
 
 /// The scene of a drawing or a scene file, whose text it is; warnings of what was not taken on stderr.
-SceneDef scene_of(const SceneFile& file, const std::string& text);
+/// Refuses to write an output over a file that the scene names.
+SceneDef scene_of(const SceneFile& file, const std::string& text, const Outputs& outputs);
 
 /// What becomes of a level's joints that no plan holds, as ropes and motors.
 enum class NotInPlan {
@@ -58,8 +80,9 @@ enum class NotInPlan {
 };
 
 /// The plan of a drawing or a scene file, with another target error for its automatic splits if one is given,
-/// or of a R.U.B.E. scene; what is wrong with it is said of that file.
-Plan plan_of(const SceneFile& file, NotInPlan rest, std::optional<double> target_error = std::nullopt);
+/// or of a R.U.B.E. scene; what is wrong with it is said of that file. `outputs` as scene_of() has them.
+Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,
+             std::optional<double> target_error = std::nullopt);
 
 /// "ground" for −1.
 std::string piece_name(const Plan& plan, int piece);

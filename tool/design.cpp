@@ -218,7 +218,10 @@ std::string run(const Options& options) {
     throw InvalidInput(
         {{options.scene.name, "is a level of R.U.B.E.",
           "design works on scene files and drawings; give the scene that the level was made of"}});
-  const SceneDef scene = scene_of(options.scene, text);
+  const Outputs outputs{{"--out", {options.out}}};
+  if (is_drawing(text)) keep_inputs({options.scene.name}, outputs);
+  if (options.by == "profile") keep_inputs(options.among, outputs);
+  const SceneDef scene = scene_of(options.scene, text, outputs);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
   const Found answer = in_file(options.scene, [&] {
     return options.each ? of_least_mass(scene, bodies, target, options)

@@ -121,8 +121,11 @@ std::string picture(const Plan& plan, const Found& found, const Options& options
 }
 
 std::string run(const Options& options) {
-  keep_input(options.scene.name, "--picture", options.pictures);
-  const Plan plan = plan_of(options.scene, NotInPlan::left_out);
+  const Outputs outputs{{"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.scene.name}, outputs);
+  const Plan plan = plan_of(options.scene, NotInPlan::left_out, outputs);
+  NewFiles files(outputs);
   const Found found = in_file(options.scene, [&] {
     Found all{.critical = critical_load(plan)};
     if (!options.second_order || !is_displaced_only(plan, options))
@@ -130,7 +133,8 @@ std::string run(const Options& options) {
     if (options.second_order) all.pushover = second_order_limit(plan, options.fixed_gravity);
     return all;
   });
-  for (const std::string& file : options.pictures) write_picture(file, picture(plan, found, options));
+  if (!options.pictures.empty()) files.write_pictures(options.pictures, picture(plan, found, options));
+  files.keep();
   return options.json ? json(plan, found, options).dump() + "\n" : text(plan, found, options);
 }
 

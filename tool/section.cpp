@@ -168,7 +168,9 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
 }
 
 std::string run(const Options& options) {
-  keep_input(options.file, "--picture", options.pictures);
+  const Outputs outputs{{"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.file}, outputs);
   const Subject subject = read(options);
   const Section section = in_file(options.file, [&] { return Section(subject.regions); });
   const Point d = direction(options.angle);
@@ -195,8 +197,9 @@ std::string run(const Options& options) {
   const auto notes = remarks(subject, section, d, axes, bending_class, A_eff, options.N.value_or(0));
 
   if (!options.pictures.empty()) {
-    const std::string svg = section_svg(section, d, title_of(options.file));
-    for (const std::string& file : options.pictures) write_picture(file, svg);
+    NewFiles files(outputs);
+    files.write_pictures(options.pictures, section_svg(section, d, title_of(options.file)));
+    files.keep();
   }
   if (options.json) {
     Json interaction = Json::array();

@@ -92,7 +92,7 @@ Json energy_json(const Simulation& simulation) {
 /// One row a step: time, energies, every piece's pose and every joint's forces and plastic offsets.
 class History {
  public:
-  explicit History(const std::string& file) : file_(file) {}
+  History(NewFiles& files, std::string file) : files_(files), file_(std::move(file)) {}
 
   void head(const Simulation& simulation) {
     const Plan& plan = simulation.plan();
@@ -104,7 +104,7 @@ class History {
           ",{0} N,{0} Q,{0} M,{0} plastic_rotation,{0} plastic_axial,{0} plastic_shear,{0} broken",
           joint.name);
     }
-    file_.write(line + "\n");
+    files_.write(file_, line + "\n");
   }
   void row(const Simulation& simulation) {
     fmt::memory_buffer line;
@@ -121,12 +121,12 @@ class History {
                      j.plastic_shear, j.broken ? 1 : 0);
     }
     line.push_back('\n');
-    file_.write({line.data(), line.size()});
+    files_.write(file_, {line.data(), line.size()});
   }
-  void keep() { file_.keep(); }
 
  private:
-  NewFile file_;
+  NewFiles& files_;
+  std::string file_;
 };
 
 std::string damage(const std::vector<JointReading>& joints) {
@@ -151,13 +151,12 @@ class Pictures {
       panels_.push_back(std::move(panel));
     }
   }
-  void write(const Simulation& simulation, const Options& options) {
+  std::string svg(const Simulation& simulation, const Options& options) {
     const std::string how = fmt::format("{} joints, {} solver, steps of {:.3g} s",
                                         simulation.plan().joints.size(), options.solver, options.stepping.dt);
-    const std::string svg =
-        picture_svg(simulation.plan(),
-                    {.title = title_of(options.scene.name), .subtitle = how, .panels = std::move(panels_)});
-    for (const std::string& file : options.pictures) write_picture(file, svg);
+    return picture_svg(
+        simulation.plan(),
+        {.title = title_of(options.scene.name), .subtitle = how, .panels = std::move(panels_)});
   }
 
  private:
@@ -200,9 +199,10 @@ struct Result {
 };
 
 Result run(const Options& options) {
-  keep_input(options.scene.name, "--picture", options.pictures);
-  keep_input(options.scene.name, "--history", options.history);
-  keep_input(options.scene.name, "--replay", options.replay);
+  const Outputs outputs{
+      {"--history", {options.history}}, {"--replay", {options.replay}}, {"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.scene.name}, outputs);
   const double steps = std::round(options.time / options.stepping.dt);
   if (steps < 1 && options.time > 0) {
     throw InvalidInput(
@@ -221,21 +221,18 @@ Result run(const Options& options) {
   const JointSolver solver = options.solver == "direct"      ? JointSolver::direct
                              : options.solver == "iterative" ? JointSolver::iterative
                                                              : JointSolver::stock;
-  Plan plan = plan_of(options.scene, NotInPlan::made);
+  Plan plan = plan_of(options.scene, NotInPlan::made, outputs);
   std::optional<Simulation> simulation;
   in_file(options.scene, [&] { simulation.emplace(std::move(plan), solver, options.stepping, true); });
+  NewFiles files(outputs);
   std::optional<History> history;
   if (!options.history.empty()) {
-    history.emplace(options.history);
+    history.emplace(files, options.history);
     history->head(*simulation);
     history->row(*simulation);
   }
-  std::optional<NewFile> replay_file;
   Replay replay(simulation->plan());
-  if (!options.replay.empty()) {
-    replay_file.emplace(options.replay);
-    replay.take(*simulation);
-  }
+  if (!options.replay.empty()) replay.take(*simulation);
   Pictures pictures(options);
   pictures.look(*simulation);
   int unsolved = 0;
@@ -247,18 +244,16 @@ Result run(const Options& options) {
         unsolved += structure->report().bounds_hit - structure->report().parted;
       }
       if (history) history->row(*simulation);
-      if (replay_file) replay.take(*simulation);
+      if (!options.replay.empty()) replay.take(*simulation);
       pictures.look(*simulation);
       progress.show(static_cast<double>(simulation->steps()) / steps);
     }
   }
-  if (history) history->keep();
-  if (replay_file) {
-    replay_file->write(
-        replay.page(std::filesystem::path(options.scene.name).filename().string(), *simulation));
-    replay_file->keep();
-  }
-  if (!options.pictures.empty()) pictures.write(*simulation, options);
+  if (!options.replay.empty())
+    files.write(options.replay,
+                replay.page(std::filesystem::path(options.scene.name).filename().string(), *simulation));
+  if (!options.pictures.empty()) files.write_pictures(options.pictures, pictures.svg(*simulation, options));
+  files.keep();
   if (const Structure* structure = simulation->structure()) {
     for (const std::string& warning : structure->warnings()) fmt::print(stderr, "warning: {}\n", warning);
   }

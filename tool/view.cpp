@@ -17,6 +17,7 @@ struct Options {
 };
 
 std::string run(Options options) {
+  keep_inputs({options.scene}, {{"--screenshot", {options.screenshot}}});
   options.view.scene = options.scene;
   options.view.screenshot = options.screenshot;
   const ViewCost cost = view(options.view);

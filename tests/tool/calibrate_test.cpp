@@ -139,6 +139,36 @@ TEST(CalibrateCommand, WritesNothingOverWhatItReads) {
   EXPECT_EQ(run("calibrate " + scene + " --to scene --out " + scene).exit, 0);
 }
 
+// A drawing or a section that a scene names is read, too.
+TEST(CalibrateCommand, WritesNothingOverWhatItsSceneNames) {
+  const Folder folder;
+  const std::string drawing_text =
+      "<svg width='400cm' height='100cm' viewBox='0 0 4 1'><rect id='plate' width='4' height='1'/></svg>";
+  const std::string section_text =
+      R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": "S355"}]})";
+  const std::string drawing = folder.write("art.svg", drawing_text);
+  const std::string section = folder.write("box.section.svg", section_text);
+  const std::string scene = folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+    {"name": "a", "outline": "art.svg#plate", "material": "S355", "profile": "box.section.svg",
+     "split": {"pieces": 4}}], "supports": [{"body": "a", "at": [0,0.5], "fix": ["x","y","angle"]}],
+    "loads": [{"body": "a", "at": [4,0.5], "force": [0,-1e3]}]})");
+  for (const std::string& read : {drawing, section})
+    for (const std::string& command :
+         {"calibrate " + scene + " --picture ", "calibrate " + scene + " --out ",
+          "calibrate " + scene + " --to scene --out ", "calibrate " + scene + " --to rube --out ",
+          "check " + scene + " --picture ", "limit " + scene + " --picture ",
+          "design " + scene + " --for reserve=2 --by depth --out ",
+          "simulate " + scene + " --time 0.1 --history ", "simulate " + scene + " --time 0.1 --replay "})
+      expect_bad_input(run(command + read), "is the file that is read");
+  expect_bad_input(run("design " + drawing + " --for mass=1 --by depth --out " + drawing),
+                   "is the file that is read");
+  expect_bad_input(run("design " + scene + " --for mass=1 --by profile --among " + section + " --out " +
+                       (folder / "./box.section.svg").string()),
+                   "is the file that is read");
+  EXPECT_EQ(slurp(drawing), drawing_text);
+  EXPECT_EQ(slurp(section), section_text);
+}
+
 TEST(CalibrateCommand, WritesNothingOfWhatFails) {
   const Folder folder;
   const std::string out = (folder / "plan.json").string();
@@ -149,6 +179,12 @@ TEST(CalibrateCommand, WritesNothingOfWhatFails) {
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.out, "");
   EXPECT_EQ(ran.error_lines(), 1);
+  const std::string scene = (folder / "scene.json").string(), missing = (folder / "missing/a.svg").string();
+  EXPECT_EQ(run("calibrate " + scene + " --out " + out + " --picture " + missing).exit, 1);
+  EXPECT_EQ(
+      run("calibrate " + scene + " --picture " + (folder / "a.svg").string() + " --out " + missing).exit, 1);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
 }
 
 struct Bad {

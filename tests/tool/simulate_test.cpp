@@ -133,4 +133,33 @@ TEST(SimulateCommand, BadInputLeavesNothingBehind) {
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.out, "");
 }
+
+TEST(SimulateCommand, WritesAllItsFilesOrNone) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  const std::string history = (folder / "h.csv").string(), picture = (folder / "p.svg").string();
+  const std::string run_it =
+      "simulate " + scene + " --time 0.1 --history " + history + " --picture " + picture;
+  EXPECT_EQ(run(run_it + " --picture " + (folder / "missing/x.svg").string()).exit, 1);
+  EXPECT_EQ(run(run_it + " --replay /dev/full").exit, 1);
+  EXPECT_FALSE(std::filesystem::exists(history));
+  EXPECT_FALSE(std::filesystem::exists(picture));
+  EXPECT_EQ(run(run_it + " --replay /dev/null").exit, 0);
+  EXPECT_TRUE(std::filesystem::exists(history));
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+TEST(SimulateCommand, WritesNoTwoOutputsToOneFile) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  const std::string file = (folder / "p.svg").string(), same = (folder / "./p.svg").string();
+  for (const std::string& options :
+       {" --history " + file + " --replay " + file, " --history " + file + " --picture " + same,
+        " --replay " + file + " --picture " + same}) {
+    expect_bad_input(run("simulate " + scene + " --time 0.1" + options), "too");
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  expect_bad_input(run("calibrate " + scene + " --out " + file + " --picture " + same), "too");
+  EXPECT_EQ(run("simulate " + scene + " --time 0.1 --history /dev/null --replay /dev/null").exit, 0);
+}
 }  // namespace

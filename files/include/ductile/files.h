@@ -25,9 +25,11 @@ std::vector<Region> parse_section(std::string_view text, const std::string& name
 
 /// A scene file with all that it names: drawings and profiles are looked for relative to it.
 SceneDef read_scene(const std::filesystem::path& file);
-/// The same from memory; `folder` is what the files that it names are relative to.
+/// The same from memory; `folder` is what the files that it names are relative to. `named`, if given, becomes
+/// the list of these files: drawings and sections.
 SceneDef parse_scene(std::string_view text, const std::string& name = "scene",
-                     const std::filesystem::path& folder = ".");
+                     const std::filesystem::path& folder = ".",
+                     std::vector<std::filesystem::path>* named = nullptr);
 
 /// A scene file's name without folder and endings: "B1-1" of scenes/B1-1.scene.json.
 std::string scene_name(const std::filesystem::path& file);
@@ -120,6 +122,8 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   void write(std::string_view text);
+  /// What is written is on the disk, or this throws; keep() begins with it.
+  void close();
   void keep();
 
  private:

@@ -57,8 +57,11 @@ std::string picture_svg(const Plan& plan, const PictureDef& picture);
 /// N–M curve about the centroid.
 std::string section_svg(const Section& section, Point direction, const std::string& title);
 
-/// An SVG document as a file: as it is, or, by a name that ends in .png, in two pixels per px by the program
-/// rsvg-convert. A problem where the name ends otherwise, or that program is not installed.
+/// What a file of that name holds of an SVG document: the document as it is, or, by a name that ends in .png,
+/// in two pixels per px by the program rsvg-convert. A problem where the name ends otherwise, or that program
+/// is not installed.
+std::string picture_bytes(const std::filesystem::path& file, std::string_view svg);
+/// The same written to that file.
 void write_picture(const std::filesystem::path& file, std::string_view svg);
 
 }  // namespace ductile
