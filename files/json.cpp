@@ -139,15 +139,20 @@ void print(const nlohmann::ordered_json& json, const std::string& indent, std::s
 
 }  // namespace
 
+void Problems::add(Problem problem) {
+  const auto is_the_same = [&](const Problem& p) {
+    return p.place == problem.place && p.what == problem.what && p.remedy == problem.remedy;
+  };
+  if (list_.size() < most_problems && std::none_of(list_.begin(), list_.end(), is_the_same))
+    list_.push_back(std::move(problem));
+}
+
 void Problems::add(const std::string& place, std::string what, std::string remedy) {
-  if (list_.size() < most_problems)
-    list_.push_back({file_ + ":" + place, std::move(what), std::move(remedy)});
+  add(Problem{file_ + ":" + place, std::move(what), std::move(remedy)});
 }
 
 void Problems::add(const std::vector<Problem>& of_another_file) {
-  for (const Problem& problem : of_another_file) {
-    if (list_.size() < most_problems) list_.push_back(problem);
-  }
+  for (const Problem& problem : of_another_file) add(problem);
 }
 
 void Problems::check() const {

@@ -22,12 +22,15 @@ namespace ductile {
 class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
+  /// Each is kept once: what is read in several places is wrong in one.
   void add(const std::string& place, std::string what, std::string remedy);
   void add(const std::vector<Problem>& of_another_file);
   /// Throws InvalidInput if there are any.
   void check() const;
 
  private:
+  void add(Problem problem);
+
   std::string file_;
   std::vector<Problem> list_;
 };

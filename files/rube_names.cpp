@@ -39,12 +39,14 @@ Names of_joints() {
 
 void refuse_all_but(const Names& known, const Item& item, const char* whose) {
   constexpr std::string_view prefix = "ductile.";
+  Names given;
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   for (const Value& property : item.list("customProperties")) {
     if (!property.json().is_object()) continue;
     const std::string name = property.json().value("name", Json()).dump();  // in quotes
     if (!std::string_view(name).substr(1).starts_with(prefix)) continue;
+    if (!given.insert(name).second) property.wrong("is " + name + " once more", "keep one of them");
     if (known.contains(name.substr(1 + prefix.size(), name.size() - prefix.size() - 2))) continue;
     property.wrong("is " + name + ", which no " + whose + " has",
                    known.empty() ? "give it to the body" : "write \"ductile.\" and one of: " + list);

@@ -5,6 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
 
 #include "../world_state.h"
 #include "ductile/definitions.h"
@@ -525,6 +528,11 @@ INSTANTIATE_TEST_SUITE_P(
                  s["body"][1]["customProperties"][0] = {{"name", "ductile.material"}, {"int", 1}};
                },
                "ductile.material"},
+        Spoilt{"two_depths",
+               [](json& s) {
+                 add(s["body"][1], {{"name", "ductile.depth"}, {"float", 0.1}});
+               },
+               "body[1].customProperties[3]: is \"ductile.depth\" once more; keep one of them"},
         Spoilt{"no_depth", [](json& s) { s["body"][1]["customProperties"][1]["float"] = 0; }, "body[1]"},
         Spoilt{"a_body_without_shape",
                [](json& s) {
@@ -624,6 +632,21 @@ Plan falling_on(const std::string& ground, const std::string& more = "") {
       {"name": "box", "type": 2, "position": {"x": 0, "y": 2}, "massData-mass": 3, "massData-I": 0.34)" +
                     more + R"(,
        "fixture": [{"density": 5, "polygon": {"vertices": {"x": [-0.3, 0.3, 0.3, -0.3], "y": [-0.5, -0.5, 0.5, 0.5]}}}]}]})");
+}
+
+TEST(Rube, SaysEachProblemOnce) {
+  for (const auto& spoil :
+       {+[](json& s) {
+          s["body"][1]["customProperties"][0] = {{"name", "ductile.material"}, {"float", 1}};
+        },
+        +[](json& s) { s["body"] = json::object(); }}) {
+    json scene = level();
+    spoil(scene);
+    std::istringstream lines(error_of(scene.dump()));
+    std::set<std::string> said;
+    for (std::string line; std::getline(lines, line);) EXPECT_TRUE(said.insert(line).second) << line;
+    EXPECT_FALSE(said.empty());
+  }
 }
 
 TEST(Plan, ChainsEdgesAndOverlappingFixturesAreGround) {
