@@ -190,13 +190,15 @@ std::string Value::shown() const {
   }
 }
 
-std::optional<double> Value::number(const Range& range) const {
+std::optional<double> Value::number(const Range& range, double most) const {
   if (json_->is_null() && range.null) return range.null;
+  const double value = json_->is_number() ? json_->get<double>() : 0;
+  const bool beyond = std::abs(value) > most;
   std::string remedy = std::string("write ") + range.words;
+  if (beyond) remedy += ", not beyond " + nlohmann::json(most).dump();
   if (range.null) remedy += range.null == unlimited ? ", or null for unlimited" : ", or null for the default";
   if (!json_->is_number()) return wrong("is " + shown() + ", not a number", remedy), std::nullopt;
-  const double value = json_->get<double>();
-  if (!range.contains(value)) return wrong("is " + shown(), remedy), std::nullopt;
+  if (beyond || !range.contains(value)) return wrong("is " + shown(), remedy), std::nullopt;
   return value;
 }
 

@@ -63,7 +63,8 @@ class Value {
   /// The value as a message shows it, shortened.
   std::string shown() const;
 
-  std::optional<double> number(const Range& range = any_number) const;
+  /// `most` is what calibrate() takes of any number.
+  std::optional<double> number(const Range& range = any_number, double most = 1e30) const;
   std::optional<int> integer(int low, int high) const;
   std::optional<bool> boolean() const;
   std::optional<std::string> text() const;

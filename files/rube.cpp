@@ -191,9 +191,10 @@ std::optional<double> Item::custom_number(const std::string& name, const Range& 
   } else {
     value = custom(name, {"float", "int"});
   }
-  if (!value || !value->json().is_string()) return value ? value->number(finite) : std::nullopt;
+  if (!value || !value->json().is_string()) return value ? value->number(finite, unlimited) : std::nullopt;
   const auto number = read_float(*value);
-  return number ? Value(Json(*number), value->place(), value->problems()).number(finite) : std::nullopt;
+  return number ? Value(Json(*number), value->place(), value->problems()).number(finite, unlimited)
+                : std::nullopt;
 }
 bool Item::read_custom(const std::string& name, const Range& range, double& target) const {
   const auto value = custom_number(name, range);
