@@ -14,7 +14,9 @@ namespace {
 
 constexpr double strip = 0.025;  // m
 
-Ring circle(const Point& center, double radius) {
+}  // namespace
+
+Ring disc(Point center, double radius) {
   constexpr int corners = 72;  // 1 − cos(π/72) = 0.00095
   Ring ring;
   for (int i = 0; i < corners; ++i) {
@@ -23,8 +25,6 @@ Ring circle(const Point& center, double radius) {
   }
   return ring;
 }
-
-}  // namespace
 
 std::vector<Outline> covered(const Body& body) {
   svg::Layer solid;
@@ -38,7 +38,7 @@ std::vector<Outline> covered(const Body& body) {
         break;
       }
       case Fixture::circle:
-        solid.rings.push_back(circle(fixture.points[0], fixture.radius));
+        solid.rings.push_back(disc(fixture.points[0], fixture.radius));
         break;
       default: {
         svg::Polyline line{fixture.points,

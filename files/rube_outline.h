@@ -12,4 +12,7 @@ namespace ductile::rube {
 /// with; circles are polygons within a thousandth of their radius. None where there are no solid fixtures.
 std::vector<Outline> covered(const Body& body);
 
+/// A disc as a polygon within a thousandth of its radius.
+Ring disc(Point center, double radius);
+
 }  // namespace ductile::rube

@@ -1,13 +1,13 @@
 // The joints of a R.U.B.E. scene: which are calibrated, and across which section.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ductile/files.h"
+#include "rube_outline.h"
 #include "rube_reader.h"
 #include "rube_section.h"
 
@@ -21,17 +21,8 @@ double size_of(const BodyDef& body) {
   return body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal();
 }
 
-/// The outline; of a disc a polygon within a thousandth of its radius.
 Outline outline_of(const BodyDef& body) {
-  if (body.circle == 0) return body.outline;
-  constexpr int corners = 72;
-  Outline disc;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    disc.outer.push_back(
-        {body.at.x + body.circle * std::cos(angle), body.at.y + body.circle * std::sin(angle)});
-  }
-  return disc;
+  return body.circle == 0 ? body.outline : Outline{.outer = disc(body.at, body.circle)};
 }
 
 /// The body whose section a joint has: one that moves before one that does not, then the smaller one.

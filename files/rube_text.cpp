@@ -136,16 +136,13 @@ void write_piece(Json& item, const Plan& plan, int index, const b2Body& built, c
 }
 
 void write_loads(Json& item, const Plan& plan, int piece, const Frame& frame) {
-  Json list = Json::array();
+  nlohmann::ordered_json list;
   for (const Plan::Load& load : plan.loads) {
     if (load.piece != piece) continue;
-    const Point at = frame.local(load.at);
-    Json entry{{"at", {at.x, at.y}}, {"force", {load.def.force.x, load.def.force.y}}};
-    if (load.def.moment != 0) entry["moment"] = load.def.moment;
-    if (load.def.from != 0) entry["from"] = load.def.from;
-    if (load.def.ramp != 0) entry["ramp"] = load.def.ramp;
-    if (load.def.to != unlimited) entry["to"] = load.def.to;
-    list.push_back(std::move(entry));
+    LoadDef own = load.def;
+    own.at = frame.local(load.at);
+    list.push_back(load_json(own));
+    list.back().erase("body");
   }
   if (!list.empty()) set_custom(item, "ductile.loads", "string", list.dump());
 }

@@ -146,15 +146,7 @@ JointBetweenDef read_joint(const Value& value) {
       for (std::size_t i = 2; i < names.size(); ++i) def.others.push_back(names[i].text().value_or(""));
     }
   }
-  if (const auto across = object.find("across")) {
-    const auto ends = across->elements();
-    if (ends.size() == 2) {
-      const auto from = ends[0].point(), to = ends[1].point();
-      if (from && to) def.across = {*from, *to};
-    } else if (across->json().is_array()) {
-      across->wrong("has " + std::to_string(ends.size()) + " points", "write two: [[x, y], [x, y]]");
-    }
-  }
+  if (const auto across = object.find("across")) def.across = read_segment(*across);
   object.read(fields::joint, def);
   def.overrides = read_overrides(object);
   return def;

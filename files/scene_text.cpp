@@ -146,11 +146,7 @@ Json json(const SupportDef& support) {
   return object;
 }
 
-Json json(const LoadDef& load) {
-  Json object;
-  put(object, fields::load, load);
-  return object;
-}
+Json json(const LoadDef& load) { return load_json(load); }
 
 Json json(const WheelDef& wheel) {
   Json object;
@@ -177,6 +173,12 @@ Json material_json(const Material& material) {
   Json object;
   put_strength(object, material);
   put(object, fields::substance, material);
+  return object;
+}
+
+Json load_json(const LoadDef& load) {
+  Json object;
+  put(object, fields::load, load);
   return object;
 }
 

@@ -15,6 +15,7 @@ std::optional<std::string> built_in_name(const Material& material);
 
 nlohmann::ordered_json scene_json(const SceneDef& scene);
 nlohmann::ordered_json material_json(const Material& material);
+nlohmann::ordered_json load_json(const LoadDef& load);
 /// {"regions": […]}
 nlohmann::ordered_json section_json(const std::vector<Region>& regions);
 
