@@ -32,7 +32,7 @@ class SceneReader {
   BodyDef body(const Value& value);
   void outline(Object& body, const Value& value, BodyDef& def);
   Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
-  std::vector<Region> profile(const Value& value, const std::optional<Material>& material);
+  void profile(const Value& value, BodyDef& def);
   /// The text of a file that the scene names; nothing after complaining at the place that names it.
   std::optional<std::string> named_file(const Value& value, const std::string& file);
 
@@ -299,26 +299,30 @@ void SceneReader::outline(Object& body, const Value& value, BodyDef& def) {
   }
 }
 
-std::vector<Region> SceneReader::profile(const Value& value, const std::optional<Material>& material) {
-  if (value.json().is_object()) return read_regions(value);
-  const auto file = value.text();
-  if (file && names_a_profile(*file) && !fs::exists(folder_ / *file)) {
-    try {
-      const Outline outline = draw(rolled(*file)).outline;
-      if (material) return {{outline, *material}};
-      value.wrong("is a profile of a body without \"material\"", "give the body the profile's material");
-      return {};
-    } catch (const InvalidInput& error) {
-      value.wrong(error.problems()[0].what, error.problems()[0].remedy);
-      return {};
+void SceneReader::profile(const Value& value, BodyDef& def) {
+  if (value.json().is_object()) {
+    def.profile = read_regions(value);
+  } else if (const auto file = value.text()) {
+    if (names_a_profile(*file) && !fs::exists(folder_ / *file)) {
+      if (!def.material)
+        return value.wrong("is a profile of a body without \"material\"",
+                           "give the body the profile's material");
+      try {
+        const Rolled profile = rolled(*file);
+        def.profile = {{draw(profile).outline, *def.material}};
+        def.profile_name = profile.name;
+      } catch (const InvalidInput& error) {
+        value.wrong(error.problems()[0].what, error.problems()[0].remedy);
+      }
+      return;
     }
-  }
-  const auto text = file ? named_file(value, *file) : std::nullopt;
-  if (!text) return {};
-  try {
-    return parse_section(*text, (folder_ / *file).string());
-  } catch (const InvalidInput& error) {
-    return problems_.add(error.problems()), std::vector<Region>{};
+    if (const auto text = named_file(value, *file)) {
+      try {
+        def.profile = parse_section(*text, (folder_ / *file).string());
+      } catch (const InvalidInput& error) {
+        problems_.add(error.problems());
+      }
+    }
   }
 }
 
@@ -337,10 +341,7 @@ BodyDef SceneReader::body(const Value& value) {
   }
   if (const auto name = object.find("material")) def.material = material(*name);
   if (const auto section = object.find("profile")) {
-    def.profile = profile(*section, def.material);
-    if (section->json().is_string() && names_a_profile(section->json().get<std::string>()) &&
-        !def.profile.empty())
-      def.profile_name = rolled(section->json().get<std::string>()).name;
+    profile(*section, def);
     if (value.json().contains("depth")) {
       section->wrong("stands beside \"depth\"", "give one of the two: the profile has its own depth");
     }

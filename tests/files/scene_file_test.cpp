@@ -336,6 +336,22 @@ TEST_F(SceneFolder, NamesFilesRelativeToItself) {
   EXPECT_EQ(scene.bodies[1].profile[0].material, materials::S235);
 }
 
+// A file of a profile's name goes before the profile; IPE 300 has a shear area of 2568 mm², and its file
+// none.
+TEST_F(SceneFolder, AFileOfAProfilesNameIsThatSection) {
+  write("IPE300", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,0.3],[0,0.3]], "material": "S235"}]})");
+  write("bar2", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,0.3],[0,0.3]], "material": "S235"}]})");
+  for (const char* name : {"IPE300", "bar2"}) {
+    write("beam.scene.json", R"({"bodies": [{"name": "beam", "outline": [[0,0],[6,0],[6,0.3],[0,0.3]],
+      "profile": ")" + std::string(name) +
+                                 R"(", "material": "S355"}]})");
+    const BodyDef beam = read_scene(folder / "beam.scene.json").bodies[0];
+    ASSERT_EQ(beam.profile.size(), 1u);
+    EXPECT_EQ(beam.profile_name, "");
+    EXPECT_NEAR(Section(beam.profile).area(), 0.03, 1e-12);
+  }
+}
+
 TEST_F(SceneFolder, ErrorsInAFileThatItNamesAreSaidOfThatFile) {
   write("crane.svg", R"(<svg viewBox="0 0 20 10"><path id="arm" d="M 0 0 L x"/></svg>)");
   write("strip.json", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": "gold"}]})");
