@@ -29,6 +29,8 @@ class SceneReader {
  private:
   void materials(const Value& value);
   std::optional<Material> material(const Value& name) const;
+  /// The scene's damping ratio is that of each material that does not state its own.
+  Material damped(Material material) const;
   BodyDef body(const Value& value);
   void outline(Object& body, const Value& value, BodyDef& def);
   Outline drawn(const Value& value, const std::string& reference, const DrawingScale& scale);
@@ -39,6 +41,7 @@ class SceneReader {
   Problems& problems_;
   fs::path folder_;
   std::vector<fs::path> named_;
+  std::optional<double> damping_ratio_;
   std::map<std::string, Material, std::less<>> materials_;
   std::map<std::string, std::optional<Drawing>, std::less<>> drawings_;  // empty: could not be read
 };
@@ -222,14 +225,20 @@ void SceneReader::materials(const Value& value) {
     const Value entry(json, value.place() + "." + name, problems_);
     Material& material = materials_[name];
     if (entry.json().is_string()) {
-      material = built_in_material(entry).value_or(Material{});
+      material = damped(built_in_material(entry).value_or(Material{}));
       continue;
     }
+    material = damped({});
     Object object(entry);
     for (const char* key : {"density", "E"}) object.require(key);
     read_strength(object, material);
     object.read(fields::substance, material);
   }
+}
+
+Material SceneReader::damped(Material material) const {
+  material.damping_ratio = damping_ratio_.value_or(material.damping_ratio);
+  return material;
 }
 
 std::optional<Material> SceneReader::material(const Value& name) const {
@@ -239,7 +248,8 @@ std::optional<Material> SceneReader::material(const Value& name) const {
   }
   std::vector<std::string_view> names;
   for (const auto& [known, ignored] : materials_) names.emplace_back(known);
-  return built_in_material(name, names);
+  const auto found = built_in_material(name, names);
+  return found ? std::optional(damped(*found)) : std::nullopt;
 }
 
 std::optional<std::string> SceneReader::named_file(const Value& value, const std::string& file) {
@@ -324,6 +334,7 @@ void SceneReader::profile(const Value& value, BodyDef& def) {
       }
     }
   }
+  for (Region& region : def.profile) region.material = damped(region.material);
 }
 
 BodyDef SceneReader::body(const Value& value) {
@@ -379,6 +390,7 @@ SceneDef SceneReader::scene(const Value& value) {
     Object overrides(*joint);
     scene.joint = read_overrides(overrides);
   }
+  if (const auto ratio = object.find("damping_ratio")) damping_ratio_ = ratio->number(not_negative);
   if (const auto list = object.find("materials")) materials(*list);
   read_list(object.require("bodies"), scene.bodies, [&](const Value& element) { return body(element); });
   read_list(object.find("joints"), scene.joints, read_joint);

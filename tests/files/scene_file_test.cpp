@@ -507,6 +507,36 @@ TEST(SceneFile, ProfilesMayBeNamed) {  // IPE 300 is 5381 mm² in EN 10365's tab
   EXPECT_EQ(scene.bodies[0].profile[0].material, materials::S355);
 }
 
+// It is that of each material that does not state its own, where a body, a section or a profile has it.
+TEST_F(SceneFolder, ADampingRatioOfTheSceneIsThatOfItsMaterials) {
+  write("box.json", R"({"regions": [{"outer": [[0,0],[0.1,0],[0.1,1],[0,1]], "material": {"fy": 3e8}}]})");
+  const auto body = [](const std::string& name, const std::string& rest) {
+    return R"({"name": ")" + name + R"(", "outline": [[0,0],[4,0],[4,1],[0,1]], )" + rest + "}";
+  };
+  const std::string scene = R"({"damping_ratio": 0.2, "materials": {
+      "steel": {"density": 7800, "E": 210e9, "fy": 350e6},
+      "rubber": {"density": 1100, "E": 1e7, "fy": 1e7, "damping_ratio": 0.05}, "timber": "oak"},
+    "bodies": [)" + body("a", R"("material": "steel")") +
+                            "," + body("b", R"("material": "rubber")") + "," +
+                            body("c", R"("material": "timber")") + "," +
+                            body("d", R"("material": "S355", "profile": "box.json")") + "]}";
+  const auto expect_ratios = [](const SceneDef& read) {
+    ASSERT_EQ(read.bodies.size(), 4u);
+    const double ratios[] = {0.2, 0.05, 0.2, 0.2};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(read.bodies[i].material->damping_ratio, ratios[i]) << i;
+    EXPECT_EQ(read.bodies[3].profile[0].material.damping_ratio, 0.2);
+  };
+  const SceneDef read = parse_scene(scene, "scene", folder);
+  expect_ratios(read);
+  SceneDef changed = read;
+  changed.bodies[0].depth = 0.3;
+  const std::string edited = edited_scene(scene, changed, folder);
+  EXPECT_NE(edited.find("\"damping_ratio\": 0.2"), std::string::npos) << edited;
+  expect_ratios(parse_scene(edited, "scene", folder));
+  const SceneDef written = parse_scene(scene_text(read));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(written.bodies[i].material, read.bodies[i].material) << i;
+}
+
 TEST(SceneFile, NamesAllProblemsAtOnce) {
   try {
     parse_scene(R"({"gravity": 1, "sleep": 2, "bodies": [{"name": 3, "outline": 4}]})", "bad.json");
