@@ -186,7 +186,9 @@ Document::Document(std::string_view data, std::string file) : name(std::move(fil
       if (const auto id = node.attribute("id")) document.ids.emplace(id.value(), node);
       if (const auto label = node.attribute("inkscape:label")) document.labels.emplace(label.value(), node);
       const std::string_view media = trimmed(node.attribute("media").value());
-      if (local_name(node) == "style" && (media.empty() || media == "all" || media == "screen")) {
+      const std::string_view type = node.attribute("type").value();
+      if (local_name(node) == "style" && (type.empty() || type == "text/css") &&
+          (media.empty() || media == "all" || media == "screen")) {
         for (const Node& text : node.children()) document.sheet.add(text.value());
       }
       return true;

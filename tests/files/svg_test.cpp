@@ -602,6 +602,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "<rect class='wxyz' width='9' height='9'/><rect class='b c' width='9' height='9'/>"
                  "<rect lang='en-GB' width='9' height='9'/><rect id='b' class='cd' width='3' height='3'/>",
              {{"a", 100}, {"b", 9}}},
+        Seen{"sheets_of_other_types",
+             "<style type='text/x'>rect{display:none}</style><style type='text/css'>#b{fill:none}</style>" +
+                 square + "<rect id='b' width='10' height='10'/>",
+             {{"a", 100}}},
         Seen{"what_is_printed_is_not_shown",
              "<style media='print'>rect{display:none}</style><style media='screen'>#b{fill:none}</style>" +
                  square + "<rect id='b' width='3' height='3'/>",
