@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -89,6 +90,14 @@ Json energy_json(const Simulation& simulation) {
   return object;
 }
 
+/// A field of CSV by RFC 4180, whatever a name brings along.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 /// One row a step: time, energies, every piece's pose and every joint's forces and plastic offsets.
 class History {
  public:
@@ -98,12 +107,12 @@ class History {
     const Plan& plan = simulation.plan();
     std::string line = "time";
     for (const auto& [name, value] : energy_of(simulation)) line += fmt::format(",{}", name);
-    for (const Piece& piece : plan.pieces) line += fmt::format(",{0} x,{0} y,{0} angle", piece.name);
-    for (const PlannedJoint& joint : plan.joints) {
-      line += fmt::format(
-          ",{0} N,{0} Q,{0} M,{0} plastic_rotation,{0} plastic_axial,{0} plastic_shear,{0} broken",
-          joint.name);
-    }
+    const auto add = [&](const std::string& name, std::initializer_list<const char*> values) {
+      for (const char* value : values) line += ',' + field(name + ' ' + value);
+    };
+    for (const Piece& piece : plan.pieces) add(piece.name, {"x", "y", "angle"});
+    for (const PlannedJoint& joint : plan.joints)
+      add(joint.name, {"N", "Q", "M", "plastic_rotation", "plastic_axial", "plastic_shear", "broken"});
     files_.write(file_, line + "\n");
   }
   void row(const Simulation& simulation) {

@@ -105,6 +105,17 @@ TEST(SimulateCommand, WritesEveryStepOfItsHistory) {
   EXPECT_NEAR(std::stod(last), 1, 1e-9);
 }
 
+// RFC 4180: a name with a comma, a quote or a line's end stands in quotes, its own quotes doubled.
+TEST(SimulateCommand, QuotesNamesInItsHistory) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", R"({"bodies": [
+    {"name": "a, \"b\"\nc", "outline": [[0,0],[1,0],[1,1],[0,1]], "material": "S355"}]})");
+  const std::string file = (folder / "h.csv").string();
+  ASSERT_EQ(run("simulate " + scene + " --time 0 --history " + file).exit, 0);
+  const std::string text = slurp(file), name = "\"a, \"\"b\"\"\nc ";
+  EXPECT_NE(text.find("," + name + "x\"," + name + "y\"," + name + "angle\"\n"), std::string::npos) << text;
+}
+
 TEST(SimulateCommand, PrintsATable) {
   const Folder folder;
   const Ran ran = run("simulate " + folder.write("scene.json", cantilever()) + " --time 1");
