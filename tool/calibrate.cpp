@@ -24,7 +24,7 @@ namespace {
 
 struct Options {
   SceneFile scene;
-  std::string to, as = "hinge", out;
+  std::string to, as, out;
   std::vector<std::string> pictures;
   std::optional<double> target_error;
   std::optional<double> leave_out;
@@ -206,7 +206,23 @@ std::string left_out_table(const LeanPlan& lean, const Plan& full) {
   return text;
 }
 
+/// Refuses options that have no effect beside this --to.
+void check_to(const Options& options) {
+  const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
+    const std::string to = options.to.empty() ? "json" : options.to;
+    if (given) throw InvalidInput({{"command line:" + option, "does not go with --to " + to, remedy}});
+  };
+  const bool is_scene = options.to == "scene", is_json = options.to.empty() || options.to == "json";
+  const std::string one = "leave one of them out";
+  refuse(options.leave_out && !is_json, "--leave-out", one + ", or use --to json");
+  refuse(options.json && (is_scene || options.to == "cpp"), "--json", one + ": what --to prints is no JSON");
+  refuse(!options.as.empty() && options.to != "rube", "--as", one + ", or use --to rube");
+  refuse(options.target_error && is_scene, "--target-error", one + ": a scene file keeps its splits");
+  refuse(!options.pictures.empty() && is_scene, "--picture", one + ": nothing is calibrated");
+}
+
 std::string run(const Options& options) {
+  check_to(options);
   const Outputs outputs{{"--out", {options.out}}, {"--picture", options.pictures}};
   keep_apart(outputs);
   keep_inputs({options.scene.name}, {outputs.back()});
@@ -231,9 +247,6 @@ std::string run(const Options& options) {
   NewFiles files(outputs);
   std::string left_out;
   if (options.leave_out) {
-    if (!options.to.empty() && options.to != "json")
-      throw InvalidInput({{"command line:--leave-out", "does not go with --to " + options.to,
-                           "leave one of them out, or use --to json"}});
     LeaveOut leaving = options.leaving;
     leaving.tolerance = *options.leave_out;
     Progress progress;
@@ -290,8 +303,8 @@ void add_calibrate(CLI::App& app, std::string& output) {
                    "come and gone)")
       ->needs(leaves)
       ->check(finite(0, true));
-  command->add_option("--out", options->out,
-                      "write the definitions to this file (json if --to is not given)");
+  command->add_option("--out", options->out, "write the definitions to this file (json if --to is not given)")
+      ->check(file_name());
   add_picture(command, options->pictures, "draw pieces, cuts and joints by plastic moment");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });

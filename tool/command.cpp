@@ -331,9 +331,44 @@ std::vector<std::pair<std::string, std::string>> single(const Outputs& outputs) 
   return all;
 }
 
-void keep_input(const std::string& input, const std::string& option,
-                const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) keep_input(input, option, output);
+}  // namespace
+
+void keep_apart(const Outputs& outputs) {
+  const auto all = single(outputs);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same_file(all[i].second, all[j].second))
+        throw InvalidInput({{"command line:" + all[i].first,
+                             "'" + all[i].second + "' is the file of " + all[j].first + ", too",
+                             "give another one: one of them would be lost"}});
+}
+
+void keep_inputs(const std::vector<std::string>& inputs, const Outputs& outputs) {
+  for (const auto& [option, file] : single(outputs))
+    for (const std::string& input : inputs)
+      if (is_same_file(input, file))
+        throw InvalidInput({{"command line:" + option, "'" + file + "' is the file that is read",
+                             "give another one: it would be lost"}});
+}
+
+NewFiles::NewFiles(const Outputs& outputs) {
+  for (const auto& [option, file] : single(outputs)) files_.try_emplace(file, file);
+}
+
+void NewFiles::write(const std::string& file, std::string_view text) { files_.at(file).write(text); }
+
+void NewFiles::write_pictures(const std::vector<std::string>& files, std::string_view svg) {
+  for (const std::string& file : files) write(file, picture_bytes(file, svg));
+}
+
+void NewFiles::keep() {
+  for (auto& [name, file] : files_) file.close();
+  for (auto& [name, file] : files_) file.keep();
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& file) -> std::string { return file.empty() ? "'' names no file" : ""; }, "");
 }
 
 CLI::Option* add_picture(CLI::App* command, std::vector<std::string>& files, const std::string& what) {

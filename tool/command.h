@@ -122,6 +122,9 @@ inline constexpr double least_ductility = 5;
 /// What a picture of it is called: "scenes/harbour_crane.scene.json" is "Harbour crane".
 std::string title_of(const std::string& scene_file);
 
+/// Accepts all names of files but "".
+CLI::Validator file_name();
+
 /// --picture FILE, as often as one likes.
 CLI::Option* add_picture(CLI::App* command, std::vector<std::string>& files, const std::string& what);
 

@@ -285,7 +285,7 @@ void add_design(CLI::App& app, std::string& output) {
       ->add_flag("--second-order", options->second_order,
                  "of the deformed state: reserve, collapse, displacement and rotation")
       ->excludes(each);
-  command->add_option("--out", options->out, "the scene that reaches it, to this file");
+  command->add_option("--out", options->out, "the scene that reaches it, to this file")->check(file_name());
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] { output = run(*options); });
 }

@@ -36,8 +36,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", DUCTILE_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Every command prints a table, or with --json one JSON object. Exit 0: done, 1: our failure, 2: bad "
-      "input.");
+      "Every command but report, which makes a page, prints a table, or with --json one JSON object. "
+      "Exit 0: done, 1: our failure, 2: bad input.");
   std::string output;
   for (const auto add : {tool::add_section, tool::add_materials, tool::add_calibrate, tool::add_simulate,
                          tool::add_check, tool::add_limit, tool::add_design}) {

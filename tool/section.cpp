@@ -23,7 +23,8 @@ namespace ductile::tool {
 namespace {
 
 struct Options {
-  std::string file, material = "S235";
+  std::string file;
+  std::optional<std::string> material;
   std::vector<std::string> pictures;
   double angle = 90;
   std::optional<double> N, Q, M;  // acting
@@ -47,17 +48,25 @@ Point direction(double degrees) {
 struct Subject {
   std::vector<Region> regions;
   std::optional<Rolled> profile;
+  std::string name;
 };
 
 Subject read(const Options& options) {
-  if (!names_a_profile(options.file) || std::filesystem::exists(options.file))
-    return {read_section(options.file), std::nullopt};
-  const Material* material = materials::find(options.material);
+  if (!names_a_profile(options.file) || std::filesystem::exists(options.file)) {
+    if (options.material)
+      throw InvalidInput(
+          {{"command line:--material", "is for a profile, and '" + options.file + "' is a section file",
+            "leave it out: the file's regions have their own"}});
+    return {read_section(options.file), std::nullopt, options.file};
+  }
+  const std::string of = options.material.value_or("S235");
+  const Material* material = materials::find(of);
   if (!material)
-    throw InvalidInput({{"command line:--material", "'" + options.material + "' is no built-in material",
+    throw InvalidInput({{"command line:--material", "'" + of + "' is no built-in material",
                          "ductile materials lists them; a section file takes any"}});
   Rolled profile = in_file("command line", [&] { return rolled(options.file); });
-  return {{{draw(profile).outline, *material}}, std::move(profile)};
+  const std::string name = profile.name + " of " + of;
+  return {{{draw(profile).outline, *material}}, std::move(profile), name};
 }
 
 /// A_v, and where it is from. NaN where τ_y differs between regions.
@@ -241,9 +250,7 @@ std::string run(const Options& options) {
     return result.dump() + "\n";
   }
 
-  std::string table = fmt::format(
-      "{}, bending direction {:g} degrees\n",
-      subject.profile ? subject.profile->name + " of " + options.material : options.file, options.angle);
+  std::string table = fmt::format("{}, bending direction {:g} degrees\n", subject.name, options.angle);
   const auto row = [&](const char* name, double value, const char* unit, const char* meaning = "") {
     table += fmt::format("{:<13} {:>14}", name, shown(value));
     if (*unit || *meaning) table += fmt::format(" {:<{}} {}", unit, *meaning ? 5 : 0, meaning);
@@ -300,8 +307,7 @@ void add_section(CLI::App& app, std::string& output) {
   CLI::App* command =
       app.add_subcommand("section", "What a cross-section can carry: its capacities about one direction");
   command->add_option("FILE", options->file, "section file, or a profile's name: IPE300")->required();
-  command->add_option("--material", options->material, "of a profile: a built-in material")
-      ->capture_default_str();
+  command->add_option("--material", options->material, "of a profile: a built-in material (S235)");
   for (const auto& [name, value, what] :
        {std::tuple{"--N", &options->N, "acting axial force, N, tension positive"},
         std::tuple{"--Q", &options->Q, "acting shear force, N"},

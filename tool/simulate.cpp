@@ -300,14 +300,17 @@ void add_simulate(CLI::App& app, std::string& output) {
       ->add_option("--position-iterations", options->stepping.position_iterations,
                    "as b2World::Step (default 3)")
       ->check(CLI::Range(0, most_iterations));
-  command->add_option("--history", options->history, "write every step's values to this CSV file");
+  command->add_option("--history", options->history, "write every step's values to this CSV file")
+      ->check(file_name());
   auto* picture = add_picture(command, options->pictures, "draw the scene before and after");
   command->add_option("--picture-at", options->picture_at, "draw it at these times instead: 0,1.5,4")
       ->delimiter(',')
       ->needs(picture)
       ->check(finite(0));
-  command->add_option("--replay", options->replay,
-                      "write this HTML page, which plays the run back in any browser");
+  command
+      ->add_option("--replay", options->replay,
+                   "write this HTML page, which plays the run back in any browser")
+      ->check(file_name());
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &output] {
     const Result result = run(*options);

@@ -50,6 +50,7 @@ void add_view(CLI::App& app, std::string& output) {
   auto* frames = command->add_option("--frames", options->view.frames, "run so many steps, then end")
                      ->check(CLI::Range(0L, 10'000'000L));
   command->add_option("--screenshot", options->screenshot, "write the last frame to this PNG file")
+      ->check(file_name())
       ->needs(frames);
   command->add_flag("--json", options->json, "what drawing cost as one JSON object")->needs(frames);
   command->add_flag("--trace", options->view.trace)->group("");  // for tests: a line of JSON a frame

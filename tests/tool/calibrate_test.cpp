@@ -275,6 +275,18 @@ TEST(CalibrateCommand, OptionsOutOfRangeAreBadInput) {
   expect_bad_input(run("calibrate " + scene + " --target-error -1"));
   expect_bad_input(run("calibrate " + scene + " --target-error nan"));
   expect_bad_input(run("calibrate"));
+  expect_bad_input(run("calibrate " + scene + " --out ''"), "--out");
+}
+
+TEST(CalibrateCommand, OptionsWithoutEffectAreBadInput) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", cantilever());
+  for (const char* options : {"--to scene --json", "--to cpp --json", "--to scene --leave-out 0.01",
+                              "--to cpp --leave-out 0.01", "--to json --as weld", "--to box2d --as hinge",
+                              "--to scene --target-error 0.1", "--to scene --picture a.svg"})
+    expect_bad_input(run("calibrate " + scene + " " + options), "does not go with --to");
+  for (const char* to : {"json", "box2d", "rube"})
+    EXPECT_TRUE(run("calibrate " + scene + " --json --to " + to).json().is_object());
 }
 
 TEST(CalibrateCommand, WritesEveryKindOfDefinition) {

@@ -264,12 +264,14 @@ TEST(CommandLine, MistakesAreBadInput) {
   expect_bad_input(run("section " + file + " --angle nan"));
   expect_bad_input(run("section " + file + " --angle 1e999"));
   expect_bad_input(run("section " + file + " second.json"));
+  expect_bad_input(run("section " + file + " --material S355"), "section file");
   expect_bad_input(run("section " + (folder / "missing.json").string()), "missing.json");
   expect_bad_input(run("section " + (folder / "").string()), "folder");
 }
 
 TEST(CommandLine, HelpAndVersionAreNoErrors) {
   EXPECT_EQ(run("--help").exit, 0);
+  EXPECT_NE(run("--help").out.find("Every command but report"), std::string::npos);
   EXPECT_NE(run("section --help").out.find("--angle"), std::string::npos);
   EXPECT_EQ(run("--version").exit, 0);
 }

@@ -137,7 +137,8 @@ TEST(SimulateCommand, BadInputLeavesNothingBehind) {
   for (const char* options :
        {"", "--time x", "--time -1", "--time nan", "--time 1 --dt 0", "--time 1 --dt -1", "--time 1e300",
         "--time 1 --dt 1e-300", "--time 1 --solver magic", "--time 1 --velocity-iterations -1",
-        "--time 1 --velocity-iterations 0", "--time 1 --dt 10", "--time 1 --position-iterations 1.5"}) {
+        "--time 1 --velocity-iterations 0", "--time 1 --dt 10", "--time 1 --position-iterations 1.5",
+        "--time 1 --history ''", "--time 1 --replay ''"}) {
     expect_bad_input(run("simulate " + scene + " " + options));
   }
   const Ran ran = run("simulate " + scene + " --time 1 --history " + (folder / "missing/h.csv").string());
