@@ -404,8 +404,6 @@ void Component::solve_part(double h, int number, bool blow) {
   if (strikes) {
     solver.strike(fastest);
     blow_ = true;
-  } else {
-    solver.keep_friction();
   }
   solve_direct();
   limit_speed_in_part();

@@ -162,9 +162,8 @@ void Solver::solve_again(Solution& solution, SolveReport& report) {
 }
 
 // Coulomb's cap is that of the round before. At rest and in even motion the first is right. Answers to pushes
-// keep it: what pushes is solved contact by contact anyway, and the next step starts from the last. So do
-// parts of a step that follow another part, as that was just before. But what does not press any more does
-// not rub either.
+// keep it: what pushes is solved contact by contact anyway, and the next step starts from the last. But what
+// does not press any more does not rub either.
 void Solver::settle_friction(Solution& solution, SolveReport& report) {
   for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);

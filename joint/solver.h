@@ -11,7 +11,6 @@
 //     contacts)
 //   strike(v)        begin                              velocities jumped at the start of this step
 //   push(i, Δv*)     solve, in the same step            another velocity changed
-//   keep_friction()  begin                              caps of friction are those of the last solve
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
 //                    push or weaken
 //   weaken(j, share) solve                              joint j breaks within the step
@@ -68,14 +67,12 @@ class Solver : public System {
   /// The bodies' velocities jumped at the start of this step (blow.h); `closing` is the speed of the fastest
   /// contact that closes, m/s. After begin(), before the first solve.
   void strike(double closing);
-  /// In the body's own frame. All that happens between two solves of a step is said so, or none of it.
+  /// In the body's own frame. All that happens between two solves of a step is said so, or none of it. Solves
+  /// until the next begin() do not settle the contacts' friction anew.
   void push(std::size_t body, const Vec3& change) {
     newton_.push(*this, body, change);
-    keep_friction();
+    keeps_friction_ = true;
   }
-  /// Solves until the next begin() do not settle the contacts' friction anew: its caps are those of the
-  /// impulses that the contacts came with.
-  void keep_friction() { keeps_friction_ = true; }
   /// See blow.h.
   double strained_by_blow() const { return dynamics::strained_by_blow(*this, before_blow_); }
   /// Of the step that advance() ended: see blow.h.

@@ -185,7 +185,7 @@ TEST(Solver, WhatPressesNoMoreDoesNotRub) {
   }
   line.solver.begin(h);
   line.solver.touch({}, contacts);
-  line.solver.keep_friction();
+  line.solver.push(0, {});
   SolveReport report;
   line.solver.solve(report);
   EXPECT_EQ(line.solver.contacts[0].normal, 0);
