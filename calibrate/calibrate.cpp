@@ -400,9 +400,12 @@ class Planner {
       const auto other = std::find_if(scene_.bodies.begin(), scene_.bodies.end(),
                                       [&](const BodyDef& b) { return b.name == other_name; });
       if (other->circle > 0) continue;
-      const double size =
-          std::min(bounds_of(body.outline.outer).diagonal(), bounds_of(other->outline.outer).diagonal());
-      for (const Contact& c : touching(own, in_world(*other), j.gap > 0 ? j.gap : 1e-6 * size))
+      const double least = 1e-6 * std::min(bounds_of(body.outline.outer).diagonal(),
+                                           bounds_of(other->outline.outer).diagonal());
+      const double gap = j.gap > 0 ? j.gap : least;
+      std::vector<Contact> contacts = touching(own, in_world(*other), gap, least);
+      keep_shared(contacts, gap, least);
+      for (const Contact& c : contacts)
         holds.push_back({frame.local(middle(c.from, c.to)),
                          j.overrides.moment != 0.0,
                          {frame.local(c.from), frame.local(c.to)}});
@@ -826,24 +829,27 @@ class Planner {
     const double gap = def.gap > 0 ? def.gap : least;
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
     if (def.across) return join_across(def, overriding);
-    const std::size_t before = plan_.joints.size();
-    const auto join_within = [&](double distance) {
-      for (int i = of_a.first; i < of_a.second; ++i)
-        for (int j = of_b.first; j < of_b.second; ++j) {
-          const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
-          if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, distance)) continue;
-          std::vector<Touch> touches;
-          for (const Contact& c : touching(one.outline, two.outline, distance))
-            touches.push_back({c.from, c.to});
-          if (!touches.empty()) add_joints(i, j, touches, overriding);
+    std::vector<Contact> contacts;
+    for (int i = of_a.first; i < of_a.second; ++i)
+      for (int j = of_b.first; j < of_b.second; ++j) {
+        const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
+        if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
+        for (Contact& c : touching(one.outline, two.outline, gap, least)) {
+          c.a = i;
+          c.b = j;
+          contacts.push_back(c);
         }
-    };
-    // Only an overlap three times as long as the gap is an edge that two outlines share, so a gap that is
-    // larger than it need be may hide it: the largest of its halves that finds one is taken.
-    for (double distance = gap; distance >= std::min(least, gap) && plan_.joints.size() == before;
-         distance /= 2)
-      join_within(distance);
-    if (plan_.joints.size() == before)
+      }
+    keep_shared(contacts, gap, least);
+    std::vector<Touch> touches;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const Contact& c = contacts[k];
+      touches.push_back({c.from, c.to});
+      if (k + 1 < contacts.size() && contacts[k + 1].a == c.a && contacts[k + 1].b == c.b) continue;
+      add_joints(c.a, c.b, touches, overriding);
+      touches.clear();
+    }
+    if (contacts.empty())
       problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
                            "their edges do not overlap anywhere within " + to_string(gap) + " m",
                            "let the two outlines share part of an edge, or give a larger gap"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ductile/plane.h"
 
@@ -39,15 +40,39 @@ Range shadow(Point origin, Point u, Point p, Point q, double gap) {
   return {s + end * (t - s), s + begin * (t - s)};
 }
 
+double extent_of(const Contact& c) { return length(c.to - c.from); }
+
 bool continues(const Contact& a, const Contact& b, double gap) {
   const Point u = a.to - a.from, w = b.to - b.from;
-  return length(b.from - a.to) <= gap && dot(u, w) > 0 &&
-         std::abs(cross(u, w)) <= 1e-6 * length(u) * length(w);
+  const double shorter = std::min(length(u), length(w));
+  return length(b.from - a.to) <= std::min(3 * gap, shorter) && 3 * std::abs(a.apart - b.apart) <= shorter &&
+         dot(u, w) > 0 && std::abs(cross(u, w)) <= 1e-6 * length(u) * length(w);
+}
+
+Contact joined_to(Contact a, const Contact& b) {
+  a.to = b.to;
+  if (std::abs(b.apart) > std::abs(a.apart)) a.apart = b.apart;
+  return a;
+}
+
+// Whether the strip between the edges of c has that of m in it: the far side of a body or of a piece, which
+// is no place to join.
+bool hides(const Contact& m, const Contact& c, double least) {
+  if (!(std::abs(m.apart) < std::abs(c.apart))) return false;
+  const Point u = unit(c.to - c.from), over = m.apart * right(unit(m.to - m.from));
+  double begin = extent_of(c), end = 0;
+  for (const Point& corner : {m.from, m.to, m.from + over, m.to + over}) {
+    const double along = dot(corner - c.from, u), out = dot(corner - c.from, right(u));
+    if (out < std::min(0.0, c.apart) - least || out > std::max(0.0, c.apart) + least) return false;
+    begin = std::min(begin, along);
+    end = std::max(end, along);
+  }
+  return std::min(end, extent_of(c)) - std::max(begin, 0.0) > 3 * least;
 }
 
 }  // namespace
 
-std::vector<Contact> touching(const Outline& a, const Outline& b, double gap) {
+std::vector<Contact> touching(const Outline& a, const Outline& b, double gap, double least) {
   std::vector<Contact> result;
   for_each_ring(a, [&](const Ring& ring) {
     const std::size_t first = result.size();
@@ -59,7 +84,14 @@ std::vector<Contact> touching(const Outline& a, const Outline& b, double gap) {
         for_each_edge(other, [&](Point r, Point s) {
           const Range range = shadow(p, u, r, s, gap);
           const double from = std::max(range.from, 0.0), to = std::min(range.to, extent);
-          if (to - from > 3 * gap) result.push_back({p + from * u, p + to * u});
+          const auto apart = [&](double along) {
+            return -cross(u, r - p + ((along - dot(r - p, u)) / dot(s - r, u)) * (s - r));
+          };
+          if (!(to - from > 3 * std::min(gap, least))) return;
+          double nearer = apart(from), farther = apart(to);
+          if (std::abs(nearer) > std::abs(farther)) std::swap(nearer, farther);
+          const double tilt = std::abs(farther) - (nearer * farther > 0 ? std::abs(nearer) : 0);
+          if (to - from > 3 * tilt) result.push_back({p + from * u, p + to * u, farther});
         });
       });
       std::sort(result.begin() + static_cast<std::ptrdiff_t>(before), result.end(),
@@ -68,19 +100,36 @@ std::vector<Contact> touching(const Outline& a, const Outline& b, double gap) {
     // One pass joins what continues; the last may continue in the first.
     std::vector<Contact> joined;
     for (std::size_t i = first; i < result.size(); ++i) {
-      if (!joined.empty() && continues(joined.back(), result[i], 3 * gap))
-        joined.back().to = result[i].to;
+      if (!joined.empty() && continues(joined.back(), result[i], gap))
+        joined.back() = joined_to(joined.back(), result[i]);
       else
         joined.push_back(result[i]);
     }
-    if (joined.size() > 1 && continues(joined.back(), joined.front(), 3 * gap)) {
-      joined.front().from = joined.back().from;
+    if (joined.size() > 1 && continues(joined.back(), joined.front(), gap)) {
+      joined.front() = joined_to(joined.back(), joined.front());
       joined.pop_back();
     }
     result.resize(first);
     result.insert(result.end(), joined.begin(), joined.end());
   });
   return result;
+}
+
+void keep_shared(std::vector<Contact>& all, double gap, double least) {
+  const std::vector<Contact> found = all;
+  std::erase_if(all, [&](const Contact& c) {
+    return std::any_of(found.begin(), found.end(), [&](const Contact& m) { return hides(m, c, least); });
+  });
+  double nearest = gap;
+  for (const Contact& c : all) nearest = std::min(nearest, std::abs(c.apart));
+  const auto keep = [&](const auto& counts) {
+    if (std::none_of(all.begin(), all.end(), counts)) return false;
+    std::erase_if(all, [&](const Contact& c) { return !counts(c); });
+    return true;
+  };
+  keep([&](const Contact& c) { return extent_of(c) > 3 * gap; }) ||
+      keep([](const Contact& c) { return extent_of(c) > 3 * std::abs(c.apart); }) ||
+      keep([&](const Contact& c) { return std::abs(c.apart) <= nearest + least; });
 }
 
 }  // namespace ductile::calibration

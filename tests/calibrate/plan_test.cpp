@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ductile/box2d.h"
 #include "ductile/calibrate.h"
@@ -531,6 +532,47 @@ TEST(Calibrate, BodiesJoinWhereEdgesOverlap) {
     EXPECT_DOUBLE_EQ(plan.joints[0].height, 1) << gap;
     EXPECT_EQ(plan.joints[0].axis, (Point{1, 0}));
   }
+}
+
+// The end of a beam 0.2 m high is 0.1 m away from its wall, in which it may also stick. No gap that is large
+// enough has it joined to the far side of the wall, to pieces behind its first or to a ledge below it.
+TEST(Calibrate, BodiesJoinWithinAnyGapThatIsLargeEnough) {
+  for (const auto& [at, pieces] : {std::pair(0.1, 200), std::pair(-0.1, 1)}) {
+    SceneDef scene = cantilever(pieces);
+    scene.bodies[0].outline = {{{-1, -1}, {0.05, -1}, {0.05, -0.15}, {0, -0.15}, {0, 2}, {-1, 2}}, {}};
+    scene.bodies[1].outline = {rectangle(0, 0, 4, 0.2), {}};
+    scene.bodies[1].along = {Point{0, 0.1}, Point{4, 0.1}};
+    scene.bodies[1].at = {at, 0};
+    scene.joints[0].gap = 0.099;
+    EXPECT_NE(problems_of(scene).find("within 0.099 m"), std::string::npos) << at;
+    for (const double gap : {0.101, 0.2, 0.5, 1.0, 10.0}) {
+      scene.joints[0].gap = gap;
+      ASSERT_EQ(problems_of(scene), "") << gap;
+      const Plan plan = calibrate(scene);
+      ASSERT_EQ(std::ssize(plan.joints), pieces) << at << ' ' << gap;
+      EXPECT_EQ(plan.joints.back().name, pieces > 1 ? "wall-beam/0" : "wall-beam") << gap;
+      EXPECT_NEAR(plan.joints.back().height, 0.2, 1e-12) << gap;
+    }
+  }
+}
+
+// Two plates of 0.1 m on one another share one edge of 4 m, and their outer faces none; a box that is turned
+// by 45° shares none with what its corner touches.
+TEST(Calibrate, OnlyFacesThatSeeEachOtherAreShared) {
+  SceneDef scene;
+  scene.bodies = {{.name = "lower", .outline = {rectangle(0, 0, 4, 0.1), {}}, .material = test_steel},
+                  {.name = "upper", .outline = {rectangle(0, 0.1, 4, 0.2), {}}, .material = test_steel}};
+  scene.joints = {{.a = "lower", .b = "upper"}};
+  for (const double gap : {0.0, 0.01, 0.3, 5.0}) {
+    scene.joints[0].gap = gap;
+    ASSERT_EQ(problems_of(scene), "") << gap;
+    const Plan plan = calibrate(scene);
+    ASSERT_EQ(plan.joints.size(), 1u) << gap;
+    EXPECT_NEAR(plan.joints[0].height, 4, 1e-12) << gap;
+    EXPECT_NEAR(plan.joints[0].anchor.y, 0.1, 1e-12) << gap;
+  }
+  scene.bodies[1].outline = {{{2, 0.1}, {3, 1.1}, {2, 2.1}, {1, 1.1}}, {}};
+  EXPECT_NE(problems_of(scene).find("do not overlap anywhere"), std::string::npos);
 }
 
 // A wedge that comes to a point: cut where its height drowns in the rounding of its coordinates.
