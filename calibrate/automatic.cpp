@@ -268,12 +268,12 @@ class Automatic {
           std::ceil(n * (stalls ? 2.0 : std::min(std::sqrt(own / (margin * target_)), 2.0)));
       n = std::min(std::max(wanted, n + 1 + std::floor(0.05 * round++ * n)), most_parts);
     }
-    // Cuts that hardly help, as in a shape too stout to bend like a beam, are not worth their joints: the
-    // first that come within twice the least error.
+    // The least error, where pieces may not be shorter. Cuts that hardly help, as in a shape too stout to
+    // bend like a beam, are not worth their joints: the first that come within twice that.
     double least = margin * target_;
     if (tries.back().error > least) {
       least = std::numeric_limits<double>::infinity();
-      for (const Try& t : tries) least = std::min(least, 2 * t.error);
+      for (const Try& t : tries) least = std::min(least, (stalled == patience ? 2 : 1) * t.error);
     }
     std::erase_if(tries, [&](const Try& t) { return !(t.error <= least); });
     return std::move(*std::min_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
@@ -516,7 +516,7 @@ class Automatic {
           break;
         }
     const Chord& chord = station.chord;
-    const double apart = std::max(least_side, least_share * h);
+    const double apart = (1 - 1e-9) * std::max(least_side, least_share * h);  // cuts may be just that far
     if (width(chord) < least_side) return;
     if (m.to < 0 && !m.closed && m.length - station.s < apart) return;
     if (m.from < 0 && !m.closed && station.s < apart) return;

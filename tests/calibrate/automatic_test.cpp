@@ -211,6 +211,22 @@ TEST(Automatic, ClosedFormsOfAStraightBeam) {
   }
 }
 
+// 4 m in pieces of 0.025 m are 160, and no target asks for fewer than a coarser one. A cantilever of n pieces
+// errs by 1/n², 4e-5.
+TEST(Automatic, AFinerTargetNeverMakesFewerPieces) {
+  std::size_t before = 0;
+  for (const double target : {1e-2, 1e-3, 1e-4, 6e-5, 4.2e-5, 4e-5, 3.9e-5, 3e-5, 1e-5, 1e-7}) {
+    const Plan plan = calibrate(clamped({rectangle(0, -0.1, 4, 0.1), {}}, target));
+    EXPECT_GE(plan.pieces.size(), before) << target;
+    EXPECT_EQ(plan.split_errors.at(0).governed_by == "target error", plan.split_errors.at(0).error <= target);
+    before = plan.pieces.size();
+    if (target < 3.9e-5) {
+      EXPECT_EQ(before - 1, 160u) << target;
+      EXPECT_NEAR(plan.split_errors.at(0).error * 160 * 160, 1, 0.1);
+    }
+  }
+}
+
 // Depths that go up and down every 1.8 m: the estimate must know the corners, or it finds fault with what it
 // compares to, whatever the number of pieces.
 TEST(Automatic, AJaggedGirderReachesItsTarget) {

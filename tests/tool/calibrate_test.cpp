@@ -289,6 +289,20 @@ TEST(CalibrateCommand, OptionsWithoutEffectAreBadInput) {
     EXPECT_TRUE(run("calibrate " + scene + " --json --to " + to).json().is_object());
 }
 
+// A strip of 4 m in pieces of 0.025 m errs by 1/160², 0.004 %.
+TEST(CalibrateCommand, SaysWhereASplitDoesNotReachItsTarget) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", R"({"bodies": [
+    {"name": "w", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+    {"name": "b", "outline": [[0,0],[4,0],[4,0.2],[0,0.2]], "material": "S355", "split": "auto"}],
+    "joints": [{"between": ["w", "b"]}]})");
+  EXPECT_EQ(run("calibrate " + scene + " --json --target-error 1e-4").err, "");
+  const Ran ran = run("calibrate " + scene + " --json --target-error 1e-5");
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_NE(ran.err.find("'b' is split with a displacement error of 0.004"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("above the target error"), std::string::npos) << ran.err;
+}
+
 TEST(CalibrateCommand, WritesEveryKindOfDefinition) {
   const Folder folder;
   const std::string scene = folder.write("my scene.json", cantilever());
