@@ -136,10 +136,11 @@ Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Prope
 
 Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target, Order order) {
   require_positive(target);
+  constexpr double within = 1e-9;  // of the target, as reach() meets it
   double best = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const double reached = measured(calibrate(candidates[i]), measure, order);
-    if (is_at_most(measure) ? reached <= target : reached >= target)
+    if (is_at_most(measure) ? reached <= (1 + within) * target : reached >= (1 - within) * target)
       return {static_cast<double>(i), reached, candidates[i]};
     best = i == 0 ? reached : is_at_most(measure) ? std::min(best, reached) : std::max(best, reached);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace ductile {
 
@@ -17,9 +18,10 @@ std::string governing(const Plan& plan, const StaticCheck& check) {
   return std::string(most->second) + " of " + plan.joints[first].name;
 }
 
+namespace {
+
 // Newton in logarithms, with the power from the last two; a step to where there is no result is halved.
-double factor_for(double target, const std::function<double(double)>& result,
-                  const std::function<std::string()>& why_not, double power) {
+std::optional<double> factor_along(double power, double target, const std::function<double(double)>& result) {
   double x = 1, f = result(x);
   const auto is_there = [](double value) { return value > 0 && value < unlimited; };
   for (int i = 0; i < 60 && is_there(f); ++i) {
@@ -36,8 +38,17 @@ double factor_for(double target, const std::function<double(double)>& result,
     x = next;
     f = value;
   }
-  throw InvalidInput(
-      {{"target", "no number reaches it: " + why_not(), "change what governs, or the target"}});
+  return std::nullopt;
+}
+
+}  // namespace
+
+double factor_for(double target, const std::function<double(double)>& result,
+                  const std::function<std::string()>& why_not, double power) {
+  if (const auto x = factor_along(power, target, result)) return *x;
+  const std::string why = why_not();
+  if (const auto x = factor_along(-power, target, result)) return *x;
+  throw InvalidInput({{"target", "no number reaches it: " + why, "change what governs, or the target"}});
 }
 
 }  // namespace ductile

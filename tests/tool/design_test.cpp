@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "run.h"
 
@@ -55,6 +56,26 @@ TEST_F(DesignCommand, PiecesAndNumbers) {
   EXPECT_NEAR(design("--for damping=0.1 --by damping_ratio --json").json()["value"].get<double>(), 0.1, 1e-6);
   EXPECT_NEAR(design("--for mass=100 --by depth --json").json()["reached"].get<double>(), 100, 1e-6);
   EXPECT_NE(design("--for frequency=5 --by E").out.find("frequency of 5 Hz"), std::string::npos);
+}
+
+// √(k/m)/2π of a block on a spring, which falls as its depth d grows: m = 1000 d.
+TEST_F(DesignCommand, WhatFallsWithDepth) {
+  const std::string spring = folder.write("spring.scene.json", R"({
+  "bodies": [{"name": "b", "outline": [[0,0],[1,0],[1,1],[0,1]], "material": "x"}],
+  "materials": {"x": {"density": 1000, "E": 1e9, "fy": 1e9}},
+  "supports": [{"body": "b", "at": [0.5,0.5], "fix": ["x","angle"], "stiffness": {"y": 1e5}}]})");
+  const Ran ran = run("design " + spring + " --for frequency=2 --by depth --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NEAR(ran.json()["value"].get<double>() / (1e5 / std::pow(4 * std::numbers::pi, 2) / 1000), 1, 1e-9);
+  EXPECT_NEAR(ran.json()["reached"].get<double>() / 2, 1, 1e-9);
+}
+
+// Oak's own damping is 0.1: the list has it exactly.
+TEST_F(DesignCommand, AMemberOfAListThatIsJustEnough) {
+  const Ran ran = design("--for damping=0.1 --by material --among oak --json");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["value"], "oak");
+  expect_bad_input(design("--for damping=0.10000001 --by material --among oak"), "the best comes to 0.1");
 }
 
 TEST_F(DesignCommand, BadInput) {
