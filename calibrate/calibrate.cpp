@@ -375,20 +375,20 @@ class Planner {
   // Where supports and other bodies hold a body, in its outline's coordinates.
   std::vector<Hold> holds_of(const BodyDef& body) const {
     const auto is_it = [&](const std::string& name) { return name == body.name; };
-    const auto joined = std::count_if(scene_.joints.begin(), scene_.joints.end(),
-                                      [&](const JointBetweenDef&j) { return is_it(j.a) || is_it(j.b); }),
-               supported = std::count_if(scene_.supports.begin(), scene_.supports.end(),
-                                         [&](const SupportDef&s) { return is_it(s.body); });
     std::vector<Hold> holds;
-    if (joined + supported == 0) return holds;
     const Frame frame = frame_of(body);
     for (const SupportDef& s : scene_.supports)
       if (is_it(s.body)) holds.push_back({frame.local(s.at), s.fix_angle});
-    const Outline own = in_world(body);
     for (const JointBetweenDef& j : scene_.joints) {
-      if (!is_it(j.a) && !is_it(j.b)) continue;
-      if (j.line) {
-        holds.push_back({frame.local((*j.line)[is_it(j.a) ? 0 : 1]), false});
+      const std::vector<std::string> all = j.bodies();
+      if (std::none_of(all.begin(), all.end(), is_it)) continue;
+      if (j.at) {
+        holds.push_back({frame.local(*j.at), j.overrides.moment.value_or(j.welded ? unlimited : 0) > 0});
+        continue;
+      }
+      if (j.is_line()) {
+        holds.push_back(
+            {j.line ? frame.local((*j.line)[is_it(j.a) ? 0 : 1]) : moments(body.outline).centroid, false});
         continue;
       }
       if (j.across) {
@@ -403,7 +403,7 @@ class Planner {
       const double least = 1e-6 * std::min(bounds_of(body.outline.outer).diagonal(),
                                            bounds_of(other->outline.outer).diagonal());
       const double gap = j.gap > 0 ? j.gap : least;
-      std::vector<Contact> contacts = touching(own, in_world(*other), gap, least);
+      std::vector<Contact> contacts = touching(in_world(body), in_world(*other), gap, least);
       keep_shared(contacts, gap, least);
       for (const Contact& c : contacts)
         holds.push_back({frame.local(middle(c.from, c.to)),

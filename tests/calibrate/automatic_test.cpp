@@ -211,6 +211,42 @@ TEST(Automatic, ClosedFormsOfAStraightBeam) {
   }
 }
 
+// Between nodes: q L⁴/384EI clamped and 5q L⁴/384EI pinned, and q L²/8κGA besides. The far node has the beam
+// as its third body.
+TEST(Automatic, NodesHoldABodyAsWallsDo) {
+  const double L = 20, q = density * g, EI = E / 12;
+  for (const bool welded : {true, false})
+    for (const double target : {0.03, 0.01, 0.003}) {
+      SceneDef scene = clamped({rectangle(0, -0.5, L, 0.5), {}}, target);
+      scene.bodies.push_back(
+          {.name = "wall2", .type = BodyType::static_body, .outline = {rectangle(L, -1, L + 1, 1), {}}});
+      scene.bodies.push_back(
+          {.name = "box", .outline = {rectangle(L, 1, L + 1, 2), {}}, .material = test_steel});
+      scene.joints = {{.a = "wall", .b = "beam", .at = Point{0, 0}},
+                      {.a = "wall2", .b = "box", .at = Point{L, 0}, .others = {"beam"}}};
+      for (JointBetweenDef& j : scene.joints) j.overrides.moment = welded ? unlimited : 0;
+      const Plan plan = calibrate(scene);
+      const Statics held(plan);
+      double sag = 0;
+      for (double x = 8; x <= 12; x += 0.01) sag = std::max(sag, -held.displacement(1, {x, 0.5}).y);
+      const double exact = q * L * L * ((welded ? 1 : 5) * L * L / 384 / EI + 1 / kappa_G / 8);
+      EXPECT_LE(std::abs(sag / exact - 1), target) << welded;
+      EXPECT_LE(plan.pieces.size() - 3, std::ceil(std::sqrt(8 / (0.9 * target))));
+    }
+}
+
+// A rope between centres holds a body as one at its middle does: two cantilevers of 10 m.
+TEST(Automatic, ARopeBetweenCentresHoldsTheMiddle) {
+  SceneDef scene = clamped({rectangle(0, -0.5, 20, 0.5), {}}, 0.01);
+  scene.bodies[0].outline = {rectangle(0, 5, 20, 6), {}};
+  scene.joints = {{.a = "wall", .b = "beam", .carries = Carries::tension}};
+  const Plan between_centres = calibrate(scene);
+  scene.joints[0].line = {Point{10, 5.5}, Point{10, 0}};
+  const Plan between_ends = calibrate(scene);
+  EXPECT_EQ(between_centres.pieces.size(), between_ends.pieces.size());
+  EXPECT_GE(between_centres.pieces.size() - 1, 20u);  // 1/n² of each half within 0.01
+}
+
 // 4 m in pieces of 0.025 m are 160, and no target asks for fewer than a coarser one. A cantilever of n pieces
 // errs by 1/n², 4e-5.
 TEST(Automatic, AFinerTargetNeverMakesFewerPieces) {
