@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "areas.h"
 #include "automatic.h"
 #include "caps.h"
 #include "ductile/fields.h"
@@ -671,17 +672,7 @@ class Planner {
   }
 
   Point centre_of(const std::string& body) const {
-    const auto [first, last] = pieces_of(body);
-    double area = 0;
-    Point sum;
-    for (int i = first; i < last; ++i) {
-      const Piece& piece = plan_.pieces[i];
-      const double a =
-          piece.circle > 0 ? std::numbers::pi * piece.circle * piece.circle : moments(piece.outline).area;
-      area += a;
-      sum = sum + a * piece.center;
-    }
-    return (1 / area) * sum;
+    return mass_centre(plan_, plan_.pieces[pieces_of(body).first].body);
   }
 
   void join_by_line(const JointBetweenDef& def) {

@@ -1,7 +1,6 @@
 #include "caps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <span>

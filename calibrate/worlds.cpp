@@ -1,9 +1,7 @@
 // A plan as bodies, fixtures and joints of a b2World.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -11,11 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "areas.h"
 #include "ductile/box2d.h"
-#include "ductile/moments.h"
 #include "ductile/plane.h"
 
 namespace ductile {
+using namespace calibration;
 
 namespace {
 
@@ -59,23 +58,6 @@ std::vector<int> node_mates(const Plan& plan) {
   }
   for (int& body : mate) body = first(body);
   return mate;
-}
-
-double area_of(const Piece& piece) {
-  return piece.circle > 0 ? std::numbers::pi * piece.circle * piece.circle : moments(piece.outline).area;
-}
-
-// Of a whole body, about which it turns.
-Point mass_centre(const Plan& plan, int body) {
-  double area = 0;
-  Point first{};
-  for (const Piece& piece : plan.pieces) {
-    if (piece.body != body) continue;
-    const double a = area_of(piece);
-    area += a;
-    first = first + a * piece.center;
-  }
-  return (1 / area) * first;
 }
 
 b2Joint* create_stock_joint(b2World& world, const Plan& plan, const PlannedJoint& j, b2Body* a, b2Body* b,
