@@ -218,10 +218,12 @@ TEST(Automatic, NodesHoldABodyAsWallsDo) {
   for (const bool welded : {true, false})
     for (const double target : {0.03, 0.01, 0.003}) {
       SceneDef scene = clamped({rectangle(0, -0.5, L, 0.5), {}}, target);
+      scene.bodies[0].outline = {rectangle(-1, -1, -0.1, 1), {}};  // no edge of it is near the beam
+      scene.bodies.push_back({.name = "wall2",
+                              .type = BodyType::static_body,
+                              .outline = {rectangle(L + 0.1, -1, L + 1, 1), {}}});
       scene.bodies.push_back(
-          {.name = "wall2", .type = BodyType::static_body, .outline = {rectangle(L, -1, L + 1, 1), {}}});
-      scene.bodies.push_back(
-          {.name = "box", .outline = {rectangle(L, 1, L + 1, 2), {}}, .material = test_steel});
+          {.name = "box", .outline = {rectangle(L + 0.1, 1, L + 1, 2), {}}, .material = test_steel});
       scene.joints = {{.a = "wall", .b = "beam", .at = Point{0, 0}},
                       {.a = "wall2", .b = "box", .at = Point{L, 0}, .others = {"beam"}}};
       for (JointBetweenDef& j : scene.joints) j.overrides.moment = welded ? unlimited : 0;
