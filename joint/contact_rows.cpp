@@ -53,8 +53,11 @@ bool enter_contacts(System& system, std::span<const Contact> contacts, double h)
     r.law.G[0] = j.G[0] = contact_ratio * r.m_eff[0];
     r.law.cap_reverse[0] = unlimited;
     set_friction(j, r, c.friction * c.normal);
-    for (unsigned i = 0; i < 2; ++i)
-      if (j.G[i] > 0) j.bias[i] += j.impulse[i] / j.G[i];
+    for (unsigned i = 0; i < 2; ++i) {
+      if (!(j.G[i] > 0)) continue;
+      j.impulse[i] = std::clamp(j.impulse[i], -most_carried * j.G[i], most_carried * j.G[i]);
+      j.bias[i] += j.impulse[i] / j.G[i];
+    }
     same &= slid == (j.G[1] > 0);
   }
   return same;

@@ -24,6 +24,11 @@ namespace ductile::dynamics {
 /// h²/contact_ratio.
 inline constexpr double contact_ratio = 1e8;
 
+/// λ₋ and t₋ are no more than G times this, m/s. A weight of 10⁴ pieces asks for 3.3e-5 at 30 Hz. Bodies that
+/// are jammed may press on two sides of each other with a thousand times what there is to bear, as the arms
+/// of the two nearly cancel; as these change with the next step, λ₋²/2G would be what the two are thrown by.
+inline constexpr double most_carried = 4e-5;
+
 /// Whether rows of contacts or links are of the same things between the same bodies as those before.
 template <class Of>
 bool same_rows(std::span<const Of> now, std::span<const Of> before) {

@@ -1856,6 +1856,57 @@ TEST(Contacts, GiveNoEnergy) {
 // A load strikes, through a light block, two planks on the ground that a joint holds together; then that is
 // gone, and Box2D is alone with the stack. It starts from the impulses of the step before: where those were
 // the blow's, its iterations did not take them back, and the load was thrown as it had been stopped.
+TEST(Contacts, OfBarsThatAreJammedGiveNoEnergy) {
+  for (const double hz : {30.0, 60.0, 120.0}) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+      std::mt19937 random(seed);
+      const auto between = [&random](double from, double to) {
+        return from + (to - from) * (static_cast<double>(random()) / 4294967296.0);
+      };
+      b2World world({0, -10});
+      Structure structure(world);
+      add_box(world, {.y = -1, .width = 100, .height = 2, .type = b2_staticBody, .group = 0});
+      std::vector<b2Body*> pieces;
+      for (int bar = 0; bar < 2; ++bar) {  // across each other
+        b2Vec2 end = vec(between(-0.5, 0.5), 3 + between(-0.5, 0.5));
+        double angle = between(0, 6.28);
+        for (int i = 0; i < 2; ++i) {
+          const double l = between(0.4, 1), h = between(0.1, 0.2);
+          const b2Vec2 along = vec(l * std::cos(angle), l * std::sin(angle)), middle = end + 0.5f * along;
+          pieces.push_back(add_box(world, {.x = middle.x,
+                                           .y = middle.y,
+                                           .width = l,
+                                           .height = h,
+                                           .mass = 1000 * l * h,
+                                           .angle = angle,
+                                           .group = static_cast<short>(-1 - bar)}));
+          if (i > 0) {
+            ElasticPlasticJointDef hinge;
+            hinge.Initialize(pieces.end()[-2], pieces.back(), end, along);
+            hinge.rows[rotation] = {.stiffness = 2000, .damping_ratio = 0.3, .cap = 60, .cap_reverse = 60};
+            structure.create_joint(hinge);
+          }
+          end += along;
+          angle += between(-1.2, 1.2);
+        }
+      }
+      const auto energy = [&] {
+        double sum = kinetic_energy(pieces);
+        for (const b2Body* b : pieces) sum += b->GetMass() * 10 * b->GetWorldCenter().y;
+        return sum;
+      };
+      const double start = energy();
+      double most = start;
+      for (int i = 0; i < std::lround(3 * hz); ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+        most = std::max(most, energy());
+      }
+      EXPECT_LE(most, 1.02 * start) << hz << ", " << seed;
+    }
+  }
+}
+
 TEST(Contacts, DoNotStrikeAgainWhatIsLeftOfAStructure) {
   for (const double speed : {1.0, 3.0, 6.0}) {
     for (const double gap : {0.0, 0.02, 0.04, 0.06}) {

@@ -93,7 +93,7 @@ struct ElasticPlasticJointDef : b2JointDef {
 /// just work, and so do its base class's calls; GetType() says e_weldJoint (use ElasticPlasticJoint::cast).
 class ElasticPlasticJoint : public b2WeldJoint {
  public:
-  /// The joint as an elastic-plastic one; nullptr where it is another.
+  /// The joint as an elastic-plastic one, be its structure gone; nullptr where it is another.
   static ElasticPlasticJoint* cast(b2Joint* joint);
 
   std::uint32_t id()
