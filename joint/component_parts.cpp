@@ -404,6 +404,8 @@ void Component::solve_part(double h, int number, bool blow) {
   if (strikes) {
     solver.strike(fastest);
     blow_ = true;
+  } else {
+    solver.go_on();
   }
   solve_direct();
   limit_speed_in_part();

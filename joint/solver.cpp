@@ -70,6 +70,7 @@ void Solver::begin(double h) {
   newton_.interior_point.begin_step();
   motion_.share = 1;
   keeps_friction_ = false;
+  friction_rounds_ = most_friction_rounds;
   const double last_h = step();
   if (h != last_h) prediction_.forget();
   const bool other_laws = laws_.begin(*this, h);
@@ -167,7 +168,7 @@ void Solver::solve_again(Solution& solution, SolveReport& report) {
 void Solver::settle_friction(Solution& solution, SolveReport& report) {
   for (int round = 0; !contacts.empty(); ++round) {
     read_contacts(*this);
-    if (round == 8) break;
+    if (round == friction_rounds_) break;
     const Lag lag = lag_friction(*this, round, keeps_friction_);
     if (!lag.again) break;
     if (lag.other_rows) hessian_.forget();
