@@ -30,7 +30,7 @@ void open_blow(System& system) {
     Rows cap = r.law.cap, cap_reverse = r.law.cap_reverse;
     double share = 1;
     if (r.law.surface != nullptr) {
-      share = (1 + std::min(1.0, r.law.surface->usage({s[0] / h, s[1] / h, s[2] / h}))) / 2;
+      share = (1 + std::min(1.0, r.law.surface->usage(s, h))) / 2;
     } else {
       for (unsigned i = 0; i < 3; ++i) {
         if (r.material.may_slacken(i) || r.material.is_driven(i)) continue;

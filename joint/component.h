@@ -226,7 +226,7 @@ struct Component {
   bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
   /// By how much a contact closes at its fastest point, of the velocities at the step's start, m/s.
   static float closes(const Touch& touch);
-  /// Whether a body is one of its pieces, and no joints hold it to this one.
+  /// Whether a body is one of its pieces, and no joints hold it to another of these, `from`.
   bool is_piece_apart(const b2Body& body, const b2Body& from);
   /// Whether these bodies are its own or guests, and something between them may be a row.
   bool knows(int a, int b) const;
@@ -279,6 +279,10 @@ struct Component {
   void return_ties();
   bool is_jammed() const;
   void find_groups(std::span<const StockJoint> ties);
+  /// Whether both are free, and of one group.
+  bool hang_together(int a, int b) const {
+    return solver.is_free(a) && solver.is_free(b) && groups_[z(a)].part_of == groups_[z(b)].part_of;
+  }
   bool is_anchored(int body) const {
     return !solver.is_free(body) || groups_[z(groups_[z(body)].part_of)].anchored;
   }

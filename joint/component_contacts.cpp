@@ -205,9 +205,7 @@ void Component::return_contacts() {
                             solver.fastest_turn() < b2_angularSleepTolerance;
   if (groups_.empty() && (stand_jammed || !outside_.touches.empty())) find_groups(outside_.ties);
   const auto let_be = [&](const Touch& t) {
-    if (stand_jammed && solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
-        groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of)
-      let_overlap(*t.position);
+    if (stand_jammed && hang_together(t.in_a, t.in_b)) let_overlap(*t.position);
   };
   auto row = solver.contacts.begin();
   for (const Touch& t : outside_.touches) {

@@ -142,7 +142,7 @@ bool Component::is_piece_apart(const b2Body& body, const b2Body& from) {
   if (i < 0 || !solver.is_free(i) || mirrors[z(i)].guest() || is_of_another(i)) return false;
   // Which stock joints there are in this step is not known yet.
   if (std::exchange(ties_in_groups_, false) || groups_.empty()) find_groups({});
-  return groups_[z(i)].part_of != groups_[z(index_of(&from))].part_of;
+  return !hang_together(i, index_of(&from));
 }
 
 }  // namespace ductile::dynamics

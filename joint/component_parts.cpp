@@ -214,11 +214,8 @@ bool Component::strains_much() const { return solver.strained_by_blow() > strain
 bool Component::is_strained() const {
   return std::any_of(members.begin(), members.end(), [this](const Member* m) {
     const JointRecord& r = solver.records[m->index];
-    if (r.law.surface != nullptr) {
-      const Rows& s = solver.joints[m->index].impulse;
-      const double h = r.law.h;
-      return r.law.surface->usage({s[0] / h, s[1] / h, s[2] / h}) > strained;
-    }
+    if (r.law.surface != nullptr)
+      return r.law.surface->usage(solver.joints[m->index].impulse, r.law.h) > strained;
     const auto is_strained = [m](Row row) { return m->joint->usage(row) > strained; };
     return is_strained(axial) || is_strained(shear) || is_strained(rotation);
   });
@@ -572,10 +569,9 @@ void Component::tell_of_means() {
     all.more += solver.bodies[i].mass * more;
   }
   for (const StockJoint& t : outside_.ties) {
-    const bool inside = solver.is_free(t.in_a) && solver.is_free(t.in_b) &&
-                        groups_[z(t.in_a)].part_of == groups_[z(t.in_b)].part_of;
+    if (hang_together(t.in_a, t.in_b)) continue;
     for (const int i : {t.in_a, t.in_b})
-      if (solver.is_free(i)) all_of(i).tied |= !inside;
+      if (solver.is_free(i)) all_of(i).tied = true;
   }
   each_point([&](std::size_t k, const Touch& t, const PointConstraint&) {
     double share = 0;

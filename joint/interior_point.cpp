@@ -444,8 +444,7 @@ void InteriorPoint::finish(System& system, bool reached, Evaluation& at) {
     JointRecord& r = system.records[k];
     j.impulse = best_[k];
     if (r.law.surface != nullptr) {
-      const double h = r.law.share * r.law.h,
-                   usage = r.law.surface->usage({j.impulse[0] / h, j.impulse[1] / h, j.impulse[2] / h});
+      const double usage = r.law.surface->usage(j.impulse, r.law.share * r.law.h);
       for (double& s : j.impulse) s /= std::max(1.0, usage);
     } else {
       for (unsigned i = 0; i < 3; ++i) {

@@ -122,7 +122,7 @@ void Island::find_near(float h) {
       if (!may_meet(m)) continue;
       for (b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
         const bool stands = e->other->GetType() == b2_staticBody;
-        if ((stands || meet(*component, *m.body, *e->other)) && may_be_met(*e->contact) &&
+        if (may_be_met(*e->contact) && (stands || meet(*component, *m.body, *e->other)) &&
             !share_a_neighbour(*m.body, *e->other))
           contacts_.add_near(*e->contact, nullptr, h, stands ? driven : 0);
       }

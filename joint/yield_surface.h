@@ -43,6 +43,10 @@ class YieldSurface {
 
   /// max over facets of n·N + m·M, and Q/Q_max, to the surface as 1: what is used of it.
   double usage(const Rows& force) const;
+  /// The same of impulses in h seconds.
+  double usage(const Rows& impulse, double h) const {
+    return usage({impulse[0] / h, impulse[1] / h, impulse[2] / h});
+  }
 
   double shear() const { return shear_; }
   std::span<const AxialMoment> polygon() const { return vertices_; }
