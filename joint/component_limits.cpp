@@ -42,6 +42,7 @@ void Component::limit_speed(const b2SolverData& data) {
     return sum;
   };
   const auto slow = [this](double share) {
+    solver.slow();
     report([share](Reports& r) { r.step.slowed = std::max(r.step.slowed, share); });
   };
   double before = 0;

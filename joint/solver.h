@@ -91,6 +91,8 @@ class Solver : public System {
   /// Velocities from v_free; false when nothing had to be done.
   bool solve(SolveReport& report);
   void scale(double share);
+  /// See StepLaws::slow().
+  void slow() { laws_.slow(); }
   void advance();
   /// See Projection::project.
   bool project(std::span<const Pose> goal, bool try_goal);

@@ -350,10 +350,10 @@ bool StepLaws::begin(System& system, double h) {
   const bool changed = choose_delta(system, h) || h != h_ || other_laws;
   known_ = true;
   const double last_h = std::exchange(h_, h);
-  const bool drifts = h < drift_time;
+  const bool drifts = h < drift_time, slowed = std::exchange(slowed_, false) && h < moved_by;
   const double deferred = deferred_share(h);
   const bool differs = last_h > 0 && h != last_h && least_delta != 1;
-  if (!changed && !drifts && !turn_drifts_) {
+  if (!changed && !drifts && !turn_drifts_ && !slowed) {
     last_turn_ = 1;
     if (std::exchange(system.biases_known, false)) return false;
     find_gaps(system);
@@ -371,12 +371,16 @@ bool StepLaws::begin(System& system, double h) {
     JointRecord& r = system.record(j);
     forget_infinite(j);
     const unsigned newmark = j.newmark;
+    if (slowed) hold_parted(j, r);
     const Rows parted =
         (differs || may_switch) && turn_in(system, j, h) < squared_turn ? parted_by_turn(j, last_h) : Rows{};
     const bool parts = parted[0] != 0 || parted[1] != 0, turns = differs && parts;
     if (!r.turn_drifts && turns) r.drift = {};
     if (turns) {
       r.turn_drifts = true;
+    } else if (slowed) {
+      r.turn_drifts = true;
+      find_drift(j, r);
     } else if (drifts && h < moved_by) {
       r.turn_drifts = false;
       find_drift(j, r);

@@ -29,6 +29,9 @@ class StepLaws {
   double step() const { return h_; }
   /// Poses move by the step.
   void move() { moved_by = h_; }
+  /// The step's velocities were not those that close its gaps: what it leaves of them is drift in a shorter
+  /// one.
+  void slow() { slowed_ = true; }
   /// Where some row begins to flow in the step as it was solved: whether other rows' forces stop growing by
   /// that and have other laws, so that it is to be solved anew. In steps that resolve waves they do not.
   bool begin_flow(System& system);
@@ -48,8 +51,8 @@ class StepLaws {
   /// Copies what every step reads of a joint's law into the joint.
   static void take_law(Joint& joint, const RowLaw& law);
   void keep(Tape& tape) {
-    tape(h_, moved_by, known_, divided_, last_turn_, turn_drifts_, caps_raised_, some_halt_, of_step_,
-         guarded_, of_contacts_, drift_time);
+    tape(h_, moved_by, known_, divided_, last_turn_, turn_drifts_, slowed_, caps_raised_, some_halt_,
+         of_step_, guarded_, of_contacts_, drift_time);
   }
   /// The joint's rows hold its bodies where turning has parted them: they take nothing of that back.
   static void hold_parted(Joint& joint, JointRecord& record);
@@ -76,6 +79,7 @@ class StepLaws {
   bool divided_ = false;      // steps are parts of longer ones
   double last_turn_ = 1;      // (h₋ + h)/2h of the last step
   bool turn_drifts_ = false;  // some row has drift of a turn in a step of another length
+  bool slowed_ = false;       // the last step, by limits of speed (slow())
   bool caps_raised_ = false;  // in this step alone, of some row (allow_turn())
   bool some_halt_ = false;    // some joint has laws for rows whose force stops growing in this step
   double of_step_ = 1;        // δ of all rows for steps that differ
