@@ -24,18 +24,21 @@ namespace ductile::dynamics {
 
 namespace {
 
-constexpr double part = 1 / 1920.0;           // s
+constexpr double part = 1 / 3840.0;           // s
 constexpr double blow_time = 0.05;            // s that waves are followed for
 constexpr double strained = 0.25;             // of a capacity
 constexpr double most_turn_of_normals = 0.5;  // rad in a step
 constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given back where parts end
 
-// A step of 1/60 s in parts costs as much as 32 whole ones. Where bodies jam, a pair that touches costs as
+// What is as light as a piece is braked within a millisecond. With parts of 1/1920 s, a plate that strikes
+// the middle of a clamped beam leaves 0.87 of the rotation that it should.
+//
+// A step of 1/60 s in parts costs as much as 64 whole ones. Where bodies jam, a pair that touches costs as
 // much as eight bodies do. The sum over all that a structure solves in parts in one step is bounded: what is
-// more than that is divided by 2 or 4 times as long parts, and the rest has whole steps.
+// more than that is divided by 2, 4 or 8 times as long parts, and the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8;
-constexpr double most_in_parts = 240;
-constexpr int longest_part = 4;  // in shortest ones
+constexpr double most_in_parts = 120;
+constexpr int longest_part = 8;  // in shortest ones
 
 // A push as weak as what its body goes on without, or weaker, is told as so many times what it is, at most.
 constexpr double most_told = 4;

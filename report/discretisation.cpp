@@ -89,10 +89,10 @@ struct Struck {
     const double v = mass * speed / (mass + bar);
     return v * v * (mass + bar) / (2 * force);
   }
-  /// As it is solved in parts of 1/1920 s at any step: (h/T)² of what brakes for T.
+  /// As it is solved in parts of 1/3840 s at any step: (h/T)² of what brakes for T.
   static double allowed() {
     const double braked = mass * speed / force;
-    return 1 / (1920 * braked) / (1920 * braked);
+    return 1 / (3840 * braked) / (3840 * braked);
   }
   static double set(double dt) {
     b2World world({0, 0});
@@ -228,7 +228,7 @@ Result run_discretisation(const Context& context) {
       "pieces; what moves, "
       "with the square of the time step, until floats tell no more. A step in which something strikes is "
       "solved in parts of "
-      "1/1920 s, however long it is, so that its error does not fall with the step. The order of a claim is "
+      "1/3840 s, however long it is, so that its error does not fall with the step. The order of a claim is "
       "that over the whole "
       "sweep. 60 Hz is drawn large."};
   return result;

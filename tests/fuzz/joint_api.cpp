@@ -473,7 +473,11 @@ class Game : b2DestructionListener {
         make_joint(a, b);
         break;
       case 5:
-        event.joint->set_caps(rotation, unlimited, unlimited);
+        try {
+          event.joint->set_caps(rotation, unlimited, unlimited);
+        } catch (const std::invalid_argument&) {
+          require(curved_, "only those of an interaction curve are refused");
+        }
         break;
       case 6:
         a->SetType(b2_staticBody);

@@ -419,7 +419,7 @@ TEST(SolvedInParts, WhereCornersTouch) {
     EXPECT_EQ(beam.divided > 0, hz < 1000) << hz;
     return beam.structure.energy().dissipated;
   };
-  const double work = plastic_work(1920);
+  const double work = plastic_work(3840);
   EXPECT_GT(work, 1e3);
   for (const double hz : {30., 60., 120.}) EXPECT_NEAR(plastic_work(hz), work, 0.1 * work) << hz;
 }
@@ -456,7 +456,7 @@ TEST(SolvedInParts, WithStockJoints) {
     return beam.structure.energy().dissipated;
   };
   for (const Tie tie : {Tie::rod, Tie::rope, Tie::wheel, Tie::motor}) {
-    const double work = plastic_work(tie, 1920);
+    const double work = plastic_work(tie, 3840);
     EXPECT_GT(work, 1e3);
     for (const double hz : {30., 60., 120.})
       EXPECT_NEAR(plastic_work(tie, hz), work, 0.1 * work) << static_cast<int>(tie) << ", " << hz;
@@ -784,7 +784,7 @@ struct SteelCantilever {
 };
 
 // A blow that no contact tells of: the game throws a piece, a rope catches what falls, the support starts. At
-// steps of 1/1920 s each is a whole step.
+// steps of 1/3840 s each is a whole step.
 TEST(SolvedInParts, OfBlowsWithoutAContact) {
   enum Blow { thrown, thrown_by_curves, caught, carried };
   for (const auto& [blow, tolerance] :
@@ -805,7 +805,7 @@ TEST(SolvedInParts, OfBlowsWithoutAContact) {
       }
       return beam.plastic_work(hz);
     };
-    const double fine = plastic_work(1920);
+    const double fine = plastic_work(3840);
     ASSERT_GT(fine, 5000) << blow;
     for (const double hz : {30., 60., 120., 240.})
       EXPECT_NEAR(plastic_work(hz), fine, tolerance * fine) << blow << ", " << hz;
@@ -841,7 +841,7 @@ struct HeldSteelBeam {
 // A heavy ball on a seam: the pieces run ahead of it, and are on it again before the next step.
 TEST(SolvedInParts, WhereAHeavyBallIsLeftForLessThanAStep) {
   for (const double mass : {15e3, 20e3}) {
-    const double fine = HeldSteelBeam().plastic_work(5, mass, 5, 1920);
+    const double fine = HeldSteelBeam().plastic_work(5, mass, 5, 3840);
     for (const double hz : {50., 60.})
       EXPECT_NEAR(HeldSteelBeam().plastic_work(5, mass, 5, hz), fine, 0.05 * fine) << mass << ", " << hz;
   }
@@ -875,7 +875,7 @@ TEST(SolvedInParts, OfWhatSlidesAlongABeam) {
     double times, speed, along;
   } blows[]{{true, 30, 40, 8}, {true, 100, 30, 6}, {true, 100, 30, 15}, {false, 100, 40, 20}};
   for (const auto& [is_disc, times, speed, along] : blows) {
-    const double fine = plastic_work(is_disc, times, speed, along, 1920);
+    const double fine = plastic_work(is_disc, times, speed, along, 3840);
     for (const double hz : {50., 60., 120.})
       EXPECT_NEAR(plastic_work(is_disc, times, speed, along, hz), fine, 0.25 * fine)
           << is_disc << ", " << times << ", " << speed << ", " << along << ", " << hz;
@@ -961,7 +961,7 @@ TEST(SolvedInParts, OfWhatFallsOnTheGround) {
     }
     return structure.energy().dissipated;
   };
-  const double fine = plastic_work(1920);
+  const double fine = plastic_work(3840);
   ASSERT_GT(fine, 1e4);
   for (const double hz : {30., 60., 120., 240.}) EXPECT_NEAR(plastic_work(hz), fine, 0.25 * fine) << hz;
 }
@@ -1046,7 +1046,7 @@ TEST(SolvedInParts, AfterPiecesTurnedFar) {
     EXPECT_LT(energy() + work, before) << hz;
     return work;
   };
-  const double fine = plastic_work(1920), came = 3000 * 17 * 17 / 2;
+  const double fine = plastic_work(3840), came = 3000 * 17 * 17 / 2;
   ASSERT_GT(fine, 0.7 * came);
   for (const double hz : {30., 60., 120.}) EXPECT_NEAR(plastic_work(hz), fine, 0.1 * fine) << hz;
 }
@@ -1807,8 +1807,8 @@ TEST(Contacts, TellAllThatStructuresGiveEachOther) {
 
 // Kinetic, potential and elastic energy less all that was taken: contacts take, they never give. Corrections
 // of overlap lift what comes down on an edge of its own; what is heavy does so again and again, as the
-// undamped beam throws it. Where parts of a step begin while the beam rings, its strain is of a step's end
-// and its rate of the middle: what it has as energy is more or less by up to ωh/2 of that, as it comes.
+// undamped beam throws it. Steps in parts are left out: the beam's strain is of their end there, and its rate
+// of the middle.
 TEST(Contacts, GiveNoEnergy) {
   for (const double restitution : {0.0, 0.5}) {
     for (const double mass : {1.0, 20.0}) {
@@ -1822,33 +1822,31 @@ TEST(Contacts, GiveNoEnergy) {
         b2Body* block = add(
             beam.world, {.x = 8.2, .bottom = height, .mass = mass * piece_mass, .restitution = restitution});
         // Velocities belong to the middle of so long a step.
-        const auto energy = [&](double step) {
+        const auto energy = [&] {
           double sum = beam.structure.energy().elastic + beam.structure.energy().numerical;
           for (const b2Body* b = beam.world.GetBodyList(); b != nullptr; b = b->GetNext()) {
             const b2Vec2 v = b->GetLinearVelocity();
             const double I = b->GetInertia(), w = b->GetAngularVelocity();
             sum += b->GetMass() *
-                       (v.LengthSquared() / 2.0 + light.gravity * (b->GetWorldCenter().y - v.y * step / 2)) +
+                       (v.LengthSquared() / 2.0 + light.gravity * (b->GetWorldCenter().y - v.y * dt / 2)) +
                    I * w * w / 2;
           }
           return sum;
         };
         beam.run(dt);
-        double least = energy(dt), rise = 0;
+        double least = energy(), rise = 0;
         for (int i = 0; i < 600; ++i) {
           beam.run(dt);
-          // Of a step in parts the velocities are those of its last part, or its means where parts end with
-          // it.
-          const double of_step = energy(dt),
-                       of_part = beam.structure.report().divided > 0 ? energy(dt / 32) : of_step;
-          rise = std::max(rise, std::min(of_step, of_part) - least);
-          least = std::min(least, std::max(of_step, of_part));
+          const double now = energy();
+          if (beam.structure.report().divided > 0) continue;
+          rise = std::max(rise, now - least);
+          least = std::min(least, now);
         }
         rises.push_back(rise / (block->GetMass() * light.gravity * height));
       }
       std::sort(rises.begin(), rises.end());
-      EXPECT_LT(rises[rises.size() / 2], mass > 1 ? 1.5e-2 : 2e-3) << restitution << ", " << mass;
-      EXPECT_LT(rises.back(), restitution > 0 ? 0.1 : mass > 1 ? 0.07 : 3e-3) << restitution << ", " << mass;
+      EXPECT_LT(rises[rises.size() / 2], mass > 1 ? 4e-3 : 1e-3) << restitution << ", " << mass;
+      EXPECT_LT(rises.back(), mass > 1 ? 8e-3 : 3e-3) << restitution << ", " << mass;
     }
   }
 }

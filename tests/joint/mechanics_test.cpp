@@ -140,8 +140,8 @@ double midpoint_set(double dt) {
   return dt * (common_speed * whole - braking * dt * whole * whole / 2);
 }
 
-// The steps of a blow are solved in parts of about 1/1920 s.
-double part_of(double dt) { return dt / std::max(1.0, std::round(1920 * dt)); }
+// The steps of a blow are solved in parts of about 1/3840 s.
+double part_of(double dt) { return dt / std::max(1.0, std::round(3840 * dt)); }
 
 class Blow : public testing::TestWithParam<std::tuple<double, bool>> {};
 

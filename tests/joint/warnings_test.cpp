@@ -148,12 +148,12 @@ TEST(Warnings, OfBlowsThatAreOverWithinAStep) {
   EXPECT_EQ(spring.joints[0]->plastic(rotation), 0);
 }
 
-// The same in 32 parts of a step, which is divided where it takes a quarter of what it may.
+// The same in 64 parts of a step, which is divided where it takes a quarter of what it may.
 TEST(Warnings, AreNoneOfBlowsThatAreSolvedInParts) {
   for (const double steps : {0.3, 0.4, 0.75, 5.}) {
     const Beam beam = stopping(1, steps, 0, false);
     EXPECT_TRUE(beam.structure.warnings().empty()) << steps;
-    const double missing = 1 - std::round(32 * steps) / (32 * steps), all = steps / 120;
+    const double missing = 1 - std::round(64 * steps) / (64 * steps), all = steps / 120;
     EXPECT_NEAR(beam.joints[0]->plastic(rotation), all * (1 - missing * missing), 0.75 / 3600 * all) << steps;
   }
 }
