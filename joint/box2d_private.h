@@ -9,11 +9,12 @@ namespace ductile::dynamics {
 
 DUCTILE_REVEAL(b2World, m_bodyList, b2Body*);
 DUCTILE_REVEAL(b2World, m_inv_dt0, float);
+DUCTILE_REVEAL(b2World, m_newContacts, bool);
 DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
 DUCTILE_REVEAL(b2Body, m_flags, uint16);
 // Bits of it that are ours. Box2D 2.4.1 uses the seven lowest, leaves the others as they are, and makes
 // bodies without them.
-inline constexpr uint16 held_bullet = 0x2000, in_node = 0x4000;
+inline constexpr uint16 broke_off = 0x1000, held_bullet = 0x2000, in_node = 0x4000;
 DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
 // The index of a body in the island that is being solved. b2WeldJoint::InitVelocityConstraints would fetch it
 // at the cost of a sine, a cosine and a matrix inverse per joint; so it is a load per body.

@@ -14,7 +14,6 @@
 
 namespace ductile::dynamics {
 
-DUCTILE_REVEAL(b2World, m_newContacts, bool);
 DUCTILE_REVEAL(b2World, m_stepComplete, bool);
 DUCTILE_REVEAL(b2Body, m_xf, b2Transform);
 DUCTILE_REVEAL(b2Body, m_linearVelocity, b2Vec2);

@@ -7,9 +7,33 @@
 #include <stdexcept>
 #include <utility>
 
+#include "box2d_private.h"
+
 namespace ductile {
 
 using namespace dynamics;
+
+namespace {
+
+// Bodies that a joint holds are no contact of Box2D's, which looks for contacts of a body where that leaves
+// its margin of 0.1 m: what stands on what it broke off would fall so far. So one of the two is looked at
+// before the next step, and once, however many of its joints broke.
+void mark_broken_off(b2Joint& joint) {
+  b2Body* moving = joint.GetBodyB()->GetType() == b2_dynamicBody ? joint.GetBodyB() : joint.GetBodyA();
+  of(*moving, b2Body_m_flags{}) |= broke_off;
+}
+
+void look_for_pairs(b2World& world) {
+  for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
+    uint16& flags = of(*body, b2Body_m_flags{});
+    if ((flags & broke_off) == 0) continue;
+    flags = static_cast<uint16>(flags & ~broke_off);
+    for (b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) f->Refilter();
+    of(world, b2World_m_newContacts{}) = true;
+  }
+}
+
+}  // namespace
 
 Structure::Impl::Impl(b2World& w, const StructureDef& d) : world(&w), def(d), watch(nullptr) {
   enter_world();
@@ -28,13 +52,9 @@ void Structure::Impl::enter_world() {
 Structure::Impl::~Impl() {
   if (watch == nullptr) return;
   island->let_go(*world);
+  destroy_broken();
   island->leave(*this);
   for (const auto& m : members) m->joint->member_ = nullptr;
-  std::vector<ElasticPlasticJoint*> broken;
-  for (const auto& m : members) {
-    if (m->broken) broken.push_back(m->joint);
-  }
-  for (ElasticPlasticJoint* joint : broken) world->DestroyJoint(joint);
   world->DestroyBody(std::exchange(watch, nullptr));
 }
 
@@ -164,12 +184,19 @@ void Structure::Impl::update() {
   }
   deliver();
   if (watch == nullptr) return;
-  if (std::exchange(broke_, false)) {
-    for (std::size_t i = members.size(); i-- > 0;) {
-      if (i < members.size() && members[i]->broken) world->DestroyJoint(members[i]->joint);
-    }
-  }
+  destroy_broken();
   join_orphans();
+}
+
+void Structure::Impl::destroy_broken() {
+  if (!std::exchange(broke_, false)) return;
+  for (std::size_t i = members.size(); i-- > 0;) {
+    if (i >= members.size() || !members[i]->broken) continue;
+    ElasticPlasticJoint* joint = members[i]->joint;
+    if (!joint->GetCollideConnected()) mark_broken_off(*joint);
+    world->DestroyJoint(joint);
+  }
+  look_for_pairs(*world);
 }
 
 Member* Structure::Impl::find(std::uint32_t id) const {

@@ -120,6 +120,7 @@ struct Structure::Impl {
   /// False where it finds no room.
   bool say(dynamics::Member& member, JointEvent event);
   void deliver();
+  void destroy_broken();
 
   bool broke_ = false;  // some joint, since the last update()
 };

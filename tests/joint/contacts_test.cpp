@@ -2178,6 +2178,33 @@ TEST(Contacts, OfPiecesThatFoldLetThemSleep) {
   }
 }
 
+// A block on a block whose joint breaks under its weight stays on it: the two are a contact from the next
+// step on, however many joints were between them.
+TEST(Contacts, OfWhatStandsOnWhatItBrokeOff) {
+  for (const double hz : {30., 60., 240.}) {
+    b2World world({0, -10});
+    Structure structure(world);
+    add_box(world, {.y = -0.5, .width = 10, .type = b2_staticBody, .group = 0});
+    b2Body *lower = add_box(world, {.y = 0.5, .group = 0}), *upper = add_box(world, {.y = 1.5, .group = 0});
+    for (const double x : {-0.4, 0., 0.4}) {
+      ElasticPlasticJointDef def;
+      def.Initialize(lower, upper, vec(x, 1), {0, 1});
+      def.rows[axial] = {.cap = 1000, .cap_reverse = 1000};
+      def.max_compression = 0.001;
+      structure.create_joint(def);
+    }
+    float low = 1;
+    for (int i = 0; i < 2 * hz; ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+      low = std::min(low, upper->GetPosition().y - lower->GetPosition().y);
+    }
+    EXPECT_TRUE(structure.joints().empty()) << hz;
+    EXPECT_GT(low, 0.975f) << hz;
+    EXPECT_EQ(world.GetContactCount(), 2) << hz;
+  }
+}
+
 // A guest may go without a word.
 TEST(Contacts, OfBodiesThatAreDestroyed) {
   Beam beam(light);

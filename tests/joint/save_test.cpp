@@ -195,6 +195,27 @@ TEST(Save, OfWhatTheGameHasJustStruck) {
   }
 }
 
+// Its bodies are no contact yet, and become one in the next step.
+TEST(Save, OfWhatHasJustBroken) {
+  Scene s;
+  eventful::add_floor(s, -6);
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 4, 4e4, 0.05, 0);
+  const std::size_t joints = s.structure.joints().size();
+  for (int i = 0; i < 100 && s.structure.joints().size() == joints; ++i) s.run(1);
+  ASSERT_LT(s.structure.joints().size(), joints);
+  const int contacts = s.world.GetContactCount();
+  Snapshot now;
+  now.save(s.world);
+  const std::uint64_t ran_on = s.run(100);
+  now.restore(s.world);
+  EXPECT_EQ(s.run(100), ran_on);
+  now.restore(s.world);
+  expect_same_future(s, 100);
+  now.restore(s.world);
+  s.run(1);
+  EXPECT_GT(s.world.GetContactCount(), contacts);
+}
+
 TEST(Save, HardenedAndOnAYieldSurfaceAndAdopted) {
   Scene s;
   b2Body* wall = eventful::add_wall(s);
