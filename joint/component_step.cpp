@@ -50,6 +50,7 @@ void Component::look(const b2SolverData& data) {
     if (!m.present) continue;
     if (m.type == b2_staticBody) continue;
     m.island_index = of(*m.body, b2Body_m_islandIndex{});
+    m.find_joints();
     alone &= i >= solver.free_bodies() || m.only_ours();
     if (parts_.withholds && i < solver.free_bodies() && !same_bits(velocity_of(*m.body), m.given))
       parts_.bodies[i].withheld = {};
@@ -65,7 +66,7 @@ bool Component::is_whole() const {
   int contacts = 0, joints = 0;
   for (const Mirror& m : mirrors) {
     if (!m.present || m.type != b2_dynamicBody) continue;
-    if (m.body->GetJointList() != m.joints) joints += joints_in_island(*m.body) - m.joined;
+    if (!m.joins_only_ours()) joints += joints_in_island(*m.body) - m.joined;
     for (const b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next)
       contacts += pushes(*e->contact) ? 1 : 0;
   }

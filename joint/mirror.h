@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "frames.h"
 #include "pose.h"
@@ -31,8 +32,9 @@ struct Mirror {
   b2Body* body = nullptr;
   BodyMass mass;
   b2BodyType type = b2_staticBody;
-  int joined = 0;                       // joints of the component that it has
-  const b2JointEdge* joints = nullptr;  // first of its joints while all are of this component
+  int joined = 0;  // joints of the component that it has
+  /// First of its joints while all are of this component, or null; nothing while that is to be found.
+  std::optional<const b2JointEdge*> joints = nullptr;
 
   // Not {}: b2Vec2's own constructor leaves its numbers as they are.
   b2Position left{{0, 0}, 0};   // pose as it was left: of a guest where it touches (Component::keep_in_touch)
@@ -59,9 +61,14 @@ struct Mirror {
   bool guest() const { return joined == 0; }
   /// The component gains so many joints of the body, or loses them.
   void gain_joints(int count);
-  /// Whether nothing touches or holds the body but joints of the component. Box2D prepends new joints to a
+  /// Finds `joints`, once in a step: if each of n joints that come or go had its body's list walked through,
+  /// they would cost n².
+  void find_joints();
+  /// After find_joints(): whether the component's joints are all that it has. Box2D prepends new joints to a
   /// body's list, and of ours that come and go gain_joints() knows.
-  bool only_ours() const { return body->GetContactList() == nullptr && body->GetJointList() == joints; }
+  bool joins_only_ours() const { return body->GetJointList() == joints; }
+  /// Likewise, whether nothing else touches or holds the body.
+  bool only_ours() const { return body->GetContactList() == nullptr && joins_only_ours(); }
   /// Its pose and velocity at the start of a step.
   b2Position pose_in(const b2SolverData& data) const {
     return type == b2_staticBody ? b2Position{body->GetWorldCenter(), body->GetAngle()}
@@ -76,9 +83,6 @@ struct Mirror {
            std::abs(at.a - left.a) <= std::max(rounding / mass.gyration, 2.4e-7f * std::abs(left.a));
   }
   void keep(Tape& tape);
-
- private:
-  void find_joints();
 };
 
 /// A place in the world that poses are kept relative to, so that doubles resolve strains anywhere, m.

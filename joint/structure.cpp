@@ -133,10 +133,9 @@ void Structure::Impl::forget(Member& member) {
   for (const double joules : member.own.record.dissipated) gone.dissipated += joules;
   for (const double joules : member.own.record.stored) gone.numerical += joules;  // lost with the joint
   if (member.node != 0 && !member.broken) nodes.orphans.push_back(member.joint->def());
-  const auto place =
-      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.get() == &member; });
-  joints.erase(joints.begin() + (place - members.begin()));
-  members.erase(place);
+  const auto place = static_cast<std::ptrdiff_t>(place_of(member.id));
+  joints.erase(joints.begin() + place);
+  members.erase(members.begin() + place);
 }
 
 JointEnergy Structure::Impl::energy() const {
@@ -199,10 +198,15 @@ void Structure::Impl::destroy_broken() {
   look_for_pairs(*world);
 }
 
-Member* Structure::Impl::find(std::uint32_t id) const {
-  const auto found = std::lower_bound(members.begin(), members.end(), id,
+std::size_t Structure::Impl::place_of(std::uint32_t id) const {
+  const auto place = std::lower_bound(members.begin(), members.end(), id,
                                       [](const auto& m, std::uint32_t value) { return m->id < value; });
-  return found != members.end() && (*found)->id == id ? found->get() : nullptr;
+  return static_cast<std::size_t>(place - members.begin());
+}
+
+Member* Structure::Impl::find(std::uint32_t id) const {
+  const std::size_t place = place_of(id);
+  return place < members.size() && members[place]->id == id ? members[place].get() : nullptr;
 }
 
 void Structure::Impl::shift_origin(const b2Vec2& new_origin, Member& caller) {

@@ -121,6 +121,8 @@ struct Structure::Impl {
   bool say(dynamics::Member& member, JointEvent event);
   void deliver();
   void destroy_broken();
+  /// Where the member of this id is among `members`, or would be.
+  std::size_t place_of(std::uint32_t id) const;
 
   bool broke_ = false;  // some joint, since the last update()
 };
