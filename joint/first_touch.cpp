@@ -312,7 +312,7 @@ bool put_group_back(const b2World& world, Groups& groups, b2Body& guest, const b
 // is where it was.
 void share_way(const b2World& world, Groups& groups, b2Body& guest, b2Body& piece, const b2Vec2& way) {
   const Component* component = Member::component_of(piece);
-  if (component == nullptr || component->is_held()) return;
+  if (component != nullptr && component->is_held()) return;
   const Group &one = group_of(guest, groups), &other = group_of(piece, groups);
   const b2Vec2 on = (share_of_way(one, other) - 1) * way;
   if (on.LengthSquared() == 0 || one.is_held || one.bodies.size() > 1 || !one.has_room(world, on) ||
@@ -354,6 +354,38 @@ void Island::forget_blows(b2World& in) {
   }
 }
 
+// A component whose bodies have changed, and that no step forms anew, as its joints lead to what is disabled,
+// ends: where it is saved and loaded it has ended, too.
+void Island::end_stale() {
+  const auto is_stale = [](const auto& c) { return !c->stepped() && !c->account.open && !c->fits_bodies(); };
+  if (std::none_of(components.begin(), components.end(), is_stale)) return;
+  forget_last();
+  std::erase_if(components, [&](const auto& c) {
+    const bool ends = is_stale(c);
+    if (ends) hand_back(*c);
+    return ends;
+  });
+}
+
+// Pieces whose joints are in no component: these lead to what is disabled.
+template <class Visit>
+void Island::each_lone_piece(const Visit& visit) const {
+  std::size_t solved = 0;
+  for (const auto& c : components) solved += c->members.size();
+  if (solved == joints()) return;
+  for (const Structure::Impl* s : structures_) {
+    for (const auto& m : s->members) {
+      if (m->component != nullptr) continue;
+      for (b2Body* body : {m->joint->GetBodyA(), m->joint->GetBodyB()}) {
+        // Of several joints, by the one that it finds first.
+        if (is_free(body) && Structure::Impl::member_of(*body) == m.get() &&
+            Member::component_of(*body) == nullptr)
+          visit(*body);
+      }
+    }
+  }
+}
+
 void Island::meet_guests(b2World& in) {
   struct Meeting {
     b2Body *body, *piece;
@@ -365,39 +397,45 @@ void Island::meet_guests(b2World& in) {
   std::vector<Meeting> meetings;
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
   forget_blows(in);
+  end_stale();
   for (const auto& c : components) c->leave_step();
+  const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body, bool advanced) {
+    const bool guest = !is_joined(body);
+    const bool alone =
+        std::any_of(all_alone.begin(), all_alone.end(), [&body](const Alone& a) { return a.guest == &body; });
+    const b2Sweep& s = of(body, b2Body_m_sweep{});
+    if ((contact.IsTouching() && !alone) || !body.IsAwake() || (guest && !moves(s))) return;
+    if (!guest && piece.IsAwake() && contact.GetFixtureA()->GetBody() == &piece)
+      return;  // of two pieces, once
+    // Where both went the same way, the piece is now on the body's way, and they never met; where they
+    // met, they did so in the motion that the piece saw. What overtook a guest takes it along where there
+    // is room.
+    b2Sweep own = s;
+    own.alpha0 = 0;
+    const b2Sweep seen = seen_from(piece, own);
+    if (!moves(seen)) return;
+    if (body.IsBullet()) piece.SetAwake(true);
+    const Way way = way_to(contact, piece, body, seen);
+    if (!(way.share < 1)) return;
+    // What hangs together turns as it swings, and what touched something in parts of a step has not gone
+    // straight on.
+    const bool straight = alone || (guest && !(advanced && is_touching(body)));
+    b2Transform there;
+    seen.GetTransform(&there, way.share);
+    if (!straight || has_room(in, body, there)) {
+      meetings.push_back({&body, &piece, &contact, seen, way, straight});
+    } else if (const Way own_way = way_to(contact, piece, body, own); own_way.share < 1) {
+      meetings.push_back({&body, &piece, &contact, own, own_way, true});
+    }
+  };
   for (const auto& c : components) {
-    each_near(*c, [&](const b2Contact& contact, const Mirror& mirror, b2Body& body) {
-      b2Body& piece = *mirror.body;
-      const bool guest = !is_joined(body);
-      const bool alone = std::any_of(all_alone.begin(), all_alone.end(),
-                                     [&body](const Alone& a) { return a.guest == &body; });
-      const b2Sweep& s = of(body, b2Body_m_sweep{});
-      if ((contact.IsTouching() && !alone) || !body.IsAwake() || (guest && !moves(s))) return;
-      if (!guest && piece.IsAwake() && contact.GetFixtureA()->GetBody() == &piece)
-        return;  // of two pieces, once
-      // Where both went the same way, the piece is now on the body's way, and they never met; where they
-      // met, they did so in the motion that the piece saw. What overtook a guest takes it along where there
-      // is room.
-      b2Sweep own = s;
-      own.alpha0 = 0;
-      const b2Sweep seen = seen_from(piece, own);
-      if (!moves(seen)) return;
-      if (body.IsBullet()) piece.SetAwake(true);
-      const Way way = way_to(contact, piece, body, seen);
-      if (!(way.share < 1)) return;
-      // What hangs together turns as it swings, and what touched something in parts of a step has not gone
-      // straight on.
-      const bool straight = alone || (guest && !(c->advanced() && is_touching(body)));
-      b2Transform there;
-      seen.GetTransform(&there, way.share);
-      if (!straight || has_room(in, body, there)) {
-        meetings.push_back({&body, &piece, &contact, seen, way, straight});
-      } else if (const Way own_way = way_to(contact, piece, body, own); own_way.share < 1) {
-        meetings.push_back({&body, &piece, &contact, own, own_way, true});
-      }
+    each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
+      look(*piece.body, contact, body, c->advanced());
     });
   }
+  each_lone_piece([&](b2Body& piece) {
+    each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body, false); });
+  });
   for (const Alone& a : all_alone) {
     // Where its way grazes them by less than rounding, it is where Box2D let them meet.
     const auto meets = [&a](const Meeting& m) { return m.body == a.guest; };

@@ -97,6 +97,9 @@ class Island {
   void let_contacts_go(b2World& in);
   // first_touch.cpp
   void forget_blows(b2World& in);
+  void end_stale();
+  template <class Visit>
+  void each_lone_piece(const Visit& visit) const;
 
   std::vector<Structure::Impl*> structures_;
   std::vector<Member*> enlisted_;

@@ -55,12 +55,17 @@ void Structure::Impl::join_orphans() {
   }
 }
 
-const Structure::Impl* Structure::Impl::structure_of(const b2Body& body) {
+const Member* Structure::Impl::member_of(const b2Body& body) {
   for (const b2JointEdge* e = body.GetJointList(); e != nullptr; e = e->next) {
     const auto* joint = ElasticPlasticJoint::cast(e->joint);
-    if (joint != nullptr && joint->member_ != nullptr) return joint->member_->structure;
+    if (joint != nullptr && joint->member_ != nullptr) return joint->member_;
   }
   return nullptr;
+}
+
+const Structure::Impl* Structure::Impl::structure_of(const b2Body& body) {
+  const Member* member = member_of(body);
+  return member != nullptr ? member->structure : nullptr;
 }
 
 bool Structure::Impl::is_of_another(const b2Body& body) const {

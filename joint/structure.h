@@ -72,6 +72,8 @@ struct Structure::Impl {
   /// With its world, or with all bodies of it, or alone.
   void watch_is_gone(bool with_world);
   std::vector<std::string> problems(const ElasticPlasticJointDef& def) const;
+  /// The first joint of a structure that a body has; null where there is none.
+  static const dynamics::Member* member_of(const b2Body& body);
   /// The structure whose joints a body has, by its first one, as no two structures share a body; null where
   /// there is none.
   static const Impl* structure_of(const b2Body& body);

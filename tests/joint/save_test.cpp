@@ -195,6 +195,28 @@ TEST(Save, OfWhatTheGameHasJustStruck) {
   }
 }
 
+// A piece whose only joint leads to a disabled body meets what is fast, with another mass than when it was
+// last solved or without having been solved, where it is loaded as where it is saved.
+TEST(Save, OfPiecesWhoseJointsAreInNoStep) {
+  for (const int solved : {0, 1}) {
+    Scene s({0, 0});
+    s.add_row(nullptr, 0, 0, 1, 0, 2);
+    b2Body *piece = s.structure.joints()[0]->GetBodyA(), *other = s.structure.joints()[0]->GetBodyB();
+    s.run(3 * solved);
+    other->SetEnabled(false);
+    b2MassData mass;
+    piece->GetMassData(&mass);
+    mass.mass *= 2, mass.I *= 2;
+    piece->SetMassData(&mass);
+    b2Body* ball = add_box(s.world, {.x = 0.3, .y = 2, .width = 0.1, .height = 0.1, .mass = 10, .group = 0});
+    ball->SetLinearVelocity({0, -70});
+    expect_saved(s, 3);
+    expect_same_future(s, 3);
+    EXPECT_GT(ball->GetPosition().y, 0.4f) << solved;
+    EXPECT_GT(ball->GetLinearVelocity().y, -10) << solved;
+  }
+}
+
 // Its bodies are no contact yet, and become one in the next step.
 TEST(Save, OfWhatHasJustBroken) {
   Scene s;
