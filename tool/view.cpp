@@ -1,11 +1,14 @@
 #include "ductile/view.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "command.h"
+#include "ductile/level.h"
 
 namespace ductile::tool {
 namespace {
@@ -16,8 +19,19 @@ struct Options {
   bool json = false;
 };
 
+// view() reads the scene itself; where a screenshot is to be written, this asks before which files it names.
+// A pipe can be read once only.
+void keep_named(const std::string& scene, const Outputs& outputs) {
+  std::error_code none;
+  if (outputs.front().second.front().empty() || !std::filesystem::is_regular_file(scene, none)) return;
+  const std::string text = read_text(scene);
+  if (!is_rube(text) && !is_drawing(text)) scene_of({.name = scene}, text, outputs);
+}
+
 std::string run(Options options) {
-  keep_inputs({options.scene}, {{"--screenshot", {options.screenshot}}});
+  const Outputs outputs{{"--screenshot", {options.screenshot}}};
+  keep_inputs({options.scene}, outputs);
+  keep_named(options.scene, outputs);
   options.view.scene = options.scene;
   options.view.screenshot = options.screenshot;
   const ViewCost cost = view(options.view);

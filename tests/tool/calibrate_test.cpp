@@ -158,7 +158,8 @@ TEST(CalibrateCommand, WritesNothingOverWhatItsSceneNames) {
           "calibrate " + scene + " --to scene --out ", "calibrate " + scene + " --to rube --out ",
           "check " + scene + " --picture ", "limit " + scene + " --picture ",
           "design " + scene + " --for reserve=2 --by depth --out ",
-          "simulate " + scene + " --time 0.1 --history ", "simulate " + scene + " --time 0.1 --replay "})
+          "simulate " + scene + " --time 0.1 --history ", "simulate " + scene + " --time 0.1 --replay ",
+          "view " + scene + " --frames 1 --screenshot "})
       expect_bad_input(run(command + read), "is the file that is read");
   expect_bad_input(run("design " + drawing + " --for mass=1 --by depth --out " + drawing),
                    "is the file that is read");
