@@ -244,14 +244,6 @@ std::string run(const Options& options) {
   const bool whole = !options.leave_out && (options.to.empty() || options.to == "rube");
   Plan plan =
       plan_of(options.scene, whole ? NotInPlan::made : NotInPlan::refused, outputs, options.target_error);
-  for (const SplitError& split : plan.split_errors)
-    if (split.governed_by != "target error")
-      fmt::print(
-          stderr,
-          "warning: {}: '{}' is split with a displacement error of {:.2g} %, above the target error: it "
-          "is governed by {}\n",
-          options.scene.name, plan.bodies[static_cast<std::size_t>(split.body)].name, 100 * split.error,
-          split.governed_by);
   NewFiles files(outputs);
   std::string left_out;
   if (options.leave_out) {

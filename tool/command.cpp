@@ -85,6 +85,17 @@ SceneDef scene_of(const SceneFile& file, const std::string& text, const Outputs&
   return scene;
 }
 
+void warn_of_splits(const Plan& plan, const SceneFile& file) {
+  for (const SplitError& split : plan.split_errors)
+    if (split.governed_by != "target error")
+      fmt::print(
+          stderr,
+          "warning: {}: '{}' is split with a displacement error of {:.2g} %, above the target error: it "
+          "is governed by {}\n",
+          file.name, plan.bodies[static_cast<std::size_t>(split.body)].name, 100 * split.error,
+          split.governed_by);
+}
+
 Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,
              std::optional<double> target_error) {
   const std::string& scene_file = file.name;
@@ -102,7 +113,9 @@ Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,
   }
   SceneDef scene = scene_of(file, text, outputs);
   if (target_error) scene.target_error = *target_error;
-  return in_file(scene_file, [&] { return calibrate(scene); });
+  Plan plan = in_file(scene_file, [&] { return calibrate(scene); });
+  warn_of_splits(plan, file);
+  return plan;
 }
 
 std::string piece_name(const Plan& plan, int piece) {

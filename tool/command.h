@@ -79,6 +79,9 @@ enum class NotInPlan {
   refused,
 };
 
+/// Says on stderr which automatic splits do not reach their target error.
+void warn_of_splits(const Plan& plan, const SceneFile& file);
+
 /// The plan of a drawing or a scene file, with another target error for its automatic splits if one is given,
 /// or of a R.U.B.E. scene; what is wrong with it is said of that file. `outputs` as scene_of() has them.
 Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,

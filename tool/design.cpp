@@ -228,6 +228,7 @@ std::string run(const Options& options) {
                         : found(scene, bodies, target, options);
   });
   const Plan plan = calibrate(answer.reach.scene);
+  warn_of_splits(plan, options.scene);
   const double mass = measured(plan, Measure::mass);
   const double critical = has_order ? critical_load(plan).factor : unlimited;
   if (!options.out.empty()) {

@@ -302,6 +302,18 @@ TEST(CalibrateCommand, SaysWhereASplitDoesNotReachItsTarget) {
   EXPECT_EQ(ran.exit, 0);
   EXPECT_NE(ran.err.find("'b' is split with a displacement error of 0.004"), std::string::npos) << ran.err;
   EXPECT_NE(ran.err.find("above the target error"), std::string::npos) << ran.err;
+
+  // So do commands that only use the split: a bar of 0.12 m has no room for enough pieces.
+  const std::string small = folder.write("small.json", R"({"gravity": [0,-10], "bodies": [
+    {"name": "w", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+    {"name": "b", "outline": [[0,0],[0.12,0],[0.12,0.03],[0,0.03]], "material": "S355", "split": "auto"}],
+    "joints": [{"between": ["w", "b"]}]})");
+  for (const std::string& command :
+       {"check " + small, "limit " + small, "design " + small + " --for mass=20 --by depth"}) {
+    const Ran warns = run(command);
+    EXPECT_EQ(warns.exit, 0) << warns.err;
+    EXPECT_NE(warns.err.find("above the target error"), std::string::npos) << command << warns.err;
+  }
 }
 
 TEST(CalibrateCommand, WritesEveryKindOfDefinition) {
