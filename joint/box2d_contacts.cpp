@@ -136,12 +136,20 @@ void settle(VelocityConstraint& c) {
   }
 }
 
+float separation_of(const b2Contact& contact) {
+  b2WorldManifold at;
+  contact.GetWorldManifold(&at);
+  return contact.GetManifold()->pointCount == 2 ? std::min(at.separations[0], at.separations[1])
+                                                : at.separations[0];
+}
+
 void silence(const Touch& t) {
   for (int32 k = 0; k < t.velocity->count; ++k)
     t.velocity->points[k].normal_impulse = t.velocity->points[k].tangent_impulse = 0;
   settle(*t.velocity);
   hold_a(*t.position);
   hold_b(*t.position);
+  t.position->radius_a -= b2_maxTranslation;  // nor keeps the island awake, however deep it is
 }
 
 }  // namespace ductile::dynamics

@@ -12,6 +12,7 @@
 
 #include <box2d/box2d.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -165,8 +166,13 @@ inline void hold_b(PositionConstraint& p) { p.inverse_mass_b = p.inverse_inertia
 /// In the iterations of positions only what overlaps by more than two polygons' skins is too deep.
 inline void let_skins_overlap(PositionConstraint& p) { p.radius_a -= 2 * b2_polygonRadius - b2_linearSlop; }
 
-/// In the iterations of positions nothing is too deep.
-inline void let_overlap(PositionConstraint& p) { p.radius_a -= b2_maxTranslation; }
+/// The least distance at a contact's points, m: below 0 shapes overlap.
+float separation_of(const b2Contact& contact);
+
+/// In the iterations of positions nothing is too deep that is no deeper than now.
+inline void let_stay(const Touch& touch) {
+  touch.position->radius_a -= std::max(0.0f, -separation_of(*touch.contact) - b2_linearSlop);
+}
 
 /// The contact presses nothing in this step.
 void silence(const Touch& touch);

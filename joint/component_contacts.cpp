@@ -198,15 +198,13 @@ void Component::read_touches() {
 
 // Box2D corrects the overlap of a guest and an anchored structure by moving the guest alone: the piece would
 // be brought back. So it would be from what does not move: skins may overlap there, as they do where a
-// structure was made flush with a wall. So are pieces of one structure that overlap, where their joints take
-// back what they are pushed by: those stay as they are.
+// structure was made flush with a wall. So are pieces of one structure that overlap, and what is wedged
+// between them, where their joints take back what they are pushed by: while they stand, all that touches
+// stays as deep as it is.
 void Component::return_contacts() {
   const bool stand_jammed = pieces_jam_ && solver.fastest() < b2_linearSleepTolerance &&
                             solver.fastest_turn() < b2_angularSleepTolerance;
-  if (groups_.empty() && (stand_jammed || !outside_.touches.empty())) find_groups(outside_.ties);
-  const auto let_be = [&](const Touch& t) {
-    if (stand_jammed && hang_together(t.in_a, t.in_b)) let_overlap(*t.position);
-  };
+  if (groups_.empty() && !outside_.touches.empty()) find_groups(outside_.ties);
   auto row = solver.contacts.begin();
   for (const Touch& t : outside_.touches) {
     if (t.at_seam) {
@@ -230,9 +228,10 @@ void Component::return_contacts() {
     if (anchored_b && yields(a)) hold_b(*t.position);
     const auto stands = [](const Mirror& m) { return m.type != b2_dynamicBody; };
     if ((anchored_a && stands(b)) || (anchored_b && stands(a))) let_skins_overlap(*t.position);
-    let_be(t);
+    if (stand_jammed) let_stay(t);
   }
-  for (const Touch& t : outside_.corners) let_be(t);
+  for (const Touch& t : outside_.corners)
+    if (stand_jammed) let_stay(t);
 }
 
 void Component::remember_blow() {

@@ -3,7 +3,6 @@
 // and back, as its structure does not give, and never fall asleep. So a contact with what does not move is
 // disabled while b2World goes on to continuous collision, where the piece stands: its points are rows of the
 // structure's problem, which let nothing close. Written against Box2D 2.4.1.
-#include <algorithm>
 #include <utility>
 
 #include "box2d_private.h"
@@ -19,14 +18,7 @@ constexpr uint32 held_apart = 0x8000;
 
 // Whether continuous collision finds that the two touch before they move: that is where shapes without their
 // skins are as near as the slop and a quarter of it, which a hair is added to.
-bool is_flush(const b2Contact& contact) {
-  b2WorldManifold at;
-  contact.GetWorldManifold(&at);
-  const float deepest = contact.GetManifold()->pointCount == 2
-                            ? std::min(at.separations[0], at.separations[1])
-                            : at.separations[0];
-  return deepest < -2.5f * b2_linearSlop;
-}
+bool is_flush(const b2Contact& contact) { return separation_of(contact) < -2.5f * b2_linearSlop; }
 
 }  // namespace
 

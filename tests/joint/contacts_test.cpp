@@ -2178,6 +2178,81 @@ TEST(Contacts, OfPiecesThatFoldLetThemSleep) {
   }
 }
 
+// A block as wide as the slot between two columns, or a little wider: Box2D would push it and them apart in
+// each step, and the columns do not give.
+TEST(Contacts, OfWhatIsWedgedBetweenPiecesLetItSleep) {
+  for (const double hz : {30., 60., 120.}) {
+    for (const double wider : {0., 0.02, 0.04, 0.1}) {
+      b2World world({0, -10});
+      Structure structure(world);
+      add_box(world, {.y = -1, .width = 100, .height = 2, .type = b2_staticBody, .group = 0});
+      b2Body* base = add_box(world, {.y = 0.25, .width = 3, .height = 0.5, .mass = 1500, .group = 0});
+      for (const double x : {-1., 1.}) {
+        ElasticPlasticJointDef def;
+        def.Initialize(base, add_box(world, {.x = x, .y = 1, .group = 0}), vec(x, 0.5), {0, 1});
+        structure.create_joint(def);
+      }
+      b2Body* block = add_box(world, {.y = 1, .width = 1 + wider, .height = 0.6, .mass = 600, .group = 0});
+      for (int i = 0; i < 3 * hz && block->IsAwake(); ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+      }
+      EXPECT_FALSE(block->IsAwake()) << hz << ", " << wider;
+      EXPECT_NEAR(block->GetPosition().x, 0, 0.01) << hz << ", " << wider;
+      EXPECT_GT(block->GetPosition().y, 0.75f) << hz << ", " << wider;
+    }
+  }
+}
+
+// A wall of brittle blocks that are flush, which a ball has hit: blocks that broke off lie on it, in it and
+// beside it, and where a row of blocks still holds, no seam of it counts as too deep.
+TEST(Contacts, OfAWallThatIsHitLetItSleep) {
+  for (const double hz : {30., 60., 120.}) {
+    constexpr int wide = 10, high = 8;
+    b2World world({0, -10});
+    Structure structure(world);
+    add_box(world, {.y = -1, .width = 400, .height = 2, .type = b2_staticBody, .group = 0});
+    std::vector<b2Body*> blocks;
+    const auto join = [&](std::size_t a, std::size_t b, const b2Vec2& at, const b2Vec2& axis, double face) {
+      ElasticPlasticJointDef def;
+      def.Initialize(blocks[a], blocks[b], at, axis);
+      def.rows[axial] = {.cap = 3e5 * face, .cap_reverse = 30e5 * face};
+      def.rows[shear] = {.cap = 3e5 * face, .cap_reverse = 3e5 * face};
+      def.rows[rotation] = {.cap = 75e3 * face * face, .cap_reverse = 75e3 * face * face};
+      def.max_rotation = 0.01;
+      def.max_elongation = def.max_slip = 0.003;
+      def.max_compression = 0.05;
+      structure.create_joint(def);
+    };
+    for (int x = 0; x < wide; ++x) {
+      for (int y = 0; y < high; ++y)
+        blocks.push_back(add_box(
+            world,
+            {.x = x * 0.5 + 0.25, .y = y * 0.4 + 0.2, .width = 0.5, .height = 0.4, .mass = 480, .group = 0}));
+    }
+    for (int x = 0; x < wide; ++x) {
+      for (int y = 0; y < high; ++y) {
+        const auto k = static_cast<std::size_t>(x * high + y);
+        if (x + 1 < wide) join(k, k + high, vec(x * 0.5 + 0.5, y * 0.4 + 0.2), {1, 0}, 0.4);
+        if (y + 1 < high) join(k, k + 1, vec(x * 0.5 + 0.25, y * 0.4 + 0.4), {0, 1}, 0.5);
+      }
+    }
+    const std::size_t whole = structure.joints().size();
+    b2Body* ball = add_box(world, {.x = -6, .y = 0.8, .width = 0.5, .height = 0.5, .mass = 3900, .group = 0});
+    make_wheel(*ball);
+    ball->SetLinearVelocity({25, 3});
+    const auto awake = [&] {
+      return std::count_if(blocks.begin(), blocks.end(), [](const b2Body* b) { return b->IsAwake(); });
+    };
+    for (int i = 0; i < 12 * hz && awake() > 0; ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+    }
+    EXPECT_LT(structure.joints().size(), whole) << hz;
+    EXPECT_EQ(awake(), 0) << hz;
+  }
+}
+
 // A block on a block whose joint breaks under its weight stays on it: the two are a contact from the next
 // step on, however many joints were between them.
 TEST(Contacts, OfWhatStandsOnWhatItBrokeOff) {
