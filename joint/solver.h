@@ -120,6 +120,8 @@ class Solver : public System {
   double& drift_time() { return laws_.drift_time; }
   double drift_time() const { return laws_.drift_time; }
   double& moved_by() { return laws_.moved_by; }
+  /// Block products of a factorisation: what a solve costs.
+  double factor_work() const { return hessian_.factor_work(joints.size()); }
   NewtonTunables& tunables() { return newton_.tunables; }
   InteriorPointTunables& interior_point_tunables() { return newton_.interior_point.tunables; }
 

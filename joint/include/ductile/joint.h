@@ -253,7 +253,8 @@ struct StepReport {
   int rounds = 0;   ///< of preconditioned conjugate gradients, over all solves
   int factorisations = 0;
   /// Components whose step was solved in parts, for a blow: between two update() of 120 bodies in all, each
-  /// pair that touches counted as 8 more, or of 240, 480 or 960 in parts that are 2, 4 or 8 times as long.
+  /// pair that touches counted as 8 more, a block of a wall as up to 5, or of 240, 480 or 960 in parts that
+  /// are 2, 4 or 8 times as long.
   int divided = 0;
   int projections = 0;  ///< pushes by contacts that were spread through the structure
   int bounds_hit = 0;   ///< solves and projections that ended at their bound of iterations; 0 in every scene
