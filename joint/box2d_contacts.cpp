@@ -149,7 +149,7 @@ void silence(const Touch& t) {
   settle(*t.velocity);
   hold_a(*t.position);
   hold_b(*t.position);
-  t.position->radius_a -= b2_maxTranslation;  // nor keeps the island awake, however deep it is
+  t.position->radius_a -= b2_maxTranslation;
 }
 
 }  // namespace ductile::dynamics

@@ -174,7 +174,7 @@ inline void let_stay(const Touch& touch) {
   touch.position->radius_a -= std::max(0.0f, -separation_of(*touch.contact) - b2_linearSlop);
 }
 
-/// The contact presses nothing in this step.
+/// The contact presses nothing in this step, moves no body, and keeps no island awake, however deep it is.
 void silence(const Touch& touch);
 
 template <class Follow>

@@ -230,8 +230,8 @@ void Component::return_contacts() {
     if ((anchored_a && stands(b)) || (anchored_b && stands(a))) let_skins_overlap(*t.position);
     if (stand_jammed) let_stay(t);
   }
-  for (const Touch& t : outside_.corners)
-    if (stand_jammed) let_stay(t);
+  if (!stand_jammed) return;
+  for (const Touch& t : outside_.corners) let_stay(t);
 }
 
 void Component::remember_blow() {

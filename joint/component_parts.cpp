@@ -33,12 +33,13 @@ constexpr double most_turn_of_whole = 0.05;   // rad in a step, by what is given
 // What is as light as a piece is braked within a millisecond. With parts of 1/1920 s, a plate that strikes
 // the middle of a clamped beam leaves 0.87 of the rotation that it should.
 //
-// A step of 1/60 s in parts costs as much as 64 whole ones. A body of a wall costs as much as five of a
-// frame, as they fill its factor. Where bodies jam, a pair that touches costs as much as eight bodies do. The
-// sum over all that a structure solves in parts in one step is bounded: what is more than that is divided by
-// 2, 4 or 8 times as long parts, and the rest has whole steps.
+// A step of 1/60 s in parts costs as much as 64 whole ones. A block of a large wall costs as much as
+// five bodies of a frame: a factor has 50 block products for each, 10 in a frame, and 6 in a chain. Where
+// bodies jam, a pair that touches costs as much as eight bodies do. The sum over all that a structure solves
+// in parts in one step is bounded: what is more than that is divided by 2, 4 or 8 times as long parts, and
+// the rest has whole steps.
 constexpr std::size_t bodies_per_touch = 8;
-constexpr double work_of_body = 10;  // block products in a factor of a frame; a chain has 6, a wall 50
+constexpr double work_of_body = 10;  // block products that a factor has for each body of a frame
 constexpr double most_in_parts = 120;
 constexpr int longest_part = 8;  // in shortest ones
 
