@@ -34,6 +34,7 @@ void Newton::form(const System& system) {
   interior_point.form(system);
   pushed_.assign(system.free, 0);
   regimes_.reserve(system.joints.capacity());  // contacts will come
+  kinks_.reserve(system.joints.capacity());
   forget();
 }
 
@@ -137,7 +138,7 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
     return true;
   }
   find_x(system);
-  double at_rest = 0, curvature = 0;  // f' = at_rest + t·curvature + Σ y s(x0 + t y)
+  double at_rest = 0, curvature = 0;  // f' = at_rest + t·curvature + Σ y s(x0 + t y), the sum over kinks_
   for (std::size_t i = 0; i < system.free; ++i) {
     const Body& b = system.bodies[i];
     const Vec3 md = momentum(b, d_[i]);
@@ -150,11 +151,27 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
     at_rest += t.inertia * y * (now - y - t.rate);
     curvature += t.inertia * y * y;
   }
+  // Joints that are elastic at 0 and at 1 are so between them.
+  const bool between = slope1 > 0;
+  kinks_.clear();
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const Joint& j = system.joints[k];
+    const Rows &x = system.records[k].x, y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
+    Rows s;
+    for (unsigned i = 0; i < 3; ++i) s[i] = j.G[i] * (x[i] - y[i]);
+    if (!between || j.regime != 0 || !is_elastic(j, s)) {
+      kinks_.push_back({k, y});
+      continue;
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      at_rest += y[i] * s[i];
+      curvature += y[i] * y[i] * j.G[i];
+    }
+  }
   const auto slope = [&](double t) {
     Slope at{at_rest + t * curvature, curvature};
-    for (const Joint& j : system.joints) {
-      const Rows y = relative_velocity(j, d_[z(j.a)], d_[z(j.b)]);
-      const JointRecord& r = system.record(j);
+    for (const auto& [k, y] : kinks_) {
+      const JointRecord& r = system.records[k];
       Rows x = r.x;
       for (unsigned i = 0; i < 3; ++i) x[i] += (t - 1) * y[i];
       const auto [s, regime] = respond(r.law, x);
@@ -237,6 +254,7 @@ Evaluation Newton::solve_by_interior_point(System& system, Hessian& hessian, Sol
 Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
                        const LinearPrediction* prediction, SolveReport& report) {
   stands_ = !system.contacts.empty() && last.speed2 <= 1e-10 * last.impulse2;
+  const bool first = std::exchange(first_, false);
   Round round;
   round.pushed_only = std::exchange(gradient_known_, true) && pushes_ > 0;
   // Rounds that do not end in a solution leave impulses that are far from any.
@@ -267,7 +285,8 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   bool moved = false;
   if (at.gradient2 > target(system, at) && had_regimes && at.crossed && !at.curved)
     moved = start_from_regimes(system, hessian, at, report);
-  if (at.gradient2 > target(system, at) && at.flows && !round.pushed_only) start_from_lower(system, at);
+  // A later solve of a step starts from the solution of the one before, which v* is not lower than.
+  if (at.gradient2 > target(system, at) && at.flows && first) start_from_lower(system, at);
 
   double best2 = at.gradient2;
   round.first2 = at.gradient2;

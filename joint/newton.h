@@ -67,6 +67,11 @@ class Newton {
   /// with.
   Solution solve(System& system, Hessian& hessian, const Evaluation& last, const LinearPrediction* prediction,
                  SolveReport& report);
+  /// The next solve is the first of a step.
+  void begin_step() {
+    first_ = true;
+    interior_point.begin_step();
+  }
   void keep(Tape& tape) { tape(contraction_, lost_); }
 
   /// One momentum per body, the gradient's own, for who needs it while that is not known.
@@ -89,11 +94,17 @@ class Newton {
   Vector<Vec3> g_;                // ∇f at the bodies' v, from a solve to the pushes after it
   Vector<Vec3> d_, z_;            // 0 for bodies whose velocities are prescribed
   Vector<std::uint8_t> regimes_;  // of the joints, in the last solution
+  struct Kink {
+    std::size_t joint;
+    Rows y;  // J d
+  };
+  Vector<Kink> kinks_;  // joints whose slope the line search asks for at each t
   // Pushes since the last solve, which left |∇f|² = left2_ and of which the pushes made left2_ + pushed2_.
   Vector<std::size_t> pushed_;
   std::size_t pushes_ = 0;
   bool gradient_known_ = false;
   bool stands_ = false;  // as of the last step
+  bool first_ = true;    // no solve of this step was done
   double left2_ = 0, pushed2_ = 0;
   /// |∇f|² falls by so many times in a round with a factor of an earlier step.
   double contraction_ = 1e6;

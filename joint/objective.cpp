@@ -8,15 +8,6 @@
 
 namespace ductile::dynamics {
 
-namespace {
-
-bool is_elastic(const Joint& j, const Rows& s) {
-  const auto within = [&](unsigned i) { return std::abs(s[i]) <= j.elastic_range[i]; };
-  return within(0) && within(1) && within(2);
-}
-
-}  // namespace
-
 double square(const System& system, std::span<Vec3> g) {
   double norm = 0;
   for (std::size_t i = 0; i < system.free; ++i) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "kinematics.h"
@@ -35,6 +36,12 @@ struct Evaluation {
     fastest_turn2 = std::max(fastest_turn2, b.v.w * b.v.w);
   }
 };
+
+/// Whether no row of a joint flows at these impulses.
+inline bool is_elastic(const Joint& j, const Rows& s) {
+  const auto within = [&](unsigned i) { return std::abs(s[i]) <= j.elastic_range[i]; };
+  return within(0) && within(1) && within(2);
+}
 
 /// Of a momentum, in the norm of M⁻¹.
 inline double square(const Body& b, const Vec3& g) {

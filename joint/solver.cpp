@@ -67,7 +67,7 @@ void Solver::remove(std::size_t joint) {
 
 void Solver::begin(double h) {
   hessian_.begin_step();
-  newton_.interior_point.begin_step();
+  newton_.begin_step();
   motion_.share = 1;
   keeps_friction_ = false;
   friction_rounds_ = most_friction_rounds;
@@ -107,6 +107,7 @@ void Solver::strike(double closing) {
 void Solver::weaken(std::size_t joint, double share) {
   dynamics::weaken(joints[joint], records[joint], share);
   weakened_ = true;
+  go_on();  // friction was settled in the solve before
   newton_.forget();
 }
 
