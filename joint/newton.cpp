@@ -188,10 +188,10 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
   return true;
 }
 
-// From the minimum of what f would be if each row stayed in the regime of the last solution, if that is
-// lower: it is that of one linear system. Of the parts of a step most have no row that changes its regime,
-// though many seem to where they are evaluated with the velocities of the part before. Whether v is another
-// now.
+// From the minimum of what f would be if each row stayed in the regime of the last solution, or of where that
+// leads, if that is lower: it is that of a linear system. Of the parts of a step most have no row that
+// changes its regime, though many seem to where they are evaluated with the velocities of the part before.
+// Whether v is another now.
 bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at, SolveReport& report) {
   const double f = objective(system, at);
   for (std::size_t k = 0; k < regimes_.size(); ++k) std::swap(system.joints[k].regime, regimes_[k]);
@@ -219,8 +219,16 @@ bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at
     at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v += z_[i]; });
   };
   go(z_);
+  // As in InteriorPoint::settle(): the system is solved again with what that shows of regimes, for as long as
+  // there is less and less of it.
+  for (int least = std::numeric_limits<int>::max(); at.crossed && at.changed > 0 && at.changed < least;) {
+    least = at.changed / 2 + 1;
+    hessian.factor_tangents(system, false);
+    ++report.factorisations;
+    go(g_);
+  }
   // Where it is the solution, a second step mends what rounding leaves of a row that was far from it.
-  if (!at.crossed) go(g_);
+  if (!at.crossed && at.gradient2 > target(system, at)) go(g_);
   if (!at.crossed || (at.gradient2 > target(system, at) && objective(system, at) < f)) return true;
   at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v = d_[i]; });
   return false;
