@@ -287,13 +287,18 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
 }
 
 // What gravity and loads give a body in the step they give it evenly. Where the last step ended in parts,
-// too, bodies begin with the velocities at its end, not with the means.
+// too, bodies begin with the velocities at its end, not with the means; but where one of them has left, it
+// goes on with its mean, and so must they all, or momentum would be lost.
 void Component::begin_parts() {
-  const bool restores = std::exchange(parts_.withholds, false);
+  bool restores = std::exchange(parts_.withholds, false);
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Vec3& withheld = parts_.bodies[i].withheld;
+    restores &= mirrors[i].present || dot(withheld, withheld) == 0;
+  }
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     Mirror& m = mirrors[i];
     Parts::OfBody& body = parts_.bodies[i];
-    const Vec3 restored = restores && m.present ? body.withheld : Vec3{};
+    const Vec3 restored = restores ? body.withheld : Vec3{};
     body = {.start = solver.places[i].pose, .restored = restored};
     if (!m.present) continue;
     const Vec3 told = in_doubles(velocity_of(*m.body));

@@ -134,10 +134,11 @@ bool has_room(const b2World& world, b2Body& body, const b2Transform& there, cons
   return true;
 }
 
-/// By how much what is at this velocity is to be slowed for so many J/kg that it gains by being moved.
+/// By how much what is at this velocity is to be slowed for so many J/kg that it gains by being moved, or is
+/// to be faster for what it loses; where that is more than it has, it goes nowhere in particular.
 b2Vec2 price(const b2Vec2& v, float gain) {
   const float speed2 = v.LengthSquared();
-  return speed2 > 0 && speed2 > 2 * gain ? (std::sqrt(1 - 2 * gain / speed2) - 1) * v : b2Vec2(0, 0);
+  return speed2 > 2 * std::abs(gain) ? (std::sqrt(1 - 2 * gain / speed2) - 1) * v : b2Vec2(0, 0);
 }
 
 void pay(b2Body& body, const b2Vec2& way, const b2Vec2& gravity) {
@@ -240,18 +241,18 @@ Group& group_of(b2Body& body, Groups& groups) {
   return *groups.emplace_back(std::make_unique<Group>(body));
 }
 
-// Two groups that overlap where a body met a piece go apart along the normal there.
-void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piece, const b2Contact& contact,
+// Two groups that overlap where a body met a piece go apart along the normal there. False where neither may.
+bool move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piece, const b2Contact& contact,
                 const b2Sweep& motion, const b2Vec2& normal) {
   const float size = contact.GetFixtureA()->GetAABB(contact.GetChildIndexA()).GetExtents().Length() +
                      contact.GetFixtureB()->GetAABB(contact.GetChildIndexB()).GetExtents().Length();
   const float from = 2 * ((motion.c - motion.c0).Length() + size * std::abs(motion.a - motion.a0));
   const b2Vec2 way = way_out(contact, piece, body, from, normal);
-  if (way.LengthSquared() == 0) return;
+  if (way.LengthSquared() == 0) return true;
   const Group& one = group_of(body, groups);
-  if (one.has(&piece)) return;
+  if (one.has(&piece)) return false;
   const Group& other = group_of(piece, groups);
-  if (one.is_held && other.is_held) return;
+  if (one.is_held && other.is_held) return false;
   float share = share_of_way(one, other);
   const auto has_room = [&] {
     return (share == 0 || one.has_room(world, share * way)) &&
@@ -259,10 +260,11 @@ void move_apart(const b2World& world, Groups& groups, b2Body& body, b2Body& piec
   };
   if (!has_room()) {
     share = share > 0.5f ? 0.0f : 1.0f;
-    if ((share == 1 ? one : other).is_held || !has_room()) return;
+    if ((share == 1 ? one : other).is_held || !has_room()) return false;
   }
   if (share > 0) one.move(share * way, world.GetGravity());
   if (share < 1) other.move((share - 1) * way, world.GetGravity());
+  return true;
 }
 
 // A wheel on a spring that rolls on to a piece is stopped there along its axis, and what it carries is not:
@@ -305,6 +307,19 @@ bool put_group_back(const b2World& world, Groups& groups, b2Body& guest, const b
   if (!group.has_room(world, way)) return false;
   group.move(way, world.GetGravity());
   group.gone_back += way;
+  return true;
+}
+
+// What hangs on something that does not move freely goes back on its own way alone, which its joints let it
+// go. Where a piece came to it, what that belongs to goes out. False where neither may.
+bool put_held_back(const b2World& world, Groups& groups, b2Body& guest, b2Body& piece,
+                   const b2Contact& contact, const b2Sweep& seen, const Way& met) {
+  if (!group_of(guest, groups).is_held) return false;
+  b2Sweep own = of(guest, b2Body_m_sweep{});
+  own.alpha0 = 0;
+  const Way way = way_to(contact, piece, guest, own);
+  if (!(way.share < 1)) return move_apart(world, groups, guest, piece, contact, seen, met.normal);
+  put_back(guest, own, way.share, world.GetGravity());
   return true;
 }
 
@@ -453,6 +468,7 @@ void Island::meet_guests(b2World& in) {
       move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
       if (raise_wheel(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal)) continue;
+      if (put_held_back(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way)) continue;
       const b2Vec2 from = m.body->GetWorldCenter();
       if (put_group_back(in, groups, *m.body, *m.piece, m.motion, m.way.share)) continue;
       put_back(*m.body, m.motion, m.way.share, in.GetGravity());

@@ -28,10 +28,11 @@ bool meets_cover(const b2Contact& contact, const b2Fixture& piece, const b2Fixtu
   const auto& shape = static_cast<const b2PolygonShape&>(*piece.GetShape());
   const b2Manifold& manifold = *contact.GetManifold();
   const bool is_a = contact.GetFixtureA() == &piece;
+  const b2Fixture& other = is_a ? *contact.GetFixtureB() : *contact.GetFixtureA();
   const auto* end = shape.m_vertices + shape.m_count;
   const auto* corner = std::find(shape.m_vertices, end, manifold.localPoint);
-  if (manifold.type == (is_a ? b2Manifold::e_faceA : b2Manifold::e_faceB) && corner != end) {
-    const auto at = static_cast<int32>(corner - shape.m_vertices);  // where a circle meets it
+  if (other.GetType() == b2Shape::e_circle && corner != end) {  // where that meets it
+    const auto at = static_cast<int32>(corner - shape.m_vertices);
     return covers(neighbour, piece, at, *corner) ||
            covers(neighbour, piece, (at + shape.m_count - 1) % shape.m_count, *corner);
   }

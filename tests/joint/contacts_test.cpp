@@ -1638,6 +1638,54 @@ TEST(Seams, OfAStepAreMet) {
   EXPECT_LT(box->GetPosition().x + 0.25, 5 + b2_linearSlop);
 }
 
+// A block whose outline is a chain stands on the seams of a deck that bends as a box does: its edges meet the
+// pieces by these' faces, and Box2D tells such a manifold by a corner, as where a circle meets one.
+TEST(Seams, CarryChains) {
+  constexpr int count = 7;
+  constexpr double span = 9.6, length = span / count, EI = 1e8;
+  for (const double x : {3.8, 3.9, 4.0}) {
+    b2World world({0, -10});
+    world.SetAllowSleeping(false);
+    Structure structure(world);
+    b2Body *last = add_box(world, {.y = -20, .type = b2_staticBody}), *ground = last;
+    const auto join = [&](b2Body* a, b2Body* b, double at) {
+      ElasticPlasticJointDef def;
+      def.Initialize(a, b, vec(at, 0), {1, 0});
+      def.rows[axial].stiffness = 300 * EI / length;
+      def.rows[shear].stiffness = 100 * EI / length;
+      def.rows[rotation].stiffness = EI / length;
+      for (RowDef& row : def.rows) row.damping = 0.05 * row.stiffness;
+      if (a == ground || b == ground) def.rows[rotation] = RowDef::free();
+      structure.create_joint(def);
+    };
+    for (int i = 0; i < count; ++i) {
+      b2Body* piece = add_box(
+          world, {.x = (i + 0.5) * length, .width = length, .height = 0.2, .mass = piece_mass, .group = -1});
+      join(last, piece, i * length);
+      last = piece;
+    }
+    join(last, ground, span);
+    b2Body* block = add(world, {.x = x, .size = 1, .mass = 10 * piece_mass});
+    b2MassData data;
+    block->GetMassData(&data);
+    block->DestroyFixture(block->GetFixtureList());
+    const std::array<b2Vec2, 4> corners{vec(-0.5, -0.5), vec(0.5, -0.5), vec(0.5, 0.5), vec(-0.5, 0.5)};
+    b2ChainShape outline;
+    outline.CreateLoop(corners.data(), 4);
+    block->CreateFixture(&outline, 0);
+    block->SetMassData(&data);
+    Impulses told(block);
+    world.SetContactListener(&told);
+    for (int i = 0; i < 600; ++i) {
+      if (i == 540) told.x = told.y = 0;
+      world.Step(static_cast<float>(dt), 8, 3);
+      structure.update();
+    }
+    EXPECT_NEAR(told.y, 10 * data.mass, 1e-5 * 10 * data.mass) << x;
+    EXPECT_NEAR(block->GetAngle(), 0, 0.01) << x;
+  }
+}
+
 TEST(Seams, OfABendCarry) {
   for (const double turn : {0.05, 0.2, -0.05, -0.2}) {
     b2World world({0, -10});
@@ -2277,6 +2325,94 @@ TEST(Contacts, OfWhatStandsOnWhatItBrokeOff) {
     EXPECT_TRUE(structure.joints().empty()) << hz;
     EXPECT_GT(low, 0.975f) << hz;
     EXPECT_EQ(world.GetContactCount(), 2) << hz;
+  }
+}
+
+// A bar on a pin stays there, whatever strikes it: it goes back on its own way, or what came to it does. The
+// limit is Box2D's own, which iterates.
+TEST(Contacts, OfWhatIsPinnedLeaveItThere) {
+  for (const double hz : {30., 60., 120.}) {
+    for (const double turns : {-4., 0., 2.}) {
+      b2World world({0, -10});
+      Structure structure(world);
+      b2Body* ground = add_box(world, {.y = -20, .type = b2_staticBody});
+      b2Body* bar = add_box(world, {.width = 2, .height = 0.2, .mass = 100, .group = 0});
+      b2RevoluteJointDef pin;
+      pin.Initialize(ground, bar, {0, 0});
+      world.CreateJoint(&pin);
+      bar->SetAngularVelocity(static_cast<float>(turns));
+      std::vector<b2Body*> pieces;
+      for (int i = 0; i < 4; ++i) {
+        pieces.push_back(add_box(
+            world, {.x = 0.45 + 0.5 * i, .y = 1.5, .width = 0.5, .height = 0.2, .mass = 5, .group = 0}));
+        if (i == 0) continue;
+        ElasticPlasticJointDef def;
+        def.Initialize(pieces[pieces.size() - 2], pieces.back(), vec(0.2 + 0.5 * i, 1.5), {1, 0});
+        structure.create_joint(def);
+      }
+      float off = 0;
+      bool met = false;
+      for (int i = 0; i < 2 * hz; ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+        off = std::max(off, bar->GetWorldCenter().Length());
+        met |= bar->GetContactList() != nullptr && bar->GetContactList()->contact->IsTouching();
+      }
+      EXPECT_TRUE(met) << hz << ", " << turns;
+      EXPECT_LT(off, b2_linearSlop) << hz << ", " << turns;
+    }
+  }
+}
+
+// What is thrown by a structure and leaves it in the middle of a blow takes its momentum along.
+TEST(Contacts, KeepMomentumWhereWhatStruckLeaves) {
+  std::minstd_rand random(7);
+  const auto draw = [&random](double from, double to) {
+    return from + (to - from) * static_cast<double>(random()) / static_cast<double>(random.max());
+  };
+  for (int trial = 0; trial < 300; ++trial) {
+    b2World world({0, 0});
+    world.SetAllowSleeping(false);  // which takes what momentum is left
+    Structure structure(world);
+    const int count = 2 + trial % 5;
+    const double length = 4.0 / count, mass = 20 * std::pow(10, draw(0, 2)) / count,
+                 EI = std::pow(10, draw(4, 7));
+    std::vector<b2Body*> bodies;
+    for (int i = 0; i < count; ++i) {
+      bodies.push_back(add_box(
+          world, {.x = (i + 0.5) * length, .width = length, .height = 0.3, .mass = mass, .group = 0}));
+      bodies.back()->GetFixtureList()->SetRestitution(static_cast<float>(draw(0, 1)));
+      if (i == 0) continue;
+      ElasticPlasticJointDef def;
+      def.Initialize(bodies[bodies.size() - 2], bodies.back(), vec(i * length, 0), {1, 0});
+      def.rows[axial].stiffness = def.rows[shear].stiffness = 100 * EI / length;
+      def.rows[rotation].stiffness = EI / length;
+      for (RowDef& row : def.rows) row.damping = 0.002 * row.stiffness;
+      structure.create_joint(def);
+    }
+    double momentum = 0, exchanged = 0;
+    for (const int side : {1, -1}) {
+      const double speed = draw(1, 9), ahead = draw(0.3, 0.4), ball_mass = std::pow(10, draw(1, 3));
+      b2Body* ball = add_box(world, {.x = draw(0.2, 3.8),
+                                     .y = side * (0.4 + speed * ahead),
+                                     .width = 0.5,
+                                     .height = 0.5,
+                                     .mass = ball_mass,
+                                     .group = 0});
+      make_wheel(*ball);
+      ball->SetLinearVelocity(vec(0, -side * speed));
+      momentum -= side * ball_mass * speed;
+      exchanged += ball_mass * speed;
+      bodies.push_back(ball);
+    }
+    const double step = trial % 3 == 0 ? 1 / 30. : trial % 3 == 1 ? 1 / 60. : 1 / 120.;
+    for (double t = 0; t < 1.2; t += step) {
+      world.Step(static_cast<float>(step), 8, 3);
+      structure.update();
+      double now = 0;
+      for (const b2Body* b : bodies) now += double{b->GetMass()} * double{b->GetLinearVelocity().y};
+      EXPECT_NEAR(now, momentum, 1e-5 * exchanged) << trial << ", " << t;
+    }
   }
 }
 
