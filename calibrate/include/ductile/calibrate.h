@@ -26,9 +26,11 @@ enum class BodyType { static_body, dynamic_body, kinematic_body };
 #endif
 /// How a row of a joint behaves below its cap.
 enum class Elasticity {
-  true_stiffness,    ///< EA/ℓ, κGA/ℓ, EI/ℓ of the material and section (rigid where E is not known)
-  rigid,             ///< as stiff as the step can integrate
-  frequency,         ///< from a frequency and damping ratio of the two bodies, as b2AngularStiffness
+  true_stiffness,  ///< EA/ℓ, κGA/ℓ, EI/ℓ of the material and section (rigid where E is not known)
+  rigid,           ///< as stiff as the step can integrate
+  /// From a frequency and damping ratio of the two bodies as they turn about their centres of mass, as
+  /// b2AngularStiffness. About the joint they turn more slowly: a uniform arm on a wall at half of it.
+  frequency,
   elastic_rotation,  ///< k = cap/θ; with a frequency: cap = k·θ
 };
 #if defined(__GNUC__)
