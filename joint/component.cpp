@@ -267,7 +267,6 @@ bool Component::broke_off(std::span<Member* const> leaving) const {
 
 void Component::remove(Member& m) {
   Joint& j = solver.joints[m.index];
-  if (!solver.gaps_known) solver.record(j).gap = dynamics::locate(j, solver.places);
   hand_back(m);
   m.belong_to(nullptr);
   met.push_back({m.joint->GetBodyA(), m.joint->GetBodyB()});

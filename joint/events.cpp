@@ -70,7 +70,6 @@ void Structure::Impl::break_joint(Member& member, JointEvent::Mode mode, Row row
             .released = m.joint->elastic_energy()});
     Joint& j = m.data();
     JointRecord& r = m.record();
-    if (m.component != nullptr) m.component->solver.find_gaps();
     for (unsigned i = 0; i < 3; ++i) {
       r.dissipated[i] += r.stored[i];  // what it still held is set free
       r.stored[i] = 0;

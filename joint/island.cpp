@@ -359,7 +359,6 @@ void Island::discard() {
 
 void Island::hand_back(Component& component) {
   add(component.structures.front()->gone, component.solver.energies());
-  component.solver.find_gaps();
   for (Member* m : component.members) {
     component.hand_back(*m);
     m->belong_to(nullptr);

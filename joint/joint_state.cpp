@@ -24,7 +24,6 @@ std::vector<std::string> wrong_in(const JointState& state) {
 void Member::set_state(const JointState& s) {
   Joint& j = data();
   JointRecord& r = record();
-  if (component != nullptr) component->solver.find_gaps();
   for (unsigned i = 0; i < 3; ++i) {
     j.neutral[i] = (own.fresh ? 0 : r.gap[i]) - s.elastic[i];
     if (is_implicit(r, i)) j.impulse[i] = r.law.h * r.law.spring[i] * s.elastic[i];
@@ -42,7 +41,6 @@ JointState ElasticPlasticJoint::state() const {
   if (member_ == nullptr) return s;
   const JointRecord& r = record();
   const Joint& j = row_state();
-  if (member_->component != nullptr) member_->component->solver.find_gaps();
   for (unsigned i = 0; i < 3; ++i) {
     s.elastic[i] = elastic(static_cast<Row>(i));
     if (member_->own.fresh || j.special)

@@ -1,7 +1,6 @@
 #include "kinematics.h"
 
 #include <cmath>
-#include <utility>
 
 namespace ductile::dynamics {
 
@@ -45,14 +44,9 @@ Rows locate(Joint& j, const Place& a, const Place& b) {
   return {u, v, bend};
 }
 
-void find_gaps(System& system) {
-  if (std::exchange(system.gaps_known, true)) return;
-  for (Joint& j : system.own_joints()) system.record(j).gap = locate(j, system.places);
-}
-
 void locate_all(System& system) {
-  system.biases_known = system.gaps_known = false;
-  find_gaps(system);
+  system.biases_known = false;
+  for (Joint& j : system.own_joints()) system.record(j).gap = locate(j, system.places);
 }
 
 }  // namespace ductile::dynamics

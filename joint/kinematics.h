@@ -61,9 +61,7 @@ inline Rows locate(Joint& j, const Vector<Place>& places) {
   return locate(j, places[z(j.a)], places[z(j.b)]);
 }
 
-/// Writes all gaps into the records, and J, unless they are known.
-void find_gaps(System& system);
-/// The same after bodies were put elsewhere.
+/// Writes all gaps into the records, and J, where bodies were put elsewhere.
 void locate_all(System& system);
 
 }  // namespace ductile::dynamics

@@ -200,8 +200,6 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     distance = pull(system, goal);
     if (holds()) return true;
   }
-  find_gaps(system);
-  system.gaps_known = false;  // bodies will move
   for (std::size_t k = 0; k < system.own(); ++k) kept_[k] = system.records[k].gap;
   for (std::size_t i = system.free; i < system.bodies.size(); ++i) put(system.places[i], goal[i]);
   for (std::size_t i = 0; i < system.free; ++i) start_[i] = poses_[i] = system.places[i].pose;
@@ -224,7 +222,10 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
       strain(system);
     }
     for (std::size_t i = 0; i < system.free; ++i) poses_[i] = system.places[i].pose;
-    if (holds()) return true;
+    if (holds()) {
+      locate_all(system);
+      return true;
+    }
   }
   // As M ≤ H, the step is no longer than the way to the goal. Where it is, the factor is nothing but
   // rounding: over arms of a hundred kilometres a row is 1e19 times as stiff as its bodies are heavy.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "structure.h"
 #include "world_archive.h"
@@ -18,7 +19,7 @@ using namespace dynamics;
 namespace {
 
 constexpr int format = 1;  // changes where older readers would misread
-constexpr int past = 26;   // changes with what the solver carries from step to step
+constexpr int past = 27;   // changes with what the solver carries from step to step
 
 void three(Archive& a, const char* key, double (&values)[3]) { a(key, values[0], values[1], values[2]); }
 
@@ -106,18 +107,14 @@ class Structure::Impl::Save {
   // Components whose bodies have changed since their last step will be formed anew before the next: they are
   // written as what they leave to their joints.
   void leave_unfit() {
-    for (const auto& c : s_.island->components) {
-      if (c->fits_bodies()) continue;
-      Component& left = *unfit_.emplace(c.get(), std::make_unique<Component>(*c)).first->second;
-      left.solver.find_gaps();
-    }
+    for (const auto& c : s_.island->components)
+      if (!c->fits_bodies()) unfit_.insert(c.get());
   }
 
   std::uint32_t settings() {
     JointEnergy gone = s_.gone;
     for (const auto& c : s_.island->components)
-      if (const auto left = unfit_.find(c.get()); left != unfit_.end())
-        add(gone, left->second->solver.energies());
+      if (unfit_.contains(c.get())) add(gone, c->solver.energies());
     std::uint32_t next_id = s_.island->next_id;
     a_.object("structure", [&](Archive& a) {
       bool iterative = s_.def.solver == SolverKind::iterative;
@@ -167,12 +164,12 @@ class Structure::Impl::Save {
     if (m == nullptr) m = &make(a, def, axis);
     a("id", m->id);
     a("told", m->said.used, m->said.energy);
-    const auto unfit = unfit_.find(m->component);
-    bool alone = m->component == nullptr || unfit != unfit_.end();
+    const bool unfit = unfit_.contains(m->component);
+    bool alone = m->component == nullptr || unfit;
     a("alone", alone);  // in no component
     if (!alone || !knows_past_) return;
     Member left = *m;
-    if (unfit != unfit_.end()) unfit->second->hand_back(left);
+    if (unfit) m->component->hand_back(left);
     tape(a, "past", [&](Tape& t) {
       t(left.own);
       if (t.reads()) dynamics::restore(left.own.joint, left.own.record);
@@ -307,7 +304,7 @@ class Structure::Impl::Save {
   Archive& a_;
   WorldArchive world_;
   std::unordered_map<const b2Joint*, Member*> member_of_;
-  std::unordered_map<const Component*, std::unique_ptr<Component>> unfit_;  // copies
+  std::unordered_set<const Component*> unfit_;
   bool knows_past_ = true;
 };
 

@@ -191,7 +191,6 @@ void Solver::advance() {
   left_out_ =
       struck_ ? dynamics::left_out(*this, before_blow_, closing_, newton_.scratch().first(free)) : LeftOut{};
   if (keeps_ledger) ledger_.open(*this, before, step());
-  gaps_known = false;
   predicted_ = !motion_.swept;
   const double h = step();
   laws_.move();
@@ -205,7 +204,7 @@ void Solver::advance() {
   if (predicted_) prediction_.fit();
   for (Joint& j : own_joints()) {
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
-    const Rows gap = dynamics::locate(j, places);
+    const Rows& gap = record(j).gap = dynamics::locate(j, places);
     if (keeps_ledger || j.regime != 0 || j.has_free_row() || j.special) book(j, gap);
     carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
     if (j.special) correct_rates(j, record(j), gap, h);

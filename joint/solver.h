@@ -58,7 +58,6 @@ class Solver : public System {
   /// In the paper's way.
   bool swept() const { return motion_.swept; }
   void locate() { locate_all(*this); }
-  void find_gaps() { dynamics::find_gaps(*this); }
 
   void begin(double h);
   /// The next steps are parts of one; unite() ends that. After begin() and the solve of a struck step, these

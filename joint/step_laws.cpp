@@ -356,7 +356,6 @@ bool StepLaws::begin(System& system, double h) {
   if (!changed && !drifts && !turn_drifts_ && !slowed) {
     last_turn_ = 1;
     if (std::exchange(system.biases_known, false)) return false;
-    find_gaps(system);
     for (Joint& j : system.own_joints()) {
       forget_infinite(j);
       set_equal_bias(j, system.record(j).gap);
@@ -364,7 +363,6 @@ bool StepLaws::begin(System& system, double h) {
     return false;
   }
   const bool may_switch = last_h > 0 && changed && least_delta != 1 && !divided_ && !(drifts && h < moved_by);
-  find_gaps(system);
   turn_drifts_ = false;
   const double growth = changed ? most_growth(system, last_h) : 1;
   for (Joint& j : system.own_joints()) {

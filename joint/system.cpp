@@ -121,7 +121,7 @@ void System::keep(Tape& tape) {
   for (const TurnInertia& t : turn_inertias) {
     if (t.a == t.b) return tape.refuse();
   }
-  tape(turn_inertias, gaps_known, biases_known);
+  tape(turn_inertias, biases_known);
   if (tape.reads()) list_special(*this);
 }
 

@@ -137,7 +137,7 @@ inline constexpr bool all_doubles<TurnGuard> = true;
 
 /// The rest of a joint, at the same index.
 struct JointRecord {
-  Rows gap{};  // u, v, θ: after find_gaps()
+  Rows gap{};  // u, v, θ: of the present poses
   Rows x{};    // J v + b of the last evaluation: of what flows, and of all after find_x()
   RowLaw law;
   Coupling tangent;       // ds/dx that is in H
@@ -208,7 +208,6 @@ struct System {
   Vector<std::pair<int, int>> pairs;  // bodies that these may join: part of the pattern of H
   std::size_t free = 0;               // bodies
   double mass = 0;                    // of all free bodies, kg
-  bool gaps_known = false;            // no pose was moved since they were found
   bool biases_known = false;          // the joints' are those of an equal step from the present poses
 
   const JointRecord& record(const Joint& joint) const { return records[index(joint)]; }

@@ -42,10 +42,7 @@ struct Line {
     before.assign(solver.joints.size(), 0);
     last_u.assign(solver.joints.size(), 0);
   }
-  double strain(const Joint& j) {
-    solver.find_gaps();
-    return solver.record(j).gap[axial] - j.neutral[axial];
-  }
+  double strain(const Joint& j) const { return solver.record(j).gap[axial] - j.neutral[axial]; }
   // Velocities are those of the middle of a step, and so are strains: with e before and e + u after it,
   // the law keeps k (½ (e + u/2)² + γm² + ½ εu²), where m is the mean of u and what it was in the step
   // before.
