@@ -175,8 +175,8 @@ struct Component {
   /// Whether nothing else can change its bodies' velocities in this step.
   bool whole() const { return coupling_ == Coupling::none || coupling_ == Coupling::whole; }
   bool rests() const { return rest_ == Rest::kept; }
-  /// Whether this step was solved in parts, and poses have moved.
-  bool advanced() const { return parts_.advanced; }
+  /// Whether it was solved in parts since leave_step(), and poses have moved.
+  bool advanced() const { return stepped_ && parts_.advanced; }
   /// Whether it was solved since leave_step(): else its mirrors are of an earlier step.
   bool stepped() const { return stepped_; }
   void leave_step() { stepped_ = false; }

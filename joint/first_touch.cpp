@@ -413,7 +413,6 @@ void Island::meet_guests(b2World& in) {
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
   forget_blows(in);
   end_stale();
-  for (const auto& c : components) c->leave_step();
   const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body, bool advanced) {
     const bool guest = !is_joined(body);
     const bool alone =
@@ -447,6 +446,7 @@ void Island::meet_guests(b2World& in) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
       look(*piece.body, contact, body, c->advanced());
     });
+    c->leave_step();
   }
   each_lone_piece([&](b2Body& piece) {
     each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body, false); });

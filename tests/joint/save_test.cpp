@@ -217,6 +217,37 @@ TEST(Save, OfPiecesWhoseJointsAreInNoStep) {
   }
 }
 
+// A beam fell asleep as its last step was solved in parts. What slides down a ramp and comes upon it long
+// after is no guest of that step.
+TEST(Save, OfWhatSleepsAfterABlow) {
+  Scene s({0, 0});
+  s.add_row(eventful::add_wall(s), 0, 0, 1, 0, 4, 3e5);
+  b2Body* striker = add_box(s.world, {.x = 3, .y = 1.5, .group = 0});
+  striker->SetLinearVelocity({0, -30});
+  for (int i = 0; i < 10 && s.structure.report().divided == 0; ++i) s.run(1);
+  ASSERT_GT(s.structure.report().divided, 0);
+  s.world.DestroyBody(striker);
+  for (ElasticPlasticJoint* j : s.structure.joints()) j->GetBodyB()->SetAwake(false);
+
+  const double slope = -0.8;
+  const auto on_ramp = [&](double along, double above) {
+    return Box{.x = 1.5 + along * std::cos(slope) - above * std::sin(slope),
+               .y = 1 + along * std::sin(slope) + above * std::cos(slope),
+               .width = 2,
+               .height = 0.5,
+               .angle = slope,
+               .group = 0,
+               .friction = 0};
+  };
+  Box ramp = on_ramp(-4, -0.25);
+  ramp.width = 8, ramp.type = b2_staticBody;
+  add_box(s.world, ramp);
+  b2Body* slides = add_box(s.world, on_ramp(-3, 0.25));
+  slides->SetLinearVelocity(vec(30 * std::cos(slope), 30 * std::sin(slope)));
+  expect_same_future(s, 20);
+  EXPECT_TRUE(s.structure.joints()[1]->GetBodyB()->IsAwake());
+}
+
 // Its bodies are no contact yet, and become one in the next step.
 TEST(Save, OfWhatHasJustBroken) {
   Scene s;
