@@ -27,6 +27,16 @@ DUCTILE_REVEAL(b2WheelJoint, m_indexA, int32);
 DUCTILE_REVEAL(b2WeldJoint, m_indexA, int32);
 DUCTILE_REVEAL(b2FrictionJoint, m_indexA, int32);
 DUCTILE_REVEAL(b2MotorJoint, m_indexA, int32);
+// What of it is not set, or not all of it (clear_unset()).
+DUCTILE_REVEAL(b2RevoluteJoint, m_enableMotor, bool);
+DUCTILE_REVEAL(b2RevoluteJoint, m_enableLimit, bool);
+DUCTILE_REVEAL(b2PrismaticJoint, m_enableLimit, bool);
+DUCTILE_REVEAL(b2PrismaticJoint, m_enableMotor, bool);
+DUCTILE_REVEAL(b2WheelJoint, m_translation, float);
+DUCTILE_REVEAL(b2WheelJoint, m_enableLimit, bool);
+DUCTILE_REVEAL(b2WheelJoint, m_enableMotor, bool);
+DUCTILE_REVEAL(b2WeldJoint, m_bias, float);
+DUCTILE_REVEAL(b2WeldJoint, m_gamma, float);
 
 }  // namespace ductile::dynamics
 
@@ -65,6 +75,43 @@ std::span<std::byte> words_of(b2Joint& joint) {
       return up_to(of(static_cast<b2MotorJoint&>(joint), b2MotorJoint_m_indexA{}));
     default:
       return {};
+  }
+}
+
+// Some bytes of these words are what memory held, and would make saves of the same world differ: those behind
+// flags, and what a joint makes anew in each step, before its first.
+void clear_unset(b2Joint& joint, std::span<std::uint32_t> words) {
+  const auto* begin = words_of(joint).data();
+  const auto place_of = [begin](const auto& member) {
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&member) - begin);
+  };
+  const auto clear = [&](const auto& member) { words[place_of(member) / sizeof(std::uint32_t)] = 0; };
+  const auto clear_behind = [&](const auto&... flags) {
+    (clear(flags), ...);
+    std::byte* const bytes = std::as_writable_bytes(words).data();
+    ((bytes[place_of(flags)] = std::byte{flags}), ...);
+  };
+  switch (joint.GetType()) {
+    case e_revoluteJoint: {
+      auto& j = static_cast<b2RevoluteJoint&>(joint);
+      clear_behind(of(j, b2RevoluteJoint_m_enableMotor{}));
+      return clear_behind(of(j, b2RevoluteJoint_m_enableLimit{}));
+    }
+    case e_prismaticJoint: {
+      auto& j = static_cast<b2PrismaticJoint&>(joint);
+      return clear_behind(of(j, b2PrismaticJoint_m_enableLimit{}), of(j, b2PrismaticJoint_m_enableMotor{}));
+    }
+    case e_wheelJoint: {
+      auto& j = static_cast<b2WheelJoint&>(joint);
+      clear(of(j, b2WheelJoint_m_translation{}));
+      return clear_behind(of(j, b2WheelJoint_m_enableLimit{}), of(j, b2WheelJoint_m_enableMotor{}));
+    }
+    case e_weldJoint: {
+      auto& j = static_cast<b2WeldJoint&>(joint);
+      return clear(of(j, b2WeldJoint_m_bias{})), clear(of(j, b2WeldJoint_m_gamma{}));
+    }
+    default:
+      return;
   }
 }
 
@@ -148,7 +195,10 @@ void WorldArchive::stock_joint(Archive& a, b2Joint* joint) {
   user_data(a, joint->GetUserData());
   const std::span<std::byte> bytes = words_of(*joint);
   std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
-  if (!a.reads()) std::memcpy(words.data(), bytes.data(), bytes.size());
+  if (!a.reads()) {
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    clear_unset(*joint, words);
+  }
   a("words", words);
   if (words.size() * sizeof(std::uint32_t) != bytes.size())
     a.refuse("words", "must be " + std::to_string(bytes.size() / sizeof(std::uint32_t)) + " numbers");
