@@ -222,6 +222,8 @@ struct Component {
   bool is_held() const;
   /// Between steps one of its pieces was moved with all that hangs on it (first_touch.cpp).
   void shift(const b2Body& piece, const b2Vec2& way);
+  /// After all of these: J of where they are, as a save finds it anew, with gaps and strains as they were.
+  void end_shift();
   /// Whether the last step was solved in parts, and others are to follow.
   bool in_parts() const { return parts_.count > 1 && parts_.goes_on; }
   /// By how much a contact closes at its fastest point, of the velocities at the step's start, m/s.

@@ -13,12 +13,14 @@
 #include <functional>
 #include <memory>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "box2d_private.h"
 #include "bullets.h"
 #include "frames.h"
 #include "guests.h"
+#include "kinematics.h"
 #include "nearest.h"
 
 namespace ductile::dynamics {
@@ -222,6 +224,11 @@ void Group::move(const b2Vec2& way, const b2Vec2& gravity) const {
     b->SetTransform(b->GetPosition() + way, of(*b, b2Body_m_sweep{}).a);
     if (Component* c = Member::component_of(*b)) c->shift(*b, way);
   }
+  Component* last = nullptr;
+  for (const b2Body* b : bodies) {
+    Component* const c = Member::component_of(*b);
+    if (c != std::exchange(last, c) && c != nullptr) c->end_shift();
+  }
   pay(-weight * b2Dot(gravity, way));
 }
 
@@ -346,6 +353,10 @@ void Component::shift(const b2Body& body, const b2Vec2& way) {
   solver.places[i].pose.x += way.x;
   solver.places[i].pose.y += way.y;
   rest_ = Rest::none;
+}
+
+void Component::end_shift() {
+  for (Joint& j : solver.own_joints()) locate(j, solver.places);
 }
 
 // Box2D starts a step from the impulses of the last one. Those of a blow were found together; where a
