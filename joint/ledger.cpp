@@ -1,6 +1,6 @@
 #include "ledger.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "blow.h"
 #include "drive.h"
@@ -72,22 +72,19 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
   for (unsigned i = 0; i < 3; ++i) {
     const double held = r.stored[i];
     r.stored[i] = 0;
+    const double last = std::exchange(r.strain[i], 0), before = std::exchange(r.strain_before[i], last);
     if (!(j.G[i] > 0) || is_slack(j, r, i)) {
       energies.numerical += held;
       continue;
     }
     const double k = r.law.spring[i], delta = r.law.delta[i];
     const double e = strain_of_bias(j, i);
-    const double u = moved_[index][i] - slip[i], p = delta < 1 ? h * j.rate[i] : u;
-    const double third = r.law.third[i], m = (u + p) / 2;
-    // Implicit rows store what their force stands for, and beside heavy dampers rows store no more: the gap
-    // holds constraint drift, too.
-    const double half = e + u / 2, by_force = force_after(j, r, i) / k;
-    const double after = is_implicit(r, i) ? by_force : within(e + u, by_force);
+    const double u = moved_[index][i] - slip[i], p = h * j.rate[i], third = r.law.third[i];
+    const double strain = delta < 1 ? e + u / 2 : last + (force_after(j, r, i) / k - last) / delta;
+    r.strain[i] = strain;
+    const double m = delta < 1 ? (u + p) / 2 : delta > 1 ? strain - last : (strain - before) / 2;
     const double unturned = third > 0 ? u - (j.moved[i] - p) / 2 : u;
-    r.stored[i] = k / 2 *
-                  (delta < 1 ? half * half + r.law.detuning[i] * unturned * unturned + 2 * third * m * m
-                             : after * after);
+    r.stored[i] = k / 2 * (strain * strain + r.law.detuning[i] * unturned * unturned + 2 * third * m * m);
     const double given = is_driven(r, i) ? -j.impulse[i] / h * slip[i] : 0;
     energies.driven += given;
     const double lost = taken_[index][i] + given - (r.stored[i] - held) - work[i];
@@ -95,15 +92,7 @@ void Ledger::account(const Joint& j, std::size_t index, JointRecord& r, const Ro
         third > 0 && delta > 0  // r
             ? 5 * m / 6 + (j.trend[i] + 2 * third * j.mean[i] + r.law.detuning[i] * j.moved[i]) / delta
             : m;
-    double damping = r.law.damping[i] / h * m * damped;
-    // Of implicit rows u holds what turning bodies part by, too, which no damper answers to: heavy ones know
-    // how much that is.
-    if (delta > 1 && r.law.damping[i] > 0) {
-      const double rate = u / h + j.rate[i];
-      damping = r.law.damping[i] * h * rate * rate;
-    } else if (delta >= 1) {
-      damping = std::min(damping, std::max(lost, 0.0));
-    }
+    const double damping = r.law.damping[i] / h * m * damped;
     energies.damping += damping;
     energies.numerical += lost - damping;
   }

@@ -6,6 +6,11 @@
 // stored half a step on, and what δ damps, stands in row.h. The slider takes R times its slip. What is left
 // is numerical, row by row: δ beyond the damper's, γ, implicit Euler of rigid rows and heavy dampers, the
 // turning of J.
+//
+// The gap of an implicit row holds what turning bodies part by, too, a thousand times what it is strained by.
+// Its force alone tells its strain x, whatever turns: R = k (x + (δ − 1)(x − x₋)). With x − x₋ in the place
+// of u, and δ = 1, a damper of c = kh takes all that a released spring held, at any step, with (u + p)/2;
+// with u it would take twice as much where the step does not resolve the vibration.
 #pragma once
 
 #include <span>

@@ -185,6 +185,8 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& pa
     const auto strain_by = [&](double by) {
       j.neutral[i] += strain[i] * (1 - by);
       strain[i] *= by;
+      r.strain[i] *= by;
+      r.strain_before[i] *= by;
     };
     const double ahead = h_ / 2 * j.rate[i] - longer * parted[i] / 2;
     j.rate[i] /= longer;

@@ -150,13 +150,14 @@ struct JointRecord {
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
   Rows dissipated{};  // J
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
+  Rows strain{}, strain_before{};  // m or rad: that this is the energy of, and that of a step before
   Material material;
   Rows m_eff{};     // effective masses of the rows at rest, kg or kg m²
   double held = 1;  // share of this step's flow after which the joint breaks
 
   void keep(Tape& tape) {
     tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, halts, plastic, dissipated,
-         stored, drive_rate);
+         stored, strain, strain_before, drive_rate);
   }
 };
 

@@ -218,6 +218,68 @@ TEST(Ledger, DampersTakeTheEnergyOfAVibration) {
   }
 }
 
+// A bar that swings on a pin from level pulls by N = 5/2 m g sin α at the angle α, and turns by α'² = 3 g sin
+// α/l: its axial damper takes τ/k ∫ N'² dt, however far it turns in a step.
+TEST(Ledger, DampersOfASwingTakeWhatItsPullStrainsThemBy) {
+  const double gravity = 10, tau = 0.003, pull = 2.5 * 150 * gravity;
+  for (const double k : {2.1e7, 2.1e9}) {
+    for (const double hz : {30., 60., 240.}) {
+      b2World world({0, static_cast<float>(-gravity)});
+      world.SetAllowSleeping(false);
+      Structure structure(world, {.keep_ledger = true});
+      b2Body* bar = add_box(world, {.x = 1, .width = 2, .height = 0.01f, .mass = 150});
+      ElasticPlasticJointDef def;
+      def.Initialize(add_box(world, {.x = -0.5, .type = b2_staticBody}), bar, {0, 0}, {1, 0});
+      def.axisFollow = 1;
+      def.rows[axial] = {.stiffness = k};
+      def.rows[axial].damping = tau * k;
+      def.rows[rotation] = RowDef::free();
+      structure.create_joint(def);
+      double taken = 0;
+      for (int i = 0; i < 10 * hz; ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+        const double speed = bar->GetAngularVelocity(), rate = pull * std::cos(bar->GetAngle()) * speed / k;
+        taken += tau * k * rate * rate / hz;
+      }
+      EXPECT_NEAR(structure.energy().damping, taken, 0.3 * taken + 1e-3) << k << ", " << hz;
+    }
+  }
+}
+
+// Implicit Euler damps a vibration as a damper k h would. Of that a damper c takes c/kh, and the rest is
+// numerical; all of it at steps that resolve the speck between the spring and the mass.
+TEST(Ledger, DampersOfImplicitRowsTakeTheirShare) {
+  const double mass = 1000, omega = 6, k = mass * omega * omega, time = 10;
+  for (const double hz : {60., 4000.}) {
+    for (const double c : {0.25 * k / 60, k / 60, 2 * k / 60}) {
+      b2World world({0, 0});
+      world.SetAllowSleeping(false);
+      Structure structure(world, {.keep_ledger = true});
+      b2Body* wall = add_box(world, {.x = -0.5, .type = b2_staticBody});
+      b2Body* speck = add_box(world, {.x = 0.5, .mass = 5e-5f});
+      b2Body* block = add_box(world, {.x = 1.5, .mass = static_cast<float>(mass)});
+      ElasticPlasticJointDef def;
+      def.Initialize(speck, block, {1, 0}, {1, 0});
+      structure.create_joint(def);
+      def.Initialize(wall, speck, {0, 0}, {1, 0});
+      def.rows[axial] = {.stiffness = k};
+      def.rows[axial].damping = c;
+      structure.create_joint(def);
+      for (b2Body* b : {speck, block}) b->SetLinearVelocity({0.1f, 0});
+      for (int i = 0; i < time * hz; ++i) {
+        world.Step(static_cast<float>(1 / hz), 8, 3);
+        structure.update();
+      }
+      const double of_step = hz == 60 ? k / hz : c, start = mass * 0.01 / 2;
+      const double lost = start * (1 - std::exp(-of_step * time / mass));
+      EXPECT_NEAR(structure.energy().damping, std::min(c, of_step) / of_step * lost, 0.02 * start)
+          << c << ", " << hz;
+      EXPECT_GE(structure.energy().numerical, -0.002 * start) << c << ", " << hz;
+    }
+  }
+}
+
 // Nor may parallel joints that wait for what a long step parted strain each other: all by the same share.
 TEST(Ledger, ParallelJointsInShorterStepsOfASpin) {
   Beam beam({.pieces = 2, .length = 40, .gravity = 0});
