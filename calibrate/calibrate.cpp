@@ -878,10 +878,10 @@ class Planner {
     joint.M = joint.M_reverse = held(def.fix_angle, def.stiffness_angle);
     joint.stiffness = {stiff(def.fix_x, def.stiffness_x), stiff(def.fix_y, def.stiffness_y),
                        stiff(def.fix_angle, def.stiffness_angle)};
-    if (const double gives = end_gives(piece, def.at); joint.M > 0 && gives > 0) {  // in line with a spring
+    if (const double gives = end_gives(piece, def.at); joint.M > 0 && gives > 0)  // in line with a spring
       joint.stiffness.M = 1 / (gives + 1 / joint.stiffness.M);
-      if (def.fix_angle) joint.damping_ratio = strips_[plan_.pieces[piece].body].damping_ratio();
-    }
+    if (joint.stiffness.N < unlimited || joint.stiffness.Q < unlimited || joint.stiffness.M < unlimited)
+      joint.damping_ratio = support_damping(plan_.pieces[piece].body);
     joint.displacement = def.displacement;
     joint.ramp = def.ramp;
     joint.governed_by = caps_.reason("support");
@@ -896,6 +896,12 @@ class Planner {
       if (joint.M < unlimited)
         joint.governed_by = caps_.reason("support; M, M_reverse, max_rotation: as joint " + next->name);
     }
+  }
+
+  // Of a support's springs: as of the joints of the body on them.
+  double support_damping(int body) const {
+    const std::optional<double>& own = plan_.bodies[body].joint.damping_ratio;
+    return own.value_or(scene_.joint.damping_ratio.value_or(strips_[body].damping_ratio()));
   }
 
   // The joint inside a body that ends with this piece at a point: none where it goes on beyond, or is one

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "ductile/box2d.h"
 #include "ductile/calibrate.h"
 
 namespace ductile {
@@ -67,6 +68,27 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_" + std::to_string(std::get<1>(info.param));
     });
+
+// A bar on a spring under each end bounces as ω² = 2k/m, and turns faster. Supports that are fixed have no
+// damper.
+TEST(Fundamental, SpringsOfSupportsAreDampedByIt) {
+  SceneDef scene = beam_scene(Hold::floating, 1);
+  const double mass = 7850 * length * height * depth, k = 2e4;
+  for (const double x : {0.0, length})
+    scene.supports.push_back({.body = "beam", .at = {x, 0}, .fix_x = x == 0, .stiffness_y = k});
+  scene.supports.push_back({.body = "beam", .at = {0, 0}, .fix_x = true});
+  const Plan plan = calibrate(scene);
+  const double omega = std::sqrt(2 * k / mass);
+  for (const int i : {0, 1}) {
+    const PlannedJoint& support = plan.joints[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(support.damping_frequency / (omega / (2 * std::numbers::pi)), 1, 1e-4);
+    EXPECT_NEAR(elastic_plastic_def(plan, support).rows[shear].damping / (2 * 0.02 * k / omega), 1, 1e-4);
+    EXPECT_EQ(elastic_plastic_def(plan, support).rows[axial].damping, 0);
+  }
+  EXPECT_EQ(plan.joints[2].damping_ratio, 0);
+  scene.joint.damping_ratio = 0.1;
+  EXPECT_EQ(calibrate(scene).joints[0].damping_ratio, 0.1);
+}
 
 TEST(Fundamental, IsNoneWhereNothingIsElastic) {
   SceneDef scene = beam_scene(Hold::cantilever, 10);

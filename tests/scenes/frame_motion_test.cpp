@@ -57,19 +57,42 @@ double first_peak(double ratio, double rate) {
 }
 
 // Of swings from one turning point to the next: rest cancels.
+double damping_of(const std::vector<double>& x) {
+  std::vector<double> turns;
+  for (std::size_t i = 2; i < x.size(); ++i) {
+    const double a = x[i - 2], b = x[i - 1], c = x[i];
+    if ((b - a) * (c - b) < 0) turns.push_back(b + (c - a) * (c - a) / (8 * (2 * b - a - c)));
+  }
+  EXPECT_GE(turns.size(), 14u);
+  if (turns.size() < 14) return 0;
+  const auto swing = [&](std::size_t i) { return std::abs(turns[i + 1] - turns[i]); };
+  const double decrement = std::log(swing(1) / swing(11)) / 5;
+  return decrement / std::hypot(2 * std::numbers::pi, decrement);
+}
+
 TEST(Frame, IsDampedAsAsked) {
   for (const double ratio : {0.0, 0.02, 0.05}) {
-    std::vector<double> turns;
-    const std::vector<double> x = sway(ratio, 60, 15);
-    for (std::size_t i = 2; i < x.size(); ++i) {
-      const double a = x[i - 2], b = x[i - 1], c = x[i];
-      if ((b - a) * (c - b) < 0) turns.push_back(b + (c - a) * (c - a) / (8 * (2 * b - a - c)));
-    }
-    ASSERT_GE(turns.size(), 14u);
-    const auto swing = [&](std::size_t i) { return std::abs(turns[i + 1] - turns[i]); };
-    const double decrement = std::log(swing(1) / swing(11)) / 5;
-    EXPECT_NEAR(decrement / std::hypot(2 * std::numbers::pi, decrement), ratio, std::max(0.002, 0.1 * ratio));
+    EXPECT_NEAR(damping_of(sway(ratio, 60, 15)), ratio, std::max(0.002, 0.1 * ratio));
     EXPECT_NEAR(first_peak(ratio, 60) / first_peak(ratio, 4000), 1, 0.04) << ratio;
+  }
+}
+
+// A deck on springs that are softer than it, and stiffer.
+TEST(Deck, OnSpringsIsDampedAsAsked) {
+  for (const char* k : {"2e4", "2e6"}) {
+    const std::string spring = std::string(R"("stiffness": {"x": 1e6, "y": )") + k + "}}";
+    Simulation run(calibrate(parse_scene(
+                       R"({"bodies": [{"name": "deck", "outline": [[0, -0.1], [8, -0.1], [8, 0.1], [0, 0.1]],
+          "depth": 0.1, "material": "S355", "split": {"pieces": 10}}],
+        "supports": [{"body": "deck", "at": [0.1, 0], )" +
+                       spring + R"(, {"body": "deck", "at": [7.9, 0], )" + spring + "]}")),
+                   JointSolver::direct, {.dt = 1.0 / 60});
+    std::vector<double> y;
+    while (run.time() < 12) {
+      run.step();
+      y.push_back(run.piece(4).position.y);
+    }
+    EXPECT_NEAR(damping_of(y), 0.05, 0.005) << k;
   }
 }
 
