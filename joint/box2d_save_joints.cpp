@@ -94,8 +94,7 @@ void clear_unset(b2Joint& joint, std::span<std::uint32_t> words) {
   switch (joint.GetType()) {
     case e_revoluteJoint: {
       auto& j = static_cast<b2RevoluteJoint&>(joint);
-      clear_behind(of(j, b2RevoluteJoint_m_enableMotor{}));
-      return clear_behind(of(j, b2RevoluteJoint_m_enableLimit{}));
+      return clear_behind(of(j, b2RevoluteJoint_m_enableMotor{}), of(j, b2RevoluteJoint_m_enableLimit{}));
     }
     case e_prismaticJoint: {
       auto& j = static_cast<b2PrismaticJoint&>(joint);

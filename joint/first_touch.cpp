@@ -37,6 +37,13 @@ b2Sweep seen_from(b2Body& piece, b2Sweep moving) {
   return moving;
 }
 
+/// All of the last step's motion of a body, wherever Box2D has let it begin.
+b2Sweep motion_of(const b2Body& body) {
+  b2Sweep motion = of(body, b2Body_m_sweep{});
+  motion.alpha0 = 0;
+  return motion;
+}
+
 /// Whether a motion is more than rounding.
 bool moves(const b2Sweep& s) {
   return (s.c - s.c0).LengthSquared() >= b2_linearSlop * b2_linearSlop ||
@@ -56,10 +63,9 @@ Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2
   b2TOIInput input;
   input.proxyA = proxy(*contact.GetFixtureA(), contact.GetChildIndexA());
   input.proxyB = proxy(*contact.GetFixtureB(), contact.GetChildIndexB());
-  b2Sweep still = of(piece, b2Body_m_sweep{});
+  b2Sweep still = motion_of(piece);
   still.c0 = still.c;
   still.a0 = still.a;
-  still.alpha0 = 0;
   input.sweepA = body_is_a ? moving : still;
   input.sweepB = body_is_a ? still : moving;
   input.tMax = 1;
@@ -85,10 +91,9 @@ Way way_to(const b2Contact& contact, b2Body& piece, const b2Body& body, const b2
 /// no more than so many metres.
 b2Vec2 way_out(const b2Contact& contact, b2Body& piece, const b2Body& body, float most,
                const b2Vec2& direction) {
-  b2Sweep in = of(body, b2Body_m_sweep{});
+  b2Sweep in = motion_of(body);
   in.c0 = in.c + most * direction;
   in.a0 = in.a;
-  in.alpha0 = 0;
   return (1 - way_to(contact, piece, body, in).share) * most * direction;
 }
 
@@ -322,8 +327,7 @@ bool put_group_back(const b2World& world, Groups& groups, b2Body& guest, const b
 bool put_held_back(const b2World& world, Groups& groups, b2Body& guest, b2Body& piece,
                    const b2Contact& contact, const b2Sweep& seen, const Way& met) {
   if (!group_of(guest, groups).is_held) return false;
-  b2Sweep own = of(guest, b2Body_m_sweep{});
-  own.alpha0 = 0;
+  const b2Sweep own = motion_of(guest);
   const Way way = way_to(contact, piece, guest, own);
   if (!(way.share < 1)) return move_apart(world, groups, guest, piece, contact, seen, met.normal);
   put_back(guest, own, way.share, world.GetGravity());
@@ -435,8 +439,7 @@ void Island::meet_guests(b2World& in) {
     // Where both went the same way, the piece is now on the body's way, and they never met; where they
     // met, they did so in the motion that the piece saw. What overtook a guest takes it along where there
     // is room.
-    b2Sweep own = s;
-    own.alpha0 = 0;
+    const b2Sweep own = motion_of(body);
     const b2Sweep seen = seen_from(piece, own);
     if (!moves(seen)) return;
     if (body.IsBullet()) piece.SetAwake(true);

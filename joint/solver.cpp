@@ -107,7 +107,7 @@ void Solver::strike(double closing) {
 void Solver::weaken(std::size_t joint, double share) {
   dynamics::weaken(joints[joint], records[joint], share);
   weakened_ = true;
-  go_on();  // friction was settled in the solve before
+  go_on();
   newton_.forget();
 }
 

@@ -10,7 +10,7 @@
 //   touch(links,     begin                              their rows
 //     contacts)
 //   strike(v)        begin                              velocities jumped at the start of this step
-//   go_on()          begin                              what presses has just been found, in another part
+//   go_on()          begin, solve                       what presses has just been found
 //   push(i, Δv*)     solve, in the same step            another velocity changed
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
 //                    push or weaken
@@ -67,8 +67,9 @@ class Solver : public System {
   /// The bodies' velocities jumped at the start of this step (blow.h); `closing` is the speed of the fastest
   /// contact that closes, m/s. After begin(), before the first solve.
   void strike(double closing);
-  /// This step is a part of one, and follows another: friction is settled by one round, as it was just
-  /// before. Caps of the part before alone would let what rubs do too little work.
+  /// The next solve is much like the one before it, that of the part of a step before or that in which a
+  /// joint did not break yet: friction is settled by one round. The caps of that solve alone would let what
+  /// rubs do too little work.
   void go_on() { friction_rounds_ = 1; }
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it. Solves
   /// until the next begin() do not settle the contacts' friction anew.
