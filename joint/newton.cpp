@@ -34,6 +34,7 @@ void Newton::form(const System& system) {
   interior_point.form(system);
   pushed_.assign(system.free, 0);
   regimes_.reserve(system.joints.capacity());  // contacts will come
+  flows_.reserve(system.joints.size());
   kinks_.reserve(system.joints.capacity());
   forget();
 }
@@ -182,10 +183,51 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
     }
     return at;
   };
-  const double t = line_search(slope, secant, slope1 > 0, 1e-9 * std::abs(slope0));
+  const double t = line_search(slope, secant, slope1 > 0, 1e-6 * std::abs(slope0));
   short_step = t < 0.1;
   move_to(t);
   return true;
+}
+
+// Joints go back to the regimes of the last solution, and those on yield surfaces to where they were on them.
+void Newton::take_regimes(System& system) {
+  for (std::size_t k = 0; k < regimes_.size(); ++k) system.joints[k].regime = regimes_[k];
+  for (Flow& flow : flows_) {
+    JointRecord& r = system.records[flow.joint];
+    const auto [s, regime] = respond(r.law, r.x = flow.x);
+    flow.s = s;
+    system.joints[flow.joint].regime = static_cast<std::uint8_t>(regime);
+  }
+}
+
+// z_ ← the gradient at v of what f would be if each row stayed in its regime, and s on a yield surface went
+// on as it did there, along its tangent.
+void Newton::gradient_in_regimes(System& system) {
+  const auto x_of = [&system](const Joint& j) {
+    return biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
+  };
+  for (std::size_t i = 0; i < system.free; ++i) {
+    const Body& b = system.bodies[i];
+    z_[i] = momentum(b, b.v - b.v_free);
+  }
+  for (const Joint& j : system.joints) {
+    if (j.regime == on_surface) continue;
+    const RowLaw& law = system.record(j).law;
+    Rows s = x_of(j);
+    for (unsigned i = 0; i < 3; ++i) s[i] = impulse_in(law, j.regime, i, s[i]);
+    add_transposed(j, s, z_[z(j.a)], z_[z(j.b)]);
+  }
+  for (const Flow& flow : flows_) {
+    const Joint& j = system.joints[flow.joint];
+    if (j.regime != on_surface) continue;
+    Rows x = x_of(j);
+    for (unsigned i = 0; i < 3; ++i) x[i] -= flow.x[i];
+    const Rows change = system.record(j).tangent * x;
+    add_transposed(j, flow.s, z_[z(j.a)], z_[z(j.b)]);
+    add_transposed(j, change, z_[z(j.a)], z_[z(j.b)]);
+  }
+  add_turn_impulses(system, z_);
+  std::fill(z_.begin() + static_cast<std::ptrdiff_t>(system.free), z_.end(), Vec3{});
 }
 
 // From the minimum of what f would be if each row stayed in the regime of the last solution, or of where that
@@ -194,22 +236,11 @@ bool Newton::search(System& system, const Evaluation& at_one, double slope0, dou
 // Whether v is another now.
 bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at, SolveReport& report) {
   const double f = objective(system, at);
-  for (std::size_t k = 0; k < regimes_.size(); ++k) std::swap(system.joints[k].regime, regimes_[k]);
-  hessian.factor_tangents(system, false);
-  ++report.factorisations;
-  for (std::size_t i = 0; i < system.free; ++i) {
-    const Body& b = system.bodies[i];
-    d_[i] = b.v;
-    z_[i] = momentum(b, b.v - b.v_free);
-  }
-  for (const Joint& j : system.joints) {
-    const RowLaw& law = system.record(j).law;
-    Rows s = biased_velocity(j, system.bodies[z(j.a)].v, system.bodies[z(j.b)].v);
-    for (unsigned i = 0; i < 3; ++i) s[i] = impulse_in(law, j.regime, i, s[i]);
-    add_transposed(j, s, z_[z(j.a)], z_[z(j.b)]);
-  }
-  add_turn_impulses(system, z_);
-  std::fill(z_.begin() + static_cast<std::ptrdiff_t>(system.free), z_.end(), Vec3{});
+  for (std::size_t i = 0; i < system.free; ++i) d_[i] = system.bodies[i].v;
+  const auto factor = [&] {
+    hessian.factor_tangents(system, false);
+    ++report.factorisations;
+  };
   const auto go = [&](std::span<const Vec3> g) {
     for (std::size_t i = 0; i < system.free; ++i) {
       z_[i] = -1.0 * g[i];
@@ -218,18 +249,47 @@ bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at
     hessian.solve({z_.data(), system.free});
     at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v += z_[i]; });
   };
-  go(z_);
+  const auto is_solved = [&] { return at.gradient2 <= target(system, at); };
+  // What touches comes and goes, and by contacts that are thought to pull, joints go far beyond their
+  // surfaces, which tells nothing of where they flow next: contacts are found first.
+  for (std::size_t least = regimes_.size();;) {
+    take_regimes(system);
+    factor();
+    for (std::size_t i = 0; i < system.free; ++i) system.bodies[i].v = d_[i];
+    gradient_in_regimes(system);
+    go(z_);
+    std::size_t others = 0;
+    for (std::size_t k = system.first_contact(); k < regimes_.size(); ++k) {
+      const std::uint8_t now = system.joints[k].regime;
+      others += std::exchange(regimes_[k], now) != now ? 1 : 0;
+    }
+    if (flows_.empty() || others == 0 || others >= least) break;
+    least = others;
+  }
+  // On surfaces s turns as it goes along, and no count of rows tells when that ends: f does.
+  for (double lowest = objective(system, at); !flows_.empty() && !is_solved();) {
+    factor();
+    go(g_);
+    const double now = objective(system, at);
+    if (now < lowest || is_solved()) {
+      lowest = now;
+    } else {
+      at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v -= z_[i]; });
+      break;
+    }
+  }
+  if (!flows_.empty() && is_solved()) return true;
   // As in InteriorPoint::settle(): the system is solved again with what that shows of regimes, for as long as
   // there is less and less of it.
-  for (int least = std::numeric_limits<int>::max(); at.crossed && at.changed > 0 && at.changed < least;) {
+  for (int least = std::numeric_limits<int>::max();
+       flows_.empty() && at.crossed && at.changed > 0 && at.changed < least;) {
     least = at.changed / 2 + 1;
-    hessian.factor_tangents(system, false);
-    ++report.factorisations;
+    factor();
     go(g_);
   }
   // Where it is the solution, a second step mends what rounding leaves of a row that was far from it.
-  if (!at.crossed && at.gradient2 > target(system, at)) go(g_);
-  if (!at.crossed || (at.gradient2 > target(system, at) && objective(system, at) < f)) return true;
+  if (!at.crossed && !is_solved()) go(g_);
+  if (!at.crossed || (!is_solved() && objective(system, at) < f)) return true;
   at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v = d_[i]; });
   return false;
 }
@@ -272,9 +332,14 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
   bool had_regimes = last.flows && !round.pushed_only;
   if (had_regimes) {
     regimes_.resize(system.joints.size());
-    unsigned any = 0;
-    for (std::size_t k = 0; k < regimes_.size(); ++k) any |= regimes_[k] = system.joints[k].regime;
-    had_regimes = (any & on_surface) == 0;
+    flows_.clear();
+    for (std::size_t k = 0; k < regimes_.size(); ++k) {
+      regimes_[k] = system.joints[k].regime;
+      if (regimes_[k] != on_surface) continue;
+      const JointRecord& r = system.records[k];
+      had_regimes &= r.law.surface != nullptr;
+      flows_.push_back({k, r.x, {}});
+    }
   }
   Evaluation at = last;
   if (round.pushed_only) {
@@ -291,7 +356,7 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
     at = evaluate(system, g_);
   }
   bool moved = false;
-  if (at.gradient2 > target(system, at) && had_regimes && at.crossed && !at.curved)
+  if (at.gradient2 > target(system, at) && had_regimes && at.crossed)
     moved = start_from_regimes(system, hessian, at, report);
   // A later solve of a step starts from the solution of the one before, which v* is not lower than.
   if (at.gradient2 > target(system, at) && at.flows && first) start_from_lower(system, at);

@@ -87,6 +87,8 @@ class Newton {
   void preconditioned_gradient(const System& system, const Hessian& hessian, const Evaluation& at,
                                Round& round);
   bool search(System& system, const Evaluation& at_one, double slope0, double slope1, bool& short_step);
+  void take_regimes(System& system);
+  void gradient_in_regimes(System& system);
   bool start_from_regimes(System& system, Hessian& hessian, Evaluation& at, SolveReport& report);
   void start_from_lower(System& system, Evaluation& at);
   Evaluation solve_by_interior_point(System& system, Hessian& hessian, SolveReport& report);
@@ -94,6 +96,11 @@ class Newton {
   Vector<Vec3> g_;                // ∇f at the bodies' v, from a solve to the pushes after it
   Vector<Vec3> d_, z_;            // 0 for bodies whose velocities are prescribed
   Vector<std::uint8_t> regimes_;  // of the joints, in the last solution
+  struct Flow {
+    std::size_t joint;
+    Rows x, s;
+  };
+  Vector<Flow> flows_;  // of the joints that were on a yield surface in it
   struct Kink {
     std::size_t joint;
     Rows y;  // J d

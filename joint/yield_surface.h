@@ -24,6 +24,11 @@ struct Coupling {
   double nn = 0, qq = 0, mm = 0, nq = 0, nm = 0, qm = 0;
 };
 
+inline Rows operator*(const Coupling& D, const Rows& x) {
+  return {D.nn * x[0] + D.nq * x[1] + D.nm * x[2], D.nq * x[0] + D.qq * x[1] + D.qm * x[2],
+          D.nm * x[0] + D.qm * x[1] + D.mm * x[2]};
+}
+
 template <>
 inline constexpr bool all_doubles<Coupling> = true;
 

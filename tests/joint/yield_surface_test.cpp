@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "beam.h"
@@ -202,6 +203,80 @@ TEST(YieldSurface, ACollapsingChainIsSolvedInTime) {
   beam.run(5);
   EXPECT_EQ(beam.bounds_hit, 0);
   EXPECT_GT(beam.joints[0]->accumulated_rotation(), 0.5);
+}
+
+// A portal of rigid pieces, 3 m high and 6 m wide, that a block of 20 pieces' mass strikes at 20 m/s, 60 Hz.
+// What flows goes on flowing from part to part of the blow, and what rubs does within one: to find that anew
+// each time took ten times as many factorisations with surfaces as with caps.
+int factorisations_of_struck_portal(std::span<const AxialMoment> interaction) {
+  constexpr int pieces = 6;
+  constexpr float l = 0.5f, mass = 30, high = pieces * l, wide = 2 * high;
+  b2World world({0, -10});
+  Structure structure(world);
+  const auto box = [&world](b2BodyType type, float x, float y, float hx, float hy, float density) {
+    b2BodyDef def;
+    def.type = type;
+    def.position.Set(x, y);
+    b2Body* body = world.CreateBody(&def);
+    b2PolygonShape shape;
+    shape.SetAsBox(hx, hy);
+    body->CreateFixture(&shape, density);
+    return body;
+  };
+  const auto join = [&](b2Body* a, b2Body* b, float x, float y, b2Vec2 axis) {
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, {x, y}, axis);
+    for (const auto& [row, cap] : {std::pair{axial, 2e6}, {shear, 1e6}, {rotation, 2e5}})
+      def.rows[row] = {.stiffness = rigid, .cap = cap, .cap_reverse = cap};
+    def.interaction.assign(interaction.begin(), interaction.end());
+    structure.create_joint(def);
+  };
+  b2Body* ground = box(b2_staticBody, 0, -5, 50, 0.5f, 0);
+  const auto column = [&](float x) {
+    b2Body* last = ground;
+    for (int i = 0; i < pieces; ++i) {
+      const float foot = static_cast<float>(i) * l;
+      b2Body* piece = box(b2_dynamicBody, x, foot + l / 2, 0.15f, l / 2, mass / (0.3f * l));
+      join(last, piece, x, foot, {0, 1});
+      last = piece;
+    }
+    return last;
+  };
+  b2Body *left = column(0), *right = column(wide), *beam = nullptr;
+  for (int i = 0; i < 2 * pieces; ++i) {
+    const float start = static_cast<float>(i) * l;
+    b2Body* piece = box(b2_dynamicBody, start + l / 2, high + 0.15f, l / 2, 0.15f, mass / (0.3f * l));
+    if (i == 0) {
+      join(left, piece, 0, high, {0, 1});
+    } else {
+      join(beam, piece, start, high + 0.15f, {1, 0});
+    }
+    beam = piece;
+  }
+  join(right, beam, wide, high, {0, 1});
+  for (int i = 0; i < 120; ++i) world.Step(1 / 60.0f, 8, 3), structure.update();
+  b2Body* block = box(b2_dynamicBody, high + 0.3f, high + 1.8f, 0.5f, 0.5f, 20 * mass);
+  block->SetLinearVelocity({0, -20});
+  int sum = 0;
+  for (int i = 0; i < 120; ++i) {
+    world.Step(1 / 60.0f, 8, 3);
+    structure.update();
+    sum += structure.report().factorisations;
+    EXPECT_EQ(structure.report().bounds_hit, 0);
+  }
+  return sum;
+}
+
+TEST(YieldSurface, ABlowIsSolvedAsWithCaps) {
+  std::vector<AxialMoment> curve;
+  for (int i = 0; i < 16; ++i) {
+    const double t = i * std::numbers::pi / 8, c = std::cos(t), s = std::sin(t);
+    const double to = 1 / std::pow(std::pow(std::abs(c), 1.5) + std::pow(std::abs(s), 1.5), 2 / 3.0);
+    curve.push_back({2e6 * to * c, 2e5 * to * s});
+  }
+  const int caps = factorisations_of_struck_portal({}), surface = factorisations_of_struck_portal(curve);
+  EXPECT_GT(caps, 100);
+  EXPECT_LT(surface, 4 * caps);
 }
 
 }  // namespace
