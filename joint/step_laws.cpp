@@ -169,7 +169,8 @@ double StepLaws::most_growth(System& system, double last_h) {
 // step's end, where velocities belong to the middle: that of half a step before, which they would ask for,
 // may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
 // than it stores: the strain that it will be half a step on gives less. But where its force stopped growing
-// it was strained too far, and what it moved back by is no rate.
+// it was strained too far, and what it moved back by is no rate. A force that falls takes the impulse along,
+// of which an implicit row's strain is read.
 void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& parted,
                           double most_growth) const {
   Rows spring = r.law.spring;
@@ -205,7 +206,11 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& pa
       strain_by(by);
       spring[i] /= by;
     }
-    if (r.law.spring[i] > spring[i]) strain_by(spring[i] / r.law.spring[i]);
+    if (r.law.spring[i] > spring[i]) {
+      strain_by(spring[i] / r.law.spring[i]);
+    } else {
+      j.impulse[i] *= r.law.spring[i] / spring[i];
+    }
   }
 }
 
