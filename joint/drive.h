@@ -10,11 +10,19 @@
 // the step at whose middle it is taut, without gain.
 #pragma once
 
+#include <algorithm>
+
 #include "system.h"
 
 namespace ductile::dynamics {
 
 inline bool is_driven(const JointRecord& r, unsigned i) { return r.material.is_driven(i); }
+
+/// What a slack line is longer by than at rest, or a slack strut shorter (then < 0): by no strain. m
+inline double beyond_slack(const Joint& j, const JointRecord& r, unsigned i) {
+  const double longer = r.gap[i] - j.neutral[i];
+  return r.material.cap[i] > 0 ? std::max(longer, 0.0) : std::min(longer, 0.0);
+}
 
 /// Lists the driven joints, those of a rate law and those that go slack, and marks those that are or may be
 /// slack. Never allocates after the system's form().

@@ -188,8 +188,31 @@ void Projection::take_neutral(System& system, bool kept, double trifle, double r
   }
 }
 
+// Whether the push draws lines taut that were slack. They hold in the next try, and are as long as they are
+// at rest: the next part of a step would close what they are longer by within a thousandth of a second.
+bool Projection::draws_taut(System& system) const {
+  bool any = false;
+  for (const int at : system.slackening) {
+    Joint& j = system.joints[z(at)];
+    const JointRecord& r = system.records[z(at)];
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!is_slack(j, r, i) || !(j.G[i] > 0) || !flows(j.regime, i) || beyond_slack(j, r, i) == 0) continue;
+      j.regime = static_cast<std::uint8_t>(j.regime & ~(9u << i));
+      any = true;
+    }
+  }
+  return any;
+}
+
 bool Projection::project(System& system, Hessian& hessian, const Evaluation& last_solve, double h,
                          std::span<const Pose> goal, bool try_goal) {
+  const auto drawn_taut = [&] {
+    if (!draws_taut(system)) return false;
+    place_all(system, start_);
+    locate_all(system);
+    return true;
+  };
+  const auto again = [&] { return project(system, hessian, last_solve, h, goal, try_goal); };
   hessian.factor_holding(system, last_solve.changed);
   double size = 0, distance = 0;  // |d|²_M; |goal|²_M / 2 where nothing is strained
   // It gives way by less than a thousandth: the structure holds it.
@@ -201,6 +224,11 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     if (holds()) return true;
   }
   for (std::size_t k = 0; k < system.own(); ++k) kept_[k] = system.records[k].gap;
+  for (const int at : system.slackening) {
+    const Joint& j = system.joints[z(at)];
+    for (unsigned i = 0; i < 3; ++i)
+      if (is_slack(j, system.records[z(at)], i) && !flows(j.regime, i)) kept_[z(at)][i] = j.neutral[i];
+  }
   for (std::size_t i = system.free; i < system.bodies.size(); ++i) put(system.places[i], goal[i]);
   for (std::size_t i = 0; i < system.free; ++i) start_[i] = poses_[i] = system.places[i].pose;
   double reach = reach_of(system);
@@ -224,7 +252,7 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
     for (std::size_t i = 0; i < system.free; ++i) poses_[i] = system.places[i].pose;
     if (holds()) {
       locate_all(system);
-      return true;
+      return drawn_taut() ? again() : true;
     }
   }
   // As M ≤ H, the step is no longer than the way to the goal. Where it is, the factor is nothing but
@@ -262,6 +290,7 @@ bool Projection::project(System& system, Hessian& hessian, const Evaluation& las
   }
   if (!kept) place_all(system, goal);
   locate_all(system);
+  if (kept && drawn_taut()) return again();
   take_neutral(system, kept, trifle, rounding);
   return kept;
 }

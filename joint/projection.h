@@ -1,7 +1,7 @@
 // Pushes that are not the structure's own (contacts, continuous collision, SetTransform) spread through it:
 // the poses x that are nearest to where bodies were pushed, and strain no row by it.
 //
-//   least ½|x − goal|²_M with the gaps of all rows that hold kept
+//   least ½|x − goal|²_M with the gaps of all rows that hold kept, and no line longer than it is
 //
 // by Gauss–Newton on ½|x − goal|²_M + ½ Σ G (gap − kept)² with the holding factor of H: what holds is as
 // stiff as κ allows, what flows is left out.
@@ -40,6 +40,7 @@ class Projection {
   bool close_gaps(Work& work);
   double largest_turn(const System& system) const;
   void displace_all(System& system, double t) const;
+  bool draws_taut(System& system) const;
   void take_neutral(System& system, bool kept, double trifle, double rounding) const;
 
   Vector<Vec3> g_, d_, z_;

@@ -119,9 +119,13 @@ double StepLaws::deferred_share(double h) {
 }
 
 // What a joint has of drift: all that rows are strained beyond their forces, where poses moved by a longer
-// step before.
+// step before. A rigid line that bodies drew longer as they turned in that step was slack in it; one of
+// Newmark's takes hold without gain (drive.h).
 void StepLaws::find_drift(const Joint& j, JointRecord& r) const {
-  for (unsigned i = 0; i < 3; ++i) r.drift[i] = is_deferred(j, r, i) ? beyond_force(j, r, i) : 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const bool drawn = j.G[i] > 0 && is_slack(j, r, i) && is_implicit(r, i);
+    r.drift[i] = is_deferred(j, r, i) ? beyond_force(j, r, i) : drawn ? beyond_slack(j, r, i) : 0;
+  }
 }
 
 // What vibrates through steps of several lengths takes drift back by itself: a row has none that it is not

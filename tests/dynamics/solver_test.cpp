@@ -215,6 +215,40 @@ TEST(Solver, ASolveThatEndsAfterOneThatDidNotIsBookedAsUsual) {
   }
 }
 
+// A rope that turning bodies have drawn longer by 2 cm, in a step of 1/30 s in which it was slack: parts of
+// the next step close that at 0.02 m · 30/s, not within the first of them.
+TEST(StepLaws, CloseADrawnLineInTheTimeThatItTook) {
+  System system;
+  for (int i = 0; i < 2; ++i) {
+    Body body;
+    body.mass = 100, body.inertia = 10;
+    system.bodies.push_back(body);
+    put(system.places.emplace_back(), {2.0 * i, 0, 0});
+  }
+  Joint rope;
+  rope.a = 0, rope.b = 1;
+  rope.frame.ax = 1, rope.frame.bx = -1;
+  system.joints.push_back(rope);
+  JointRecord record;
+  record.material.stiffness = {rigid, 0, 0};
+  record.material.cap = {unlimited, 0, 0};
+  record.material.slackens = 1;
+  system.records.push_back(record);
+  system.form(2);
+  locate_all(system);
+  Joint& joint = system.joints[0];
+  joint.neutral = system.record(joint).gap;
+  StepLaws laws;
+  laws.begin(system, 1.0 / 30);
+  laws.move();
+  joint.regime = 8;
+  joint.impulse = {};
+  put(system.places[1], {2.02, 0, 0});
+  locate_all(system);
+  laws.begin(system, 1.0 / 3840);
+  EXPECT_NEAR(joint.bias[axial], 0.02 * 30, 1e-9);
+}
+
 // Of what tension asks for, no more than is as good as rigid (docs/theory/turn_inertia.md): 1e9 times the
 // inertia that turns, which is the lesser of two, and that of the other where one does not turn.
 TEST(TurnInertia, IsAtMostAsGoodAsRigid) {

@@ -375,6 +375,25 @@ TEST(Lines, AreNeverShorterForHavingBeenSlack) {
   }
 }
 
+// A load on a rope that is slack by a millimetre, or on a strut, is moved by 5 cm, as continuous collision
+// and SetTransform() do. The line may not be drawn longer by that, or the next step would fling the load
+// back, at 3 m/s.
+TEST(Lines, AreNotDrawnLongerByPushes) {
+  for (const double stiffness : {rigid, 1e6}) {
+    for (const double sign : {1.0, -1.0}) {
+      Line line(4, 0, sign > 0 ? RowDef::rope(stiffness) : RowDef::strut(stiffness), 4 + sign * 1e-3);
+      line.world.SetGravity({0, 0});
+      line.step();
+      line.load->SetTransform(vec(4 + sign * 0.05, 0), 0);
+      for (int i = 0; i < 10; ++i) {
+        line.step();
+        EXPECT_NEAR(line.distance(), 4 + sign * 1e-3, 1e-6) << stiffness << ", " << sign;
+        EXPECT_LT(line.load->GetLinearVelocity().Length(), 1e-6) << stiffness << ", " << sign;
+      }
+    }
+  }
+}
+
 // Two lines hold a block between them, and nothing else does: their forces cancel to the last bits.
 TEST(Lines, ThatPullAgainstEachOtherLeaveNothingUnbalanced) {
   b2World world({0, 0});
