@@ -187,10 +187,10 @@ Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const
 }
 
 // The same cubic of one arm: slope θ in the middle of the piece, its end w to the left of the rigid piece's,
-// the chord ψ = (ℓ θ + w)/ℓ, and at the end the slope of a spring s, 4 EI/ℓ β + 2 EI/ℓ α = −s (ψ + β): −ψ
-// where it clamps, −α/2 where there is none. The end goes with the ground's spring across, d + w = F/k, F
-// from (d, θ) by the flexibility of spring and arm in line.
-Matrix2d curved_at_support(const Arm& arm, double k_across, double k_turn) {
+// the chord ψ = (ℓ θ + w)/ℓ, and at the end the slope of a spring s against the ground's γ,
+// 4 EI/ℓ β + 2 EI/ℓ α = −s (ψ + β − γ): γ − ψ where it clamps, −α/2 where there is none. The end goes with
+// the ground's spring across, d + w = F/k, F from (d, θ − γ) by the flexibility of spring and arm in line.
+Matrix3d curved_at_support(const Arm& arm, double k_across, double k_turn) {
   const double length = arm.length, EI = arm.EI, bar = length / EI;
   const double gives = support_gives(k_turn, bar) / bar;
   const double clamped = k_turn > 0 ? 1 / (1 + 4 * gives) : 0;
@@ -199,10 +199,11 @@ Matrix2d curved_at_support(const Arm& arm, double k_across, double k_turn) {
       bar * (1 + gives);
   const Vector2d of_d_and_turn =
       k_turn > 0 ? Vector2d(flexibility.inverse().row(0)) : Vector2d(1 / flexibility(0, 0), 0);
-  const Vector2d w(of_d_and_turn.y() / k_across, of_d_and_turn.x() / k_across - 1);  // of (θ, d)
-  const Vector2d turn(1, 0), chord = turn + w / length, alpha = turn - chord,
-                             beta = -clamped * chord - (1 - clamped) / 2 * alpha;
-  Matrix2d form = length * (chord * chord.transpose() - turn * turn.transpose());
+  const Vector3d turn = Vector3d::UnitX(), d = Vector3d::UnitY(), ground = Vector3d::UnitZ();
+  const Vector3d F = of_d_and_turn.x() * d + of_d_and_turn.y() * (turn - ground), w = F / k_across - d;
+  const Vector3d chord = turn + w / length, alpha = turn - chord,
+                 beta = clamped * (ground - chord) - (1 - clamped) / 2 * alpha;
+  Matrix3d form = length * (chord * chord.transpose() - turn * turn.transpose());
   form += length / 30 * (4 * alpha * alpha.transpose() + 4 * beta * beta.transpose());
   form -= length / 30 * (alpha * beta.transpose() + beta * alpha.transpose());
   return form;

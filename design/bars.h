@@ -29,9 +29,9 @@ Root with_bars(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const 
 Eigen::Matrix3d curved(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Eigen::Vector3d& k,
                        std::array<double, 2> follow);
 
-/// The same of a support's arm, in (θ, d): the turn of its piece, and how far to the left of the support the
-/// rigid piece has its end. k: the support's stiffness across the arm, N/m, > 0, and against turns, N m/rad,
-/// with the arm in line.
-Eigen::Matrix2d curved_at_support(const Arm& arm, double k_across, double k_turn);
+/// The same of a support's arm, in (θ, d, γ): the turn of its piece, how far to the left of the support's
+/// ground the rigid piece has its end, and the turn of that ground. k: the support's stiffness across the
+/// arm, N/m, > 0, and against turns, N m/rad, with the arm in line.
+Eigen::Matrix3d curved_at_support(const Arm& arm, double k_across, double k_turn);
 
 }  // namespace ductile

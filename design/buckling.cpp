@@ -25,25 +25,39 @@ struct End {
   std::array<double, 3> scale;
 };
 
-// N times the bars' form in (θ_a, θ_b, v), v = Σ ± (Je·x + e·r θ).
-void add_curved(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& joint,
-                const std::array<Arm, 2>& arms, const Eigen::Vector3d& k, double N,
-                const std::vector<End>& ends) {
-  std::array<double, 2> follow{};
-  for (const End& end : ends) follow[end.sign > 0] = end.follow;
-  const Eigen::Matrix3d form = N * curved(joint, arms, k, follow);
-  if (form.isZero(0)) return;
+// The sides of a joint that move.
+std::vector<End> ends_of(const Plan& plan, const Equilibrium& statics, const PlannedJoint& j) {
+  std::vector<End> ends;
+  for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
+    if (piece < 0 || statics.column[static_cast<std::size_t>(piece)] < 0) continue;
+    ends.push_back({statics.column[static_cast<std::size_t>(piece)], sign, j.a < 0 ? 0 : 0.5,
+                    (sign < 0 ? j.anchor : j.far_anchor()) - plan.carrier(piece).center,
+                    statics.scale(piece)});
+  }
+  return ends;
+}
+
+// In (θ_a, θ_b, v), v = Σ ± (Je·x + e·r θ). Q is dE/dv along axes that turn with both sides. The moment at a
+// wall is what it would give way to, −dE/dθ_a or dE/dθ_b, as the energy also has N φ v of the axes' turn φ.
+BentBars between(const PlannedJoint& joint, const std::array<Arm, 2>& arms, const Eigen::Vector3d& k,
+                 double N, const std::vector<End>& ends) {
+  BentBars bars;
+  bars.form = N * curved(joint, arms, k, {0.5, 0.5});
   const Point across = left(joint.axis);
-  std::vector<std::pair<int, Eigen::Vector3d>> columns;  // of x, y and θ of both: their (θ_a, θ_b, v)
   for (const End& end : ends) {
-    columns.emplace_back(end.column, Eigen::Vector3d(0, 0, end.sign * across.x * end.scale[0]));
-    columns.emplace_back(end.column + 1, Eigen::Vector3d(0, 0, end.sign * across.y * end.scale[1]));
-    columns.emplace_back(
+    bars.columns.emplace_back(end.column, Eigen::Vector3d(0, 0, end.sign * across.x * end.scale[0]));
+    bars.columns.emplace_back(end.column + 1, Eigen::Vector3d(0, 0, end.sign * across.y * end.scale[1]));
+    bars.columns.emplace_back(
         end.column + 2,
         end.scale[2] * Eigen::Vector3d(end.sign<0, end.sign> 0, end.sign * dot(across, left(end.arm))));
   }
-  for (const auto& [row, a] : columns)
-    for (const auto& [column, b] : columns) entries.emplace_back(row, column, a.dot(form * b));
+  bars.carries.row(shear) = bars.form.row(2);
+  if (ends.size() == 1) {
+    const bool wall_is_b = ends.front().sign < 0;
+    bars.carries.row(rotation) = bars.form.row(wall_is_b) + N / 2 * Eigen::RowVector3d::UnitZ();
+    if (!wall_is_b) bars.carries.row(rotation) *= -1;
+  }
+  return bars;
 }
 
 // A line's axis turns by w/L, w what its ends part by across it: N w²/L.
@@ -62,29 +76,34 @@ void add_line(std::vector<Eigen::Triplet<double>>& entries, const PlannedJoint& 
 }
 
 // What acts at the end of a support's arm, the support and loads there, acts on the bent bar, not on the
-// rigid piece, which is off the support.
-void add_support(std::vector<Eigen::Triplet<double>>& entries, const Plan& plan, const Equilibrium& statics,
-                 std::size_t index, Point force, const std::function<double(const Plan::Load&)>& dead) {
+// rigid piece, which is off the support. In (θ, d, γ): the turn of the piece, how far to the left of the
+// ground's point it has its end, and the turn of the ground, which carries −dE/dg of its own motion g.
+BentBars at_support(const Plan& plan, const Equilibrium& statics, std::size_t index, Point force,
+                    const std::function<double(const Plan::Load&)>& dead) {
+  BentBars bars;
   const PlannedJoint& joint = plan.joints[index];
   const Arm& arm = statics.arms()[index][1];
-  if (arm.length == 0) return;
+  if (arm.length == 0) return bars;
   const Point across = left(arm.along);
-  const Eigen::VectorXd& k = statics.stiffness();
-  const Index row = 3 * static_cast<Index>(index);
+  const Eigen::Vector3d k = statics.stiffness().segment<3>(3 * static_cast<Index>(index));
   const bool along_axis = std::abs(dot(across, joint.axis)) > 0.99;
-  if (!along_axis && std::abs(dot(across, joint.axis)) > 0.01) return;
-  const double k_across = k[row + (along_axis ? axial : shear)];
-  if (k_across == 0) return;
+  if (!along_axis && std::abs(dot(across, joint.axis)) > 0.01) return bars;
+  const Row row = along_axis ? axial : shear;
+  if (k[row] == 0) return bars;
   double N = -dot(force, arm.along);  // the support pulls its piece back
   for (const Plan::Load& load : plan.loads)
     if (load.piece == joint.b && length(load.at - joint.anchor) < 1e-6 * arm.length)
       N += dead(load) * dot(load.def.force, arm.along);
-  const Eigen::Matrix2d form = N * curved_at_support(arm, k_across, k[row + rotation]);
+  bars.form = N * curved_at_support(arm, k[row], k[rotation]);
   const int c = statics.column[static_cast<std::size_t>(joint.b)];
   const auto s = statics.scale(joint.b);
-  const Eigen::Vector2d columns[] = {{0, s[0] * across.x}, {0, s[1] * across.y}, {s[2], s[2] * arm.length}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) entries.emplace_back(c + i, c + j, columns[i].dot(form * columns[j]));
+  bars.columns = {
+      {c, {0, s[0] * across.x, 0}}, {c + 1, {0, s[1] * across.y, 0}}, {c + 2, {s[2], s[2] * arm.length, 0}}};
+  const double left_of_arm = dot(across, along_axis ? joint.axis : left(joint.axis));
+  bars.ground = {0, -left_of_arm * joint.displacement[row], joint.displacement[rotation]};
+  bars.carries.row(row) = left_of_arm * bars.form.row(1);
+  bars.carries.row(rotation) = -bars.form.row(2);
+  return bars;
 }
 
 // Two bars that meet in a node, each from the middle of its piece (θ) to the node (θ_n = θ + δ), bent evenly
@@ -132,6 +151,24 @@ bool gives(const Equilibrium& statics, const VectorXd& mode) {
 
 }  // namespace
 
+std::vector<BentBars> bent_bars(const Plan& plan, const Equilibrium& statics, const VectorXd& forces,
+                                const std::function<double(const Plan::Load&)>& dead) {
+  std::vector<BentBars> all;
+  for (std::size_t i = 0; i < statics.arms().size(); ++i) {
+    const PlannedJoint& j = plan.joints[i];
+    const auto r = 3 * static_cast<Index>(i);
+    if (!statics.held[i] || j.node != 0) continue;
+    BentBars bars =
+        j.a < 0 ? at_support(plan, statics, i, forces[r] * j.axis + forces[r + 1] * left(j.axis), dead)
+                : between(j, statics.arms()[i], statics.stiffness().segment<3>(r), forces[r],
+                          ends_of(plan, statics, j));
+    if (bars.form.isZero(0)) continue;
+    bars.joint = i;
+    all.push_back(std::move(bars));
+  }
+  return all;
+}
+
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
 //   u = e·δ + φ Je·δ + ½ e·(θ_a² r_a − θ_b² r_b) + …      v = Je·δ − φ e·δ + ½ Je·(θ_a² r_a − θ_b² r_b) + …
 // and a point at r from the centre comes back by ½ θ² r.
@@ -150,17 +187,8 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
     const PlannedJoint& j = plan.joints[i];
     const double N = forces[3 * static_cast<Index>(i)], Q = forces[3 * static_cast<Index>(i) + 1];
     const Point force = N * j.axis + Q * left(j.axis), across = N * left(j.axis) - Q * j.axis;
-    if (!statics.arms().empty() && j.a < 0 && column(j.b) >= 0)
-      add_support(entries, plan, statics, i, force, dead);
     if (N == 0 && Q == 0) continue;
-    std::vector<End> ends;
-    for (const auto& [piece, sign] : {std::pair(j.a, -1.), std::pair(j.b, 1.)}) {
-      if (column(piece) < 0) continue;
-      const double follow = j.a < 0 ? 0 : column(j.a) < 0 || column(j.b) < 0 ? 1 : 0.5;
-      ends.push_back({column(piece), sign, follow,
-                      (sign < 0 ? j.anchor : j.far_anchor()) - plan.carrier(piece).center,
-                      statics.scale(piece)});
-    }
+    const std::vector<End> ends = ends_of(plan, statics, j);
     if (j.end) add_line(entries, j, N, ends);
     for (const End& end : ends) {
       entries.emplace_back(end.column + 2, end.column + 2,
@@ -173,13 +201,12 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
         both(turn.column + 2, end.column + 2, phi * dot(across, left(end.arm)) * end.scale[2]);
       }
     }
-    if (statics.arms().empty()) continue;
-    if (j.node != 0)
+    if (!statics.arms().empty() && j.node != 0)
       add_node(entries, plan, j, statics.arms()[i], force, ends, dead);
-    else
-      add_curved(entries, j, statics.arms()[i], statics.stiffness().segment<3>(3 * static_cast<Index>(i)), N,
-                 ends);
   }
+  for (const BentBars& bars : bent_bars(plan, statics, forces, dead))
+    for (const auto& [row, a] : bars.columns)
+      for (const auto& [column, b] : bars.columns) entries.emplace_back(row, column, a.dot(bars.form * b));
   for (const Plan::Load& load : plan.loads) {
     const int c = column(load.piece);
     const double share = dead(load);

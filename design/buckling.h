@@ -2,10 +2,26 @@
 #pragma once
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "equilibrium.h"
 
 namespace ductile {
+
+/// What the bars that a joint stands for add to the energy of rigid pieces under axial force, ½ qᵀ form q
+/// with q = Σ column · x + ground.
+struct BentBars {
+  std::size_t joint = 0;
+  Eigen::Matrix3d form = Eigen::Matrix3d::Zero();
+  std::vector<std::pair<int, Eigen::Vector3d>> columns;  ///< of x
+  Eigen::Vector3d ground = Eigen::Vector3d::Zero();      ///< of a support's displacement
+  Eigen::Matrix3d carries = Eigen::Matrix3d::Zero();     ///< (N, Q, M) of the joint beyond k e: carries · q
+};
+
+/// Of all joints that stand for bars, under these forces of the joints. None where pieces are rigid.
+std::vector<BentBars> bent_bars(const Plan& plan, const Equilibrium& statics, const Eigen::VectorXd& forces,
+                                const std::function<double(const Plan::Load&)>& dead);
 
 /// K_g, as B's columns: the second derivatives of the joints' elongations times their forces, and of the
 /// places where loads act times the loads, all of the plan's together with `dead` times as much. With the

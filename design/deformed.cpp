@@ -9,12 +9,30 @@ namespace ductile {
 
 using Eigen::VectorXd;
 
-Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const Growth& growth, const Deformed& state) {
-  const auto dead = [&](const Plan::Load& load) {
+namespace {
+
+// The share of a load that the state has.
+std::function<double(const Plan::Load&)> dead(const Growth& growth, const Deformed& state) {
+  return [&growth, &state](const Plan::Load& load) {
     return growth.loads_grow && load.def.from <= growth.time && load.def.to > growth.time ? state.factor : 0;
   };
-  return geometric_stiffness(plan, statics, state.primary, dead);
+}
+
+}  // namespace
+
+Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
+                                                const Growth& growth, const Deformed& state) {
+  return geometric_stiffness(plan, statics, state.primary, dead(growth, state));
+}
+
+VectorXd carried(const Plan& plan, const Equilibrium& statics, const Growth& growth, const Deformed& state) {
+  VectorXd forces = state.forces;
+  for (const BentBars& bars : bent_bars(plan, statics, state.primary, dead(growth, state))) {
+    Eigen::Vector3d q = state.factor * bars.ground;
+    for (const auto& [column, share] : bars.columns) q += state.x[column] * share;
+    forces.segment<3>(3 * static_cast<Eigen::Index>(bars.joint)) += bars.carries * q;
+  }
+  return forces;
 }
 
 // With y = K x, (1 + K_g K⁻¹) y = f, symmetric in the metric of K⁻¹: K itself, whose rigid rows would drown
@@ -47,7 +65,10 @@ std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, c
   Deformed now{factor, from.x + bent.x, from.forces + bent.forces,
                from.primary + statics.forces(more * growth.growing) + bent.forces};
   const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan, statics, growth, now);
-  const VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * now.x;
+  VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * now.x;
+  for (const BentBars& bars : bent_bars(plan, statics, now.primary, dead(growth, now)))
+    for (const auto& [column, share] : bars.columns)
+      rest[column] -= share.dot(bars.form * (factor * bars.ground));  // which moves with the loads
   const std::optional<VectorXd> step = solve_tangent(statics, K_g, rest);
   if (!step) return std::nullopt;
   now.x += *step;

@@ -1,7 +1,7 @@
 // Equilibrium in the deformed state (second-order theory, P–Δ): displacements small against the structure,
-// but forces act where it has gone, Bᵀ R + K_g x = f. K_g is that of the forces of first order: what the
-// displacements add to axial forces is of the size of what the theory leaves out, and near the critical load
-// would keep it from having a solution.
+// but forces act where it has gone, Bᵀ R + K_g (x, g) = f, g the grounds' motion. K_g is that of the forces
+// of first order: what the displacements add to axial forces is of the size of what the theory leaves out,
+// and near the critical load would keep it from having a solution.
 #pragma once
 
 #include <optional>
@@ -23,13 +23,18 @@ struct Growth {
 
 struct Deformed {
   double factor = 0;
-  Eigen::VectorXd x, forces;  ///< motions, and (N, Q, M) of the joints
+  Eigen::VectorXd x, forces;  ///< motions, and (N, Q, M) of the joints, R of Bᵀ R + K_g x = f
   Eigen::VectorXd primary;    ///< the forces that loads alone have added, stage by stage: those of K_g
 };
 
 /// K_g of a state.
 Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
                                                 const Growth& growth, const Deformed& state);
+
+/// What the joints carry, (N, Q, M), along axes that turn with their bodies (a support's do not): the state's
+/// forces, and those that axial forces of bent bars have across them.
+Eigen::VectorXd carried(const Plan& plan, const Equilibrium& statics, const Growth& growth,
+                        const Deformed& state);
 
 /// The state at another factor, with the stiffness that `statics` has now from `from` on. None where there is
 /// no stable equilibrium, as far as the loads can tell: what is symmetric may yet buckle to a side.

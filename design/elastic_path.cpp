@@ -26,7 +26,9 @@ std::optional<Deformed> ElasticPath::at(double factor) const {
   if (factor >= critical_) return std::nullopt;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(statics_.B.rows());
   const Deformed unloaded{0, Eigen::VectorXd::Zero(statics_.B.cols()), none, none};
-  return deformed(plan_, statics_, growth_, unloaded, factor);
+  std::optional<Deformed> state = deformed(plan_, statics_, growth_, unloaded, factor);
+  if (state) state->forces = carried(plan_, statics_, growth_, *state);
+  return state;
 }
 
 std::vector<double> ElasticPath::reached(const Usage& usage) const {

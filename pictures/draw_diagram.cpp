@@ -24,7 +24,7 @@ class DiagramArtist {
       : plan_(plan), panel_(panel), frame_(frame), labels_(labels) {}
 
   void draw(Node to) {
-    const std::vector<Strip> all = strips(plan_, panel_.joints);
+    const std::vector<Strip> all = strips(plan_, panel_.joints, panel_.gone);
     double largest = 0;
     for (const Strip& strip : all)
       for (const Station& station : strip.stations) largest = std::max(largest, std::abs(value(station)));

@@ -20,25 +20,43 @@ struct Action {
   const PlannedJoint* cut = nullptr;  // that it comes from
 };
 
-Action of_joint(const PlannedJoint& joint, const JointReading& carries, double sign) {
-  return {sign > 0 ? joint.anchor : joint.far_anchor(),
-          sign * (carries.N * joint.axis + carries.Q * left(joint.axis)), sign * carries.M,
+// What a joint's axis has turned by: that of a support stays, that of a line goes with its ends.
+double turned(const Plan& plan, const PlannedJoint& joint, const std::vector<Motion>& motions) {
+  if (motions.empty() || joint.a < 0) return 0;
+  const Motion &a = motions[static_cast<std::size_t>(joint.a)],
+               &b = motions[static_cast<std::size_t>(joint.b)];
+  if (!joint.end) return (a.turn + b.turn) / 2;
+  const auto end = [&](int piece, const Motion& motion, Point at) {
+    return motion.along + motion.turn * left(at - plan.pieces[static_cast<std::size_t>(piece)].center);
+  };
+  return dot(end(joint.b, b, *joint.end) - end(joint.a, a, joint.anchor), left(joint.axis)) /
+         length(*joint.end - joint.anchor);
+}
+
+Action of_joint(const PlannedJoint& joint, const JointReading& carries, double sign, double turn) {
+  const Point force = carries.N * joint.axis + carries.Q * left(joint.axis);
+  return {sign > 0 ? joint.anchor : joint.far_anchor(), sign * (Rotation(turn) * force), sign * carries.M,
           joint.height > 0 ? &joint : nullptr};
 }
 
 class PieceStrips {
  public:
-  PieceStrips(const Plan& plan, int index, const std::vector<JointReading>& joints)
+  PieceStrips(const Plan& plan, int index, const std::vector<JointReading>& joints,
+              const std::vector<Motion>& motions)
       : piece_(plan.pieces[static_cast<std::size_t>(index)]), index_(index) {
+    const double turn = motions.empty() ? 0 : motions[static_cast<std::size_t>(index)].turn;
+    const Rotation turn_of_piece(turn);
     for (std::size_t i = 0; i < plan.joints.size(); ++i) {
       const PlannedJoint& joint = plan.joints[i];
       if (joint.a != index && joint.b != index) continue;
-      actions_.push_back(of_joint(joint, joints[i], joint.a == index ? 1 : -1));
+      actions_.push_back(
+          of_joint(joint, joints[i], joint.a == index ? 1 : -1, turned(plan, joint, motions) - turn));
       if (joint.height > 0) cuts_.push_back(&joint);
     }
     for (const Plan::Load& load : plan.loads)
-      if (load.piece == index) actions_.push_back({load.at, load.def.force, load.def.moment});
-    weight_ = piece_.mass * plan.gravity;
+      if (load.piece == index)
+        actions_.push_back({load.at, turn_of_piece.inverse(load.def.force), load.def.moment});
+    weight_ = turn_of_piece.inverse(piece_.mass * plan.gravity);
   }
 
   void add_to(std::vector<Strip>& strips) const {
@@ -144,11 +162,12 @@ class PieceStrips {
 
 }  // namespace
 
-std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints) {
+std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints,
+                          const std::vector<Motion>& motions) {
   std::vector<Strip> result;
   for (std::size_t i = 0; i < plan.pieces.size(); ++i)
     if (plan.is_dynamic(static_cast<int>(i)) && plan.pieces[i].part_of < 0)
-      PieceStrips(plan, static_cast<int>(i), joints).add_to(result);
+      PieceStrips(plan, static_cast<int>(i), joints, motions).add_to(result);
   return result;
 }
 

@@ -108,16 +108,19 @@ std::string picture(const Plan& plan, const StaticCheck& check, const Options& o
   for (std::size_t i = 0; i < now.pieces.size(); ++i)
     motions.push_back({check.displacement[i], check.turn[i]});
   const double times = exaggeration(now, motions);
+  const std::vector<Motion> gone = options.second_order ? motions : std::vector<Motion>{};
   return picture_svg(
-      now, {.title = title_of(options.scene.name),
-            .subtitle = options.second_order ? "second order" : "first order",
-            .panels = {{.title = "moment, on the side in tension", .joints = joints, .diagram = rotation},
-                       {.title = "shear force", .joints = joints, .diagram = shear},
-                       {.title = "axial force", .joints = joints, .diagram = axial},
-                       {.title = fmt::format("displacements times {:g}", times),
-                        .joints = joints,
-                        .motions = motions,
-                        .times = times}}});
+      now,
+      {.title = title_of(options.scene.name),
+       .subtitle = options.second_order ? "second order" : "first order",
+       .panels = {
+           {.title = "moment, on the side in tension", .joints = joints, .diagram = rotation, .gone = gone},
+           {.title = "shear force", .joints = joints, .diagram = shear, .gone = gone},
+           {.title = "axial force", .joints = joints, .diagram = axial, .gone = gone},
+           {.title = fmt::format("displacements times {:g}", times),
+            .joints = joints,
+            .motions = motions,
+            .times = times}}});
 }
 
 std::string run(const Options& options) {

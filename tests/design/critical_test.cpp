@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "ductile/design.h"
 #include "frames.h"
@@ -326,6 +328,93 @@ TEST(SecondOrder, AMast) {
     // of the top: half a piece above the last one's centre
     const double top = check.displacement.back().y + check.turn.back() * L / n / 2;
     EXPECT_NEAR(top / (-W * L / P * (std::tan(phi) / phi - 1)), 1, within) << phi;
+  }
+}
+
+// Across y and x, what supports and walls carry is what acts on the structure, as a support's axis does not
+// turn and that of a joint to a wall turns half as far as the piece there: it holds in the state that
+// has moved, and of each support where statics alone has it.
+TEST(SecondOrder, ReactionsAreWhatActs) {
+  const double W = 1e4, u = 1, P = 4 * u * u * EI / (L * L);
+  SceneDef pins = on_two_pins();
+  pins.loads[0].force = {-P, 0};
+  pins.loads.push_back({.body = "beam", .at = {L / 2, 0}, .force = {0, -W}});
+  SceneDef sprung = on_two_pins();  // it leans: k d − P d/L = W
+  sprung.supports[1].fix_y = false;
+  sprung.supports[1].stiffness_y = 2 * P / L;
+  sprung.loads[0].force = {-P, W};
+  SceneDef wall = cantilever(n, W);
+  wall.loads[0].force.x = -P / 4;
+  SceneDef pinned_wall = fixed_pinned();
+  pinned_wall.joints[0].overrides.moment = 0;
+  pinned_wall.loads = pins.loads;
+  SceneDef clamp = pins;
+  clamp.supports[0].fix_angle = true;
+  clamp.supports.pop_back();
+  clamp.loads = wall.loads;
+  SceneDef turning = clamp;
+  turning.supports[0].fix_angle = false;
+  turning.supports[0].stiffness_angle = 20 * EI / L;
+
+  const Frame f;  // a gable, of members that slope by 1 to 2
+  const double t = f.t / 2, c = t / std::sqrt(5), l = f.l, ridge = f.h + l / 4;
+  SceneDef gable = bending_only();
+  gable.bodies = {
+      f.member("left", rectangle(-t, 0, t, f.h), {0, 0}, {0, f.h}),
+      f.member("rise",
+               {{c, f.h - 2 * c}, {l / 2 + c, ridge - 2 * c}, {l / 2 - c, ridge + 2 * c}, {-c, f.h + 2 * c}},
+               {0, f.h}, {l / 2, ridge}),
+      f.member("fall",
+               {{l / 2 - c, ridge - 2 * c},
+                {l - c, f.h - 2 * c},
+                {l + c, f.h + 2 * c},
+                {l / 2 + c, ridge + 2 * c}},
+               {l / 2, ridge}, {l, f.h}),
+      f.member("right", rectangle(l - t, 0, l + t, f.h), {l, 0}, {l, f.h})};
+  for (const auto& [a, b, at] : {std::tuple("left", "rise", Point{0, f.h}),
+                                 {"rise", "fall", Point{l / 2, ridge}},
+                                 {"fall", "right", Point{l, f.h}}}) {
+    gable.joints.push_back({.a = a, .b = b, .at = at});
+    gable.joints.back().overrides.moment = unlimited;
+  }
+  gable.supports = {{.body = "left", .at = {0, 0}, .fix_x = true, .fix_y = true, .fix_angle = true},
+                    {.body = "right", .at = {l, 0}, .fix_x = true, .fix_y = true}};
+  const double heavy = 0.3 * f.stiffness() / (f.h * f.h);
+  gable.loads = {{.body = "rise", .at = {l / 2, ridge}, .force = {0, -heavy}},
+                 {.body = "left", .at = {0, f.h}, .force = {heavy / 10, -2 * heavy}}};
+
+  struct Case {
+    const char* what;
+    SceneDef scene;
+    std::vector<double> Q;  // of each support, where it is known
+  };
+  for (const auto& [what, scene, Q] :
+       {Case{"pins", pins, {-W / 2, -W / 2}}, Case{"a spring across", sprung, {-W, 2 * W}},
+        Case{"a clamp", clamp, {-W}}, Case{"a spring that turns", turning, {-W}}, Case{"a wall", wall, {}},
+        Case{"a pin on a wall", pinned_wall, {-W / 2}}, Case{"a gable", gable, {}}}) {
+    const Plan plan = slender(scene);
+    const StaticCheck check = static_check(plan, Order::second);
+    Point carried, loads;
+    double largest = 0;
+    std::vector<double> across;
+    for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+      const PlannedJoint& joint = plan.joints[i];
+      if (joint.a >= 0 && plan.is_dynamic(joint.a)) continue;
+      const StaticJoint& has = check.joints[i];
+      const double turn = joint.a < 0 ? 0 : check.turn[static_cast<std::size_t>(joint.b)] / 2;
+      const Point axis{joint.axis.x - turn * joint.axis.y, joint.axis.y + turn * joint.axis.x};
+      carried.x += has.N * axis.x - has.Q * axis.y;
+      carried.y += has.N * axis.y + has.Q * axis.x;
+      if (joint.a < 0) across.push_back(has.Q);
+    }
+    for (const LoadDef& load : scene.loads) {
+      loads.x += load.force.x;
+      loads.y += load.force.y;
+      largest = std::max(largest, std::hypot(load.force.x, load.force.y));
+    }
+    EXPECT_NEAR(carried.x, loads.x, 1e-5 * largest) << what;
+    EXPECT_NEAR(carried.y, loads.y, 1e-5 * largest) << what;
+    for (std::size_t i = 0; i < Q.size(); ++i) EXPECT_NEAR(across[i], Q[i], 1e-3 * W) << what << i;
   }
 }
 

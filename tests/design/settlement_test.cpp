@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "ductile/design.h"
 #include "ductile/simulation.h"
@@ -87,6 +89,112 @@ TEST(Settlement, OfASpring) {
   const Plan plan = calibrate(scene);
   const double R = 0.01 * 3 * EI / L / L / L / 2;
   EXPECT_NEAR(std::abs(at(plan, static_check(plan, Order::second), "support/0").Q) / R, 1, 1e-6);
+}
+
+// --- grounds that move under a column: k² = P/EI, φ = kL ---
+
+// Holds the column at s from its foot, and moves `by` to its left and by `turn`.
+struct Held {
+  double s;
+  bool along = false, across = false, angle = false;
+  double by = 0, turn = 0;
+  double spring_across = 0, spring_angle = 0;
+};
+// What it carries across the column, to the left, and its moment.
+struct Reaction {
+  double Q, M;
+};
+
+// From (0, 0) to the right, or up, under P at its end.
+SceneDef column(const std::vector<Held>& held, double P, bool upright) {
+  const auto turned = [&](Point p) { return upright ? Point{-p.y, p.x} : p; };
+  SceneDef scene = bending_only();
+  scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+  scene.bodies = {beam(20)};
+  if (upright) scene.bodies[0].outline = {rectangle(-0.5, 0, 0.5, L), {}};
+  scene.bodies[0].along = {Point{}, turned({L, 0})};
+  for (const Held& h : held) {
+    SupportDef support{.body = "beam", .at = turned({h.s, 0}), .fix_angle = h.angle};
+    (upright ? support.fix_y : support.fix_x) = h.along;
+    (upright ? support.fix_x : support.fix_y) = h.across;
+    (upright ? support.stiffness_x : support.stiffness_y) = h.spring_across;
+    support.stiffness_angle = h.spring_angle;
+    const Point by = turned({0, h.by});
+    support.displacement = {by.x, by.y, h.turn};
+    scene.supports.push_back(support);
+  }
+  scene.loads = {{.body = "beam", .at = turned({L, 0}), .force = turned({-P, 0})}};
+  return scene;
+}
+
+// Forces act where the grounds have gone: a column that goes with them carries nothing across, one that leans
+// P δ/L, and one that is bent by them what the equation of beam-columns says, (y'' + k² y)'' = 0.
+TEST(Settlement, UnderAColumn) {
+  const double d = 0.02, turn = 1e-3, k = 0.3 * EI / L / L / L, c = 6 * EI / L;
+  const Held pin{.s = 0, .along = true, .across = true},
+      clamp{.s = 0, .along = true, .across = true, .angle = true}, top{.s = L, .across = true};
+  const auto moved = [](Held held, double by, double turn = 0) {
+    held.by = by;
+    held.turn = turn;
+    return held;
+  };
+  Held foot = pin;
+  foot.spring_angle = c;
+  foot.turn = turn;
+  for (const double phi : {0.3, 0.5, 1.2}) {
+    const double P = phi * phi * EI / L / L, lean = P * d / L, t = L * std::tan(phi) / phi;
+    const double H = lean / (std::tan(phi) / phi - 1), sprung = k * d * P / (k * L - P);
+    struct Case {
+      std::string what;
+      std::vector<Held> held;
+      std::vector<Reaction> reactions;
+    };
+    std::vector<Case> cases = {
+        {"pins that both move", {moved(pin, d), moved(top, d)}, {{0, 0}, {0, 0}}},
+        {"a clamped foot that moves", {moved(clamp, d)}, {{0, 0}}},
+        {"a head that moves, on a pin", {pin, moved(top, d)}, {{-lean, 0}, {lean, 0}}},
+        {"a foot that moves, a pin", {moved(pin, d), top}, {{lean, 0}, {-lean, 0}}},
+        {"a head that is pushed", {clamp, moved(top, d)}, {{H, H * L + P * d}, {-H, 0}}},
+        {"a clamped foot that is pushed", {moved(clamp, d), top}, {{-H, -H * L - P * d}, {H, 0}}},
+        {"a foot that turns", {moved(clamp, 0, turn)}, {{0, P * turn * t}}},
+        {"a foot that turns on a spring", {foot}, {{0, P * turn * t * c / (c - P * t)}}}};
+    if (P < k * L)  // on which it leans
+      cases.push_back({"a spring whose ground moves",
+                       {pin, {.s = L, .by = d, .spring_across = k}},
+                       {{-sprung, 0}, {sprung, 0}}});
+    for (const Case& each : cases)
+      for (const bool upright : {false, true}) {
+        const StaticCheck check = static_check(calibrate(column(each.held, P, upright)), Order::second);
+        for (std::size_t i = 0; i < each.held.size(); ++i) {
+          const StaticJoint& support = check.joints.at(check.joints.size() - each.held.size() + i);
+          const Reaction& exact = each.reactions[i];
+          EXPECT_NEAR(upright ? -support.N : support.Q, exact.Q, 1e-3 * std::max(std::abs(exact.Q), lean))
+              << each.what << i << upright << phi;
+          EXPECT_NEAR(support.M, exact.M, 1e-3 * std::max(std::abs(exact.M), P * d))
+              << each.what << i << upright << phi;
+        }
+      }
+  }
+}
+
+// Its head pushed as far as it buckles on one hinge, a column leans on what pushes it: λ P λ δ + M_p = H L,
+// with the hinge at its foot. Of second order check() has it yield where the hinges begin to form.
+TEST(Settlement, PushesAColumnUntilItGoes) {
+  const double P = EI / L / L / 2;
+  SceneDef scene =
+      column({{.s = 0, .along = true, .across = true, .angle = true}, {.s = L, .across = true, .by = 0.3}}, P,
+             false);
+  const Plan plan = calibrate(scene);
+  const Pushover pushed = second_order_limit(plan);
+  ASSERT_FALSE(pushed.hinges.empty());
+  EXPECT_NEAR(static_check(plan, Order::second).reserve / pushed.hinges.front().factor, 1, 5e-3);
+  const std::array<double, 3> foot =
+                                  pushed.forces.at(static_cast<std::size_t>(joint_named(plan, "support/0"))),
+                              head =
+                                  pushed.forces.at(static_cast<std::size_t>(joint_named(plan, "support/1")));
+  const double by = 0.3 * pushed.load_factor;
+  EXPECT_NEAR(foot[1] + head[1], 0, 1e-6 * std::abs(head[1]));
+  EXPECT_NEAR((foot[2] + head[1] * L) / (pushed.load_factor * P * by), 1, 1e-2) << "half a piece is rigid";
 }
 
 // A support that moves in 4 s, as it is at rest afterwards.

@@ -335,6 +335,33 @@ TEST(Picture, ARopePullsWhereItIsFixed) {
   EXPECT_GT(stations, 16u);
 }
 
+// In the deformed state: all of the beam turned by 0.1, the joint to the wall by half of that, and the load
+// not.
+TEST(Picture, DiagramsOfPiecesThatHaveTurned) {
+  Plan plan = beam();
+  plan.gravity = {};
+  const double turn = 0.1;
+  std::vector<Motion> gone;
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    gone.push_back({{}, plan.is_dynamic(static_cast<int>(i)) ? turn : 0});
+  std::vector<JointReading> joints;
+  for (const PlannedJoint& joint : plan.joints) {
+    const double of_axis = plan.is_dynamic(joint.a) ? turn : turn / 2;
+    joints.push_back({.N = -2e3 * std::sin(of_axis),
+                      .Q = -2e3 * std::cos(of_axis),
+                      .M = -2e3 * std::cos(turn) * (4 - joint.anchor.x)});
+  }
+  const std::vector<picture::Strip> strips = picture::strips(plan, joints, gone);
+  ASSERT_EQ(strips.size(), 4u);
+  for (const picture::Strip& strip : strips)
+    for (const picture::Station& s : strip.stations) {
+      if (s.at.x > 4 - 1e-9) continue;  // beyond the load
+      EXPECT_NEAR(s.N, -2e3 * std::sin(turn), 1e-6) << s.at.x;
+      EXPECT_NEAR(s.Q, -2e3 * std::cos(turn), 1e-6) << s.at.x;
+      EXPECT_NEAR(s.M, -2e3 * std::cos(turn) * (4 - s.at.x), 1e-6) << s.at.x;
+    }
+}
+
 // Forty equal loads along a bar: some are labelled, and no label lies on another.
 TEST(Picture, EqualLoadsInARowShareLabels) {
   Plan plan = beam();

@@ -229,6 +229,28 @@ TEST(CheckCommand, ASupportThatSettles) {
   expect_bad_input(run("check " + folder.write("b.json", text)), "has 2 numbers; write [x, y, angle]");
 }
 
+// A column of 6 m on pins under 100 kN, pushed by 2 kN in the middle: 1 kN at each end, whatever it sways,
+// and nothing beside that where both ends are moved by 50 mm.
+TEST(CheckCommand, SupportsOfSecondOrderCarryWhatActs) {
+  const Folder folder;
+  for (const char* by : {"[0,0,0]", "[0.05,0,0]"}) {
+    const std::string moved = std::string(R"(, "displacement": )") + by + "}";
+    const std::string scene = folder.write(
+        "a.json", R"({"gravity": [0,0], "bodies": [{"name": "c", "depth": 0.1, "material": "S355",
+            "outline": [[-0.05,0],[0.05,0],[0.05,6],[-0.05,6]], "split": {"pieces": 20}}],
+          "loads": [{"body": "c", "at": [0,3], "force": [2e3,0]}, {"body": "c", "at": [0,6], "force": [0,-100e3]}],
+          "supports": [{"body": "c", "at": [0,0], "fix": ["x","y"])" +
+                      moved + R"(, {"body": "c", "at": [0,6], "fix": ["x"])" + moved + "]}");
+    const json check = run("check " + scene + " --second-order --json").json();
+    for (const char* support : {"support/0", "support/1"}) {
+      const auto joint = std::find_if(check["joints"].begin(), check["joints"].end(),
+                                      [&](const json& each) { return each["name"] == support; });
+      ASSERT_NE(joint, check["joints"].end());
+      EXPECT_NEAR((*joint)["N"].get<double>(), 1e3, 0.1) << support << by;
+    }
+  }
+}
+
 TEST(CheckCommand, WhatCannotStandIsBadInput) {
   const Folder folder;
   expect_bad_input(run("check " + folder.write("loose.json", cantilever(""))), "no joint holds");

@@ -55,9 +55,11 @@ enum class Order {
 /// InvalidInput where the loads move a mechanism, or nothing is held.
 ///
 /// Of second order, joints that stand for bars bend as those do between the middles of pieces (bars.h):
-/// beam-columns, not springs between rigid pieces. Where the structure buckles at less than the loads, they
-/// have no state to tell of, and forces, usage and displacements are NaN. `yields_at` of all but the first is
-/// interpolated between states up to the critical load, beyond which it is unlimited.
+/// beam-columns, not springs between rigid pieces. N and Q are then along axes that have turned as those of a
+/// simulation do, with the mean of a joint's two bodies; a support's axis has not. Where the structure
+/// buckles at less than the loads, they have no state to tell of, and forces, usage and displacements are
+/// NaN. `yields_at` of all but the first is interpolated between states up to the critical load, beyond which
+/// it is unlimited.
 StaticCheck static_check(const Plan& plan, Order order = Order::first);
 
 /// Elastic buckling.

@@ -33,6 +33,7 @@ struct Panel {
   /// shear forces, positive as the joints' above the line, or left of one that stands; moments on the side in
   /// tension.
   std::optional<Row> diagram;
+  std::vector<Motion> gone;  ///< by Plan::pieces: the diagram's equilibrium is in that state; empty: as drawn
 };
 
 /// The round number (1, 2 or 5 times a power of ten) by which displacements are seen best: the largest is

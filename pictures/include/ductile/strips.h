@@ -22,8 +22,10 @@ struct Strip {
 };
 
 /// By equilibrium of each moving piece under its joints' forces, the plan's loads at their full size, and its
-/// weight, evenly along a straight piece. Pieces that are neither cut nor long, as discs and blocks, have
-/// none.
-std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints);
+/// weight, evenly along a straight piece, as drawn, or along axes that have turned by small motions (by
+/// Plan::pieces; empty: none), as joints' do, and supports' and the world's do not. Pieces that are neither
+/// cut nor long, as discs and blocks, have none.
+std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints,
+                          const std::vector<Motion>& motions = {});
 
 }  // namespace ductile::picture
