@@ -331,6 +331,21 @@ TEST(CalibrateCommand, WritesEveryKindOfDefinition) {
   EXPECT_EQ(json::parse(slurp(folder / "box2d"))["joints"].size(), 4u);
 }
 
+// No other program moves them: each format says so.
+TEST(CalibrateCommand, GroundsStandStillInOtherPrograms) {
+  const Folder folder;
+  const std::string scene = folder.write("a.json", cantilever(R"(,
+      "supports": [{"body": "beam", "at": [20,0.5], "fix": ["y"], "displacement": [0, -1e-3, 0]}])"));
+  for (const auto& [to, said] :
+       {std::pair("box2d", "the ground of support/0 does not move"),
+        std::pair("cpp", "the ground of support/0 does not move"),
+        std::pair("rube", "'support/0' is written as R.U.B.E. has it: its ground does not move")}) {
+    const Ran ran = run("calibrate " + scene + " --to " + to);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_NE((ran.out + ran.err).find(said), std::string::npos) << to << ran.err;
+  }
+}
+
 TEST(CalibrateCommand, RefusesWhatBox2DCannotHold) {
   const Folder folder;
   const std::string thin = folder.write(
