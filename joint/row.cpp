@@ -37,7 +37,7 @@ RowLaw make_law(const Material& material, const Rows& m_eff, double h, const Int
       delta = std::min(delta, limit / (h * h * k));
       const bool unresolved = h * h * k > unresolved_ratio * m_eff[i] && !special(i);
       if (least < 1 && ((unresolved && ((how.halts >> i & 1u) != 0 || (i < 2 && least > 0))) ||
-                        (i < 2 && h * h * k > stiff_ratio * m_eff[i]))) {
+                        (i < 2 && h * h * k > how.stiff_from * m_eff[i]))) {
         delta = 1;
       } else {
         shared = std::max(shared, std::min(of_damper, delta));

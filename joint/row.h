@@ -50,7 +50,8 @@ inline constexpr double rigid_ratio = 1e9;
 
 /// Axial and shear springs beyond so many m_eff/h² are integrated by implicit Euler: only chains of 500 and
 /// more of them have a vibration that the step resolves, and what bodies part by as they turn, r(ωh)²/2, must
-/// not ring in them.
+/// not ring in them. Where a body is lighter than what it joins, as a truss's gusset, that is what the spring
+/// moves: the masses are those of the heaviest bodies that are joined to each.
 inline constexpr double stiff_ratio = 1e5;
 
 /// Likewise beyond so many m_eff/h² where steps vary or bodies turn far in one: what parts them then is not
@@ -132,6 +133,7 @@ struct Integration {
   double delta = 1;                 // δ at least, of axial and shear rows
   double delta_rotation = 1;        // likewise, of rotation rows
   double rigid_from = rigid_ratio;  // m_eff/h²: stiffer springs are rigid
+  double stiff_from = stiff_ratio;  // likewise: stiffer axial and shear springs are implicit
   unsigned halts = 0;               // rows, one bit each, whose forces stop growing in the step
 };
 

@@ -92,7 +92,8 @@ void forget_infinite(Joint& j) {
 void StepLaws::set_law(Joint& j, JointRecord& r) const {
   r.law = make_law(r.material, r.m_eff, h_,
                    {std::min(of_step_ + r.turn_guard.delta, 1.0),
-                    std::min(of_step_ + rotation_share * of_contacts_.delta, 1.0), elastic_ratio, r.halts});
+                    std::min(of_step_ + rotation_share * of_contacts_.delta, 1.0), elastic_ratio,
+                    stiff_ratio * r.lightness, r.halts});
   take_law(j, r.law);
 }
 

@@ -27,6 +27,13 @@ void System::form(std::size_t free_bodies, std::size_t first) {
     b.inverse_mass = 1 / b.mass;
     b.inverse_inertia = b.inertia > 0 ? 1 / b.inertia : 0;
   }
+  Vector<double> beside(free);
+  for (std::size_t i = 0; i < free; ++i) beside[i] = bodies[i].mass;
+  for (const Joint& j : joints) {
+    if (!is_free(j.a) || !is_free(j.b)) continue;
+    beside[z(j.a)] = std::max(beside[z(j.a)], bodies[z(j.b)].mass);
+    beside[z(j.b)] = std::max(beside[z(j.b)], bodies[z(j.a)].mass);
+  }
   for (std::size_t k = first; k < joints.size(); ++k) {
     const Joint& j = joints[k];
     // 1/m_eff = J M⁻¹ Jᵀ with the anchors together
@@ -45,6 +52,8 @@ void System::form(std::size_t free_bodies, std::size_t first) {
     const Rows inverse_m{ma + mb + ia * ca * ca + ib * cb * cb, ma + mb + ia * la * la + ib * lb * lb,
                          ia + ib};
     for (unsigned i = 0; i < 3; ++i) record(j).m_eff[i] = inverse_m[i] > 0 ? 1 / inverse_m[i] : 0;
+    const auto inverse_beside = [&](int body) { return is_free(body) ? 1 / beside[z(body)] : 0; };
+    record(j).lightness = ma + mb > 0 ? (ma + mb) / (inverse_beside(j.a) + inverse_beside(j.b)) : 1;
   }
 }
 

@@ -152,12 +152,14 @@ struct JointRecord {
   Rows stored{};      // J: elastic, half a step before the last step's end, when a ledger is kept
   Rows strain{}, strain_before{};  // m or rad: that this is the energy of, and that of a step before
   Material material;
-  Rows m_eff{};     // effective masses of the rows at rest, kg or kg m²
+  Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
+  /// How many times as heavy its bodies would be, were each of them the heaviest that is joined to it.
+  double lightness = 1;
   double held = 1;  // share of this step's flow after which the joint breaks
 
   void keep(Tape& tape) {
     tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, halts, plastic, dissipated,
-         stored, strain, strain_before, drive_rate);
+         stored, strain, strain_before, drive_rate, lightness);
   }
 };
 

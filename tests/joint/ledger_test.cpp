@@ -248,7 +248,7 @@ TEST(Ledger, DampersOfASwingTakeWhatItsPullStrainsThemBy) {
 }
 
 // Implicit Euler damps a vibration as a damper k h would. Of that a damper c takes c/kh, and the rest is
-// numerical; all of it at steps that resolve the speck between the spring and the mass.
+// numerical; all of it at steps that resolve the specks at both ends of the spring.
 TEST(Ledger, DampersOfImplicitRowsTakeTheirShare) {
   const double mass = 1000, omega = 6, k = mass * omega * omega, time = 10;
   for (const double hz : {60., 4000.}) {
@@ -257,16 +257,19 @@ TEST(Ledger, DampersOfImplicitRowsTakeTheirShare) {
       world.SetAllowSleeping(false);
       Structure structure(world, {.keep_ledger = true});
       b2Body* wall = add_box(world, {.x = -0.5, .type = b2_staticBody});
-      b2Body* speck = add_box(world, {.x = 0.5, .mass = 5e-5f});
-      b2Body* block = add_box(world, {.x = 1.5, .mass = static_cast<float>(mass)});
+      b2Body* specks[2];
+      for (int i : {0, 1}) specks[i] = add_box(world, {.x = 0.5 + i, .mass = 5e-5f});
+      b2Body* block = add_box(world, {.x = 2.5, .mass = static_cast<float>(mass)});
       ElasticPlasticJointDef def;
-      def.Initialize(speck, block, {1, 0}, {1, 0});
+      def.Initialize(wall, specks[0], {0, 0}, {1, 0});
       structure.create_joint(def);
-      def.Initialize(wall, speck, {0, 0}, {1, 0});
+      def.Initialize(specks[1], block, {2, 0}, {1, 0});
+      structure.create_joint(def);
+      def.Initialize(specks[0], specks[1], {1, 0}, {1, 0});
       def.rows[axial] = {.stiffness = k};
       def.rows[axial].damping = c;
       structure.create_joint(def);
-      for (b2Body* b : {speck, block}) b->SetLinearVelocity({0.1f, 0});
+      for (b2Body* b : {specks[1], block}) b->SetLinearVelocity({0.1f, 0});
       for (int i = 0; i < time * hz; ++i) {
         world.Step(static_cast<float>(1 / hz), 8, 3);
         structure.update();

@@ -799,6 +799,43 @@ TEST(Motion, OneJointSwingsAtItsFrequencyAndRatio) {
   }
 }
 
+// A block on two springs in series, with a gusset between them that is ten million times as light, swings as
+// on one of half of their stiffness: no step resolves the gusset, but what the springs move is the block.
+TEST(Motion, GussetsDampNothing) {
+  constexpr double mass = 100, frequency = 2, omega = 2 * pi * frequency, hz = 60;
+  b2World world({0, 0});
+  world.SetAllowSleeping(false);
+  Structure structure(world);
+  b2Body* wall = add_box(world, {.x = -0.5, .type = b2_staticBody});
+  b2Body* gusset = add_box(world, {.x = 0.5, .mass = 1e-7 * mass});
+  b2Body* block = add_box(world, {.x = 1.5, .mass = mass});
+  const auto join = [&](b2Body* a, b2Body* b, double x) {
+    ElasticPlasticJointDef def;
+    def.Initialize(a, b, vec(x, 0), {1, 0});
+    def.rows[axial] = {.stiffness = 2 * mass * omega * omega};
+    structure.create_joint(def);
+  };
+  join(wall, gusset, 0);
+  join(gusset, block, 1);
+  for (b2Body* b : {gusset, block}) b->SetLinearVelocity(vec(b == block ? 1 : 0.5, 0));
+  std::vector<double> crossings;
+  double last = 0, first_peak = 0, peak = 0;
+  for (int i = 0; i < 10 / frequency * hz; ++i) {
+    world.Step(static_cast<float>(1 / hz), 8, 3);
+    structure.update();
+    const double x = block->GetPosition().x - 1.5;
+    if (last < 0 && x >= 0) crossings.push_back(i - x / (x - last));
+    if (i == std::lround(hz / frequency)) first_peak = std::exchange(peak, 0);
+    if (i >= 9 / frequency * hz || first_peak == 0) peak = std::max(peak, x);
+    last = x;
+  }
+  ASSERT_GT(crossings.size(), 8u);
+  const double phi = omega / hz;  // the average acceleration method makes a period longer by φ²/12
+  EXPECT_NEAR(8 * hz / (crossings[8] - crossings[0]) / frequency, 1 - phi * phi / 12, 1e-3);
+  EXPECT_NEAR(first_peak, 1 / omega, 0.02 / omega);
+  EXPECT_NEAR(std::log(first_peak / peak) / (2 * pi * 9), 0, 0.002);
+}
+
 double step_of(int sequence, int i) {
   switch (sequence) {
     case 0:
