@@ -111,6 +111,7 @@ std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& alon
 }
 
 bool share_a_neighbour(const b2Body& a, const b2Body& b) {
+  if (a.GetType() != b2_dynamicBody || b.GetType() != b2_dynamicBody) return false;
   for (const b2JointEdge* to = a.GetJointList(); to != nullptr; to = to->next) {
     if (to->other->GetType() != b2_dynamicBody) continue;
     for (const b2JointEdge* on = b.GetJointList(); on != nullptr; on = on->next)

@@ -152,8 +152,9 @@ bool is_end_of_face(const b2Manifold& manifold, const b2ManifoldPoint& point);
 /// From where to where a polygon and its skin reach in a direction.
 std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& along);
 
-/// Whether two bodies are joined to the same third, which moves: at a corner pieces on both sides of a hinge
-/// touch as it turns. Non-penetration there, exact to the last bit, would be a moment beside the joint's own.
+/// Whether two bodies that move are joined to the same third, which moves: at a corner pieces on both sides
+/// of a hinge touch as it turns. Non-penetration there, exact to the last bit, would be a moment beside the
+/// joint's own. What strikes the wall that its neighbour hangs on does so away from both joints.
 bool share_a_neighbour(const b2Body& a, const b2Body& b);
 
 /// Takes the impulses that a constraint's points hold as they are: no iteration changes them or a velocity.

@@ -1183,6 +1183,37 @@ TEST(SolvedInParts, OfADeckThatFoldsGivesNoEnergy) {
   }
 }
 
+// A bar of 5 m swings down about a pin on a wall that reaches 1 m below it, and its second piece strikes the
+// wall's edge. (It was left to Box2D, as a corner of what shares a neighbour: nothing yielded.)
+TEST(SolvedInParts, WhereAnArmSwingsIntoItsWall) {
+  const auto plastic_work = [](double hz) {
+    constexpr double h = 0.1, l = 5.0 / 6;
+    b2World world({0, -10});
+    Structure structure(world);
+    b2Body* last = add_box(world, {.x = -0.5, .height = 2, .type = b2_staticBody, .group = 0});
+    for (int i = 0; i < 6; ++i) {
+      b2Body* piece =
+          add_box(world, {.x = (i + 0.5) * l, .y = 0, .width = l, .height = h, .mass = 7850 * h * h * l});
+      ElasticPlasticJointDef def;
+      def.Initialize(last, piece, vec(i * l, 0), {1, 0});
+      make_steel(def, h, h, i > 0 ? l : l / 2);
+      if (i == 0) def.rows[rotation] = RowDef::free();
+      structure.create_joint(def);
+      last = piece;
+    }
+    for (int i = 0; i < 2 * hz; ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+    }
+    double work = 0;
+    for (const ElasticPlasticJoint* j : structure.joints()) work += j->dissipated();
+    return work;
+  };
+  const double fine = plastic_work(3840);
+  ASSERT_GT(fine, 1000);
+  for (const double hz : {30., 60., 120.}) EXPECT_NEAR(plastic_work(hz), fine, 0.15 * fine) << hz;
+}
+
 // A chain of rigid pieces between fixed points cannot leave its line: if all that a crate brings were stored
 // in its seven rows as a part of the blow has them, k = 10⁹ m_eff/h², it would be longer by e = √(2·7 E/k) =
 // 1.4 μm, and its middle go √(el/2) = 2.1 mm. A crate that comes down on an edge turns so far that a whole
