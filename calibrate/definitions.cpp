@@ -47,7 +47,7 @@ void list_what_no_stock_joint_does(std::vector<std::string>& lost, const Planned
   if (std::min({j.max_rotation, j.max_elongation, j.max_compression, j.max_slip}) < unlimited)
     lost.push_back("it never breaks");
   if (j.rate) lost.push_back("it carries no more where it yields fast");
-  if (j.displacement != std::array<double, 3>{}) lost.push_back("its ground does not move");
+  if (j.ground_moves()) lost.push_back("its ground does not move");
   if (j.drive && (j.end || j.drive->row == axial)) lost.push_back("it is not driven");
 }
 

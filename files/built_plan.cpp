@@ -43,7 +43,7 @@ std::vector<std::string> lost_in_definitions(const Plan& plan) {
                    " is not there: apply it before each step");
   }
   for (const PlannedJoint& joint : plan.joints)
-    if (joint.displacement != std::array<double, 3>{})
+    if (joint.ground_moves())
       lost.push_back("the ground of " + joint.name + " does not move: drive its rows");
   for (const PlannedJoint& joint : plan.joints)
     if (joint.drive && (joint.drive->from > 0 || joint.drive->ramp > 0))

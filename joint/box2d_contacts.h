@@ -154,7 +154,8 @@ std::pair<float, float> extent(const b2PolygonShape& polygon, const b2Vec2& alon
 
 /// Whether two bodies that move are joined to the same third, which moves: at a corner pieces on both sides
 /// of a hinge touch as it turns. Non-penetration there, exact to the last bit, would be a moment beside the
-/// joint's own. What strikes the wall that its neighbour hangs on does so away from both joints.
+/// joint's own. A wall does not move: a piece that strikes the one which its neighbour hangs on does so away
+/// from the joints of both.
 bool share_a_neighbour(const b2Body& a, const b2Body& b);
 
 /// Takes the impulses that a constraint's points hold as they are: no iteration changes them or a velocity.

@@ -250,8 +250,8 @@ bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at
     at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v += z_[i]; });
   };
   const auto is_solved = [&] { return at.gradient2 <= target(system, at); };
-  // What touches comes and goes, and by contacts that are thought to pull, joints go far beyond their
-  // surfaces, which tells nothing of where they flow next: contacts are found first.
+  // Contacts come and go from part to part. One that is thought to pull takes joints far beyond their
+  // surfaces, which tells nothing of where they flow next: so contacts are found first.
   for (std::size_t least = regimes_.size();;) {
     take_regimes(system);
     factor();
@@ -266,26 +266,27 @@ bool Newton::start_from_regimes(System& system, Hessian& hessian, Evaluation& at
     if (flows_.empty() || others == 0 || others >= least) break;
     least = others;
   }
-  // On surfaces s turns as it goes along, and no count of rows tells when that ends: f does.
-  for (double lowest = objective(system, at); !flows_.empty() && !is_solved();) {
-    factor();
-    go(g_);
-    const double now = objective(system, at);
-    if (now < lowest || is_solved()) {
+  if (!flows_.empty()) {
+    // On surfaces s turns as it goes along, and no count of rows tells when that ends: f does.
+    for (double lowest = objective(system, at); !is_solved();) {
+      factor();
+      go(g_);
+      const double now = objective(system, at);
+      if (!(now < lowest) && !is_solved()) {
+        at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v -= z_[i]; });
+        break;
+      }
       lowest = now;
-    } else {
-      at = evaluate(system, g_, [this](std::size_t i, Body& b) { b.v -= z_[i]; });
-      break;
     }
-  }
-  if (!flows_.empty() && is_solved()) return true;
-  // As in InteriorPoint::settle(): the system is solved again with what that shows of regimes, for as long as
-  // there is less and less of it.
-  for (int least = std::numeric_limits<int>::max();
-       flows_.empty() && at.crossed && at.changed > 0 && at.changed < least;) {
-    least = at.changed / 2 + 1;
-    factor();
-    go(g_);
+    if (is_solved()) return true;
+  } else {
+    // As in InteriorPoint::settle(): the system is solved again with what that shows of regimes, for as long
+    // as there is less and less of it.
+    for (int least = std::numeric_limits<int>::max(); at.crossed && at.changed > 0 && at.changed < least;) {
+      least = at.changed / 2 + 1;
+      factor();
+      go(g_);
+    }
   }
   // Where it is the solution, a second step mends what rounding leaves of a row that was far from it.
   if (!at.crossed && !is_solved()) go(g_);
@@ -337,8 +338,11 @@ Solution Newton::solve(System& system, Hessian& hessian, const Evaluation& last,
       regimes_[k] = system.joints[k].regime;
       if (regimes_[k] != on_surface) continue;
       const JointRecord& r = system.records[k];
-      had_regimes &= r.law.surface != nullptr;
-      flows_.push_back({k, r.x, {}});
+      if (r.law.surface != nullptr) {
+        flows_.push_back({k, r.x, {}});
+      } else {
+        had_regimes = false;  // that solve did not end
+      }
     }
   }
   Evaluation at = last;

@@ -98,9 +98,9 @@ class Newton {
   Vector<std::uint8_t> regimes_;  // of the joints, in the last solution
   struct Flow {
     std::size_t joint;
-    Rows x, s;
+    Rows x, s;  // J v + b in the last solution, and the impulses that answer it
   };
-  Vector<Flow> flows_;  // of the joints that were on a yield surface in it
+  Vector<Flow> flows_;  // of the joints that were on a yield surface in the last solution
   struct Kink {
     std::size_t joint;
     Rows y;  // J d

@@ -188,8 +188,8 @@ void Projection::take_neutral(System& system, bool kept, double trifle, double r
   }
 }
 
-// Whether the push draws lines taut that were slack. They hold in the next try, and are as long as they are
-// at rest: the next part of a step would close what they are longer by within a thousandth of a second.
+// Whether the push draws lines taut that were slack. These hold in the next try, as long as they are at rest:
+// what they would be longer by, the next part of a step would close within a thousandth of a second.
 bool Projection::draws_taut(System& system) const {
   bool any = false;
   for (const int at : system.slackening) {

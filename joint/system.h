@@ -153,7 +153,7 @@ struct JointRecord {
   Rows strain{}, strain_before{};  // m or rad: that this is the energy of, and that of a step before
   Material material;
   Rows m_eff{};  // effective masses of the rows at rest, kg or kg m²
-  /// How many times as heavy its bodies would be, were each of them the heaviest that is joined to it.
+  // How many times as heavy its bodies would be, were each of them the heaviest that is joined to it.
   double lightness = 1;
   double held = 1;  // share of this step's flow after which the joint breaks
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -172,12 +171,11 @@ std::string definitions_of(const Plan& plan, const Options& options) {
     const StockJoint as = options.as == "weld" ? StockJoint::weld : StockJoint::hinge;
     if (is_rube(text)) return calibrated_rube(text, options.scene, as);
     keep_inputs({options.scene.name}, {{"--out", {options.out}}});
-    const std::array<double, 3> still{};
     for (const PlannedJoint& joint : plan.joints)
-      if (joint.end || joint.drive || joint.displacement != still)
+      if (joint.end || joint.drive || joint.ground_moves())
         fmt::print(stderr, "warning: {}: joint '{}' is written as R.U.B.E. has it: {}\n", options.scene.name,
                    joint.name,
-                   joint.displacement != still ? "its ground does not move"
+                   joint.ground_moves() ? "its ground does not move"
                    : joint.end && joint.carries == Carries::tension
                        ? "a rope that is not driven and never yields"
                    : joint.end ? "a bar of that length, which pulls and pushes, and is not driven"

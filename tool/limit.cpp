@@ -33,7 +33,7 @@ bool is_displaced_only(const Plan& plan, const Options& options) {
 std::vector<std::size_t> moved_supports(const Plan& plan) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < plan.joints.size(); ++i)
-    if (plan.joints[i].displacement != std::array<double, 3>{}) moved.push_back(i);
+    if (plan.joints[i].ground_moves()) moved.push_back(i);
   return moved;
 }
 

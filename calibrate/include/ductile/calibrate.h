@@ -256,6 +256,8 @@ struct PlannedJoint {
 
   /// Where the joint is fixed to b.
   Point far_anchor() const { return end.value_or(anchor); }
+  /// Whether it is a support whose ground moves.
+  bool ground_moves() const { return displacement != std::array<double, 3>{}; }
 };
 
 /// What an automatic split came to.
@@ -300,7 +302,7 @@ struct Plan {
   /// Whether a support's ground moves.
   bool settles() const {
     for (const PlannedJoint& j : joints)
-      if (j.displacement != std::array<double, 3>{}) return true;
+      if (j.ground_moves()) return true;
     return false;
   }
   /// Whether forces may depend on which lines are slack, or on how far drives have got.
