@@ -12,6 +12,7 @@
 
 #include "ductile/box2d.h"
 #include "ductile/files.h"
+#include "ductile/moments.h"
 #include "ductile/plane.h"
 
 namespace ductile {
@@ -54,10 +55,30 @@ std::vector<Point> feet(const Ring& ring, double floor) {
   return feet;
 }
 
-/// Can it be split like that, and into what Box2D collides?
-bool stands(const BodyDef& body) {
+/// Does it bend, as a frame does that is drawn as one stroke? Cuts across its long axis would then leave
+/// parts of it whole, or cut them lengthwise. What is straight or solid covers about half of the rectangle
+/// around it that lies along its long axis, as a triangle does, or more.
+bool bends(const Outline& outline) {
+  const AreaMoments m = moments(outline);
+  const LongAxis axis = long_axis(outline, m);
+  double low = 0, high = 0;  // across the axis
+  for (const Point& p : outline.outer) {
+    const double y = cross(axis.direction, p - m.centroid);
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  constexpr double least_of_straight = 0.4;
+  return m.area < least_of_straight * (axis.high - axis.low) * (high - low);
+}
+
+/// Can it be split like that, held as it is, and into what Box2D collides?
+bool stands(const BodyDef& body, const std::vector<SupportDef>& supports) {
   try {
-    for (const Piece& piece : calibrate(body).pieces) {
+    SceneDef alone;
+    alone.bodies = {body};
+    for (const SupportDef& support : supports)
+      if (support.body == body.name) alone.supports.push_back(support);
+    for (const Piece& piece : calibrate(alone).pieces) {
       if (body.collides) shapes(piece);
     }
     return true;
@@ -66,16 +87,21 @@ bool stands(const BodyDef& body) {
   }
 }
 
-/// Up to 8 pieces: a body that cannot be split is still a body; what is too thin for Box2D collides with
-/// nothing.
-BodyDef split(BodyDef body) {
+/// Across its middle line where it bends, else up to 8 pieces: a body that cannot be split is still a body;
+/// what is too thin for Box2D collides with nothing.
+BodyDef split(BodyDef body, const std::vector<SupportDef>& supports) {
   const int whole = body.pieces;
+  const bool bent = bends(body.outline);
   for (const bool collides : {true, false}) {
     body.collides = collides;
+    body.automatic = bent;
+    if (bent && stands(body, supports)) return body;
+    body.automatic = false;
     for (const int pieces : {8, 4, 2, whole}) {
       body.pieces = pieces;
-      if (stands(body)) return body;
+      if (stands(body, supports)) return body;
     }
+    body.pieces = whole;
   }
   return body;
 }
@@ -179,7 +205,7 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit) {
     body.depth = 0.05 * size;
     for (const Point& foot : feet(body.outline.outer, frame.low.y + 1e-6 * size))
       result.scene.supports.push_back({body.name, foot, true, true, true});
-    result.scene.bodies.push_back(split(std::move(body)));
+    result.scene.bodies.push_back(split(std::move(body), result.scene.supports));
     result.too_thin += !result.scene.bodies.back().collides;
   }
   result.heaped = group_heaps(std::span(result.scene.bodies).subspan(1), 1e-3 * size);

@@ -86,14 +86,19 @@ SceneDef scene_of(const SceneFile& file, const std::string& text, const Outputs&
 }
 
 void warn_of_splits(const Plan& plan, const SceneFile& file) {
+  constexpr std::size_t most = 20;  // drawings have bodies by the hundred
+  std::size_t above = 0;
   for (const SplitError& split : plan.split_errors)
-    if (split.governed_by != "target error")
+    if (split.governed_by != "target error" && ++above <= most)
       fmt::print(
           stderr,
           "warning: {}: '{}' is split with a displacement error of {:.2g} %, above the target error: it "
           "is governed by {}\n",
           file.name, plan.bodies[static_cast<std::size_t>(split.body)].name, 100 * split.error,
           split.governed_by);
+  if (above > most)
+    fmt::print(stderr, "warning: {}: {} more are split with an error above the target error\n", file.name,
+               above - most);
 }
 
 Plan plan_of(const SceneFile& file, NotInPlan rest, const Outputs& outputs,

@@ -18,8 +18,8 @@ Opened scene_of(const Drawing& drawing, const std::filesystem::path& file, doubl
   Opened opened;
   if (drawn.scale > 0) opened.note = "The drawing does not say how large it is: it is shown 10 m large. ";
   opened.note +=
-      "Shapes became bodies of S355 in up to 8 pieces, not joined to one another; what reaches the floor is "
-      "held there.";
+      "Shapes became bodies of S355 in pieces, not joined to one another; what reaches the floor is held "
+      "there.";
   if (drawn.too_thin > 0)
     opened.note +=
         " What is thinner than the 0.02 m that Box2D collides touches nothing: a larger scale helps.";

@@ -765,6 +765,37 @@ TEST(DrawnScene, PiecesAreAsFewAsBox2DCanCollide) {
   EXPECT_NO_THROW(build(world, calibrate(drawn.scene)));
 }
 
+// Cuts across the long axis alone would leave the legs of the portal whole, or run along them.
+TEST(DrawnScene, WhatBendsIsSplitAcrossItsMiddleLine) {
+  const Drawing page(
+      drawing("<path id='portal' fill='none' stroke='black' stroke-width='2' d='M10 50L18 10H62L70 50'/>"
+              "<rect id='bar' x='80' y='10' width='2' height='30' transform='rotate(7)'/>"
+              "<path id='wedge' d='M0 0h30v-8z'/><circle id='disc' cx='40' cy='-20' r='5'/>"
+              "<path id='bent' fill='none' stroke='black' d='M0 -30h20v-5'/>"
+              "<circle id='ring' cx='60' cy='-20' r='5' fill='none' stroke='black'/>"),
+      "t.svg");
+  const DrawnScene drawn = drawing_scene(page, 0.1);
+  std::map<std::string, BodyDef> body;
+  for (const BodyDef& each : drawn.scene.bodies) body[each.name] = each;
+  for (const char* bent : {"portal", "bent", "ring"}) {
+    EXPECT_TRUE(body[bent].automatic) << bent;
+    EXPECT_EQ(body[bent].pieces, 1) << bent;
+  }
+  for (const char* straight : {"bar", "wedge", "disc"}) {
+    EXPECT_FALSE(body[straight].automatic) << straight;
+    EXPECT_EQ(body[straight].pieces, 8) << straight;
+  }
+  const Plan plan = calibrate(drawn.scene);
+  double least = unlimited, most = 0;  // heights of the portal's cuts: none runs along a leg
+  for (const PlannedJoint& joint : plan.joints) {
+    if (joint.a < 0 || drawn.scene.bodies[plan.pieces[joint.a].body].name != "portal") continue;
+    least = std::min(least, joint.height);
+    most = std::max(most, joint.height);
+  }
+  EXPECT_NEAR(least, 0.2, 1e-3);
+  EXPECT_LT(most, 0.25);
+}
+
 TEST(DrawnScene, WhatLiesOverAnotherDoesNotCollideWithIt) {
   const Drawing page(
       drawing(

@@ -94,9 +94,10 @@ class Drawing {
 /// Is it a drawing? Told by its first character: what is no drawing is JSON.
 bool is_drawing(std::string_view text);
 
-/// A first scene of a drawing, to look at and to go on from: every shape is a body of S355 in up to 8 pieces,
-/// a twentieth of the drawing thick, above a floor, not joined to the others. What reaches down to the floor
-/// is held there.
+/// A first scene of a drawing, to look at and to go on from: every shape is a body of S355, a twentieth of
+/// the drawing thick, above a floor, not joined to the others: one that bends, as a frame drawn as one stroke
+/// does, is split "auto", a straight or solid one into up to 8 pieces. What reaches down to the floor is held
+/// there.
 struct DrawnScene {
   SceneDef scene;
   double scale = 0;  ///< metres per unit, where the drawing did not say it and it became 10 m large
