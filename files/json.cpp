@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "utf8.h"
+
 namespace ductile {
 namespace {
 
@@ -23,15 +25,6 @@ std::string list(const std::vector<std::string_view>& names) {
   std::string text;
   for (const auto name : names) text.append(text.empty() ? "" : ", ").append(name);
   return text;
-}
-
-/// `line:column` of the byte at `offset`, both from 1.
-std::string line_and_column(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  const auto start = before.rfind('\n');
-  return std::to_string(line) + ":" +
-         std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1);
 }
 
 /// Builds the tree, and refuses what nlohmann's own builder lets pass: repeated keys and endless nesting.
@@ -70,9 +63,16 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         message.starts_with("parse error") && end != std::string_view::npos) {
       message.remove_prefix(end + 2);
     }
-    if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) message = "is empty";
-    problems_.add(line_and_column(text_, position > 0 ? position - 1 : 0), std::string(message),
-                  "write valid JSON");
+    std::size_t at = std::min(position > 0 ? position - 1 : 0, text_.size());
+    const std::string place = line_and_column(text_, at);
+    if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+      problems_.add(place, "is empty", "save it anew, or name another file");
+    } else if (valid_utf8(message) < message.size()) {  // which quotes what it could not read
+      while (at > 0 && (at == text_.size() || static_cast<unsigned char>(text_[at]) < 0x80)) --at;
+      problems_.add(line_and_column(text_, at), "has a byte that is no UTF-8", "save it in UTF-8");
+    } else {
+      problems_.add(place, std::string(message), "write valid JSON");
+    }
     return false;
   }
 

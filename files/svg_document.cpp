@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "utf8.h"
 
 namespace ductile::svg {
 namespace {
@@ -56,6 +59,23 @@ std::optional<Length> page_length(const Node& root, const char* name) {
   if (length.relative) return std::nullopt;
   if (!(length.value > 0)) throw ShapeError(name, "is not > 0", "a drawing has a size");
   return length;
+}
+
+bool is_utf8(std::string_view text) { return valid_utf8(text) == text.size(); }
+
+/// Does its XML declaration say so? The parser knows ISO-8859-1, UTF-8, UTF-16 and UTF-32 alone.
+bool is_windows_1252(std::string_view text) {
+  if (!text.starts_with("<?xml")) return false;
+  std::string declaration(text.substr(0, text.find("?>")));
+  std::transform(declaration.begin(), declaration.end(), declaration.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  const auto at = declaration.find("encoding");
+  if (at == std::string::npos) return false;
+  const auto open = declaration.find_first_of("\"'", at);
+  if (open == std::string::npos) return false;
+  const std::string said =
+      declaration.substr(open + 1, declaration.find(declaration[open], open + 1) - open - 1);
+  return said == "windows-1252" || said == "cp1252" || said == "x-cp1252";
 }
 
 /// The text with what its document type declares, <!ENTITY name "value">, put in for &name;: old files of
@@ -161,19 +181,21 @@ Affine fit(const std::array<double, 4>& box, const Point& frame, std::string_vie
 }
 
 Document::Document(std::string_view data, std::string file) : name(std::move(file)) {
-  const std::string text = with_entities(data, name);
+  const std::string text =
+      with_entities(is_windows_1252(data) ? from_windows_1252(data) : std::string(data), name);
   const auto refuse = [&](const std::string& place, const std::string& what, const std::string& remedy) {
     throw InvalidInput({{name + ":" + place, what, remedy}});
   };
   const auto result = xml.load_buffer(text.data(), text.size());
   if (!result) {
-    const std::string_view before = std::string_view(text).substr(
-        0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const auto start = before.rfind('\n');
-    const auto column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
-    refuse(std::to_string(line) + ":" + std::to_string(column),
+    refuse(line_and_column(text, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
            "is not XML: " + std::string(result.description()), "an SVG drawing is well-formed XML");
+  }
+  if (const std::size_t valid = valid_utf8(text);
+      result.encoding == pugi::encoding_utf8 && valid < text.size()) {
+    refuse(line_and_column(text, valid), "has a byte that is no UTF-8",
+           "save it in UTF-8, or let it begin with what it is in: <?xml version=\"1.0\" "
+           "encoding=\"windows-1252\"?>, iso-8859-1 or UTF-16");
   }
   root = xml.document_element();
   if (local_name(root) != "svg") {
@@ -183,6 +205,13 @@ Document::Document(std::string_view data, std::string file) : name(std::move(fil
     Document& document;
     explicit Walker(Document& to) : document(to) {}
     bool for_each(Node& node) override {
+      bool valid = is_utf8(node.value());
+      for (const auto& attribute : node.attributes()) valid = valid && is_utf8(attribute.value());
+      if (!valid) {
+        const Node of = node.type() == pugi::node_element ? node : node.parent();
+        throw InvalidInput({{document.name + ":" + of.name(), "refers to a character that there is not",
+                             "characters are &#1; to &#x10FFFF; without &#xD800; to &#xDFFF;"}});
+      }
       if (const auto id = node.attribute("id")) document.ids.emplace(id.value(), node);
       if (const auto label = node.attribute("inkscape:label")) document.labels.emplace(label.value(), node);
       const std::string_view media = trimmed(node.attribute("media").value());

@@ -321,7 +321,9 @@ std::string remark_lines(const Plan& plan) {
 }
 
 std::string title_of(const std::string& scene_file) {
-  std::string name = scene_name(scene_file);
+  // A file's name may be any bytes, a picture's title is UTF-8.
+  const std::string valid = Json(scene_name(scene_file)).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string name = Json::parse(valid).get<std::string>();
   std::replace(name.begin(), name.end(), '_', ' ');
   if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return name;

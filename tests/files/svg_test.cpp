@@ -832,6 +832,35 @@ TEST(DrawnScene, EachStretchOnTheFloorIsHeldOnce) {
   }
 }
 
+TEST(Svg, EncodingsAreDecodedOrRefused) {
+  const auto ids = [](const std::string& declared, const std::string& id) {
+    const std::string page = drawing("<rect id='" + id + "' width='9' height='9'/>");
+    return Drawing("<?xml version=\"1.0\"" + declared + "?>" + page.substr(page.find("<svg")), "t.svg").ids();
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(ids("", "B\xC3\xA4r"), Names{"B\xC3\xA4r"});
+  EXPECT_EQ(ids(" encoding='ISO-8859-1'", "B\xE4r"), Names{"B\xC3\xA4r"});
+  EXPECT_EQ(ids(" encoding=\"Windows-1252\" standalone='no'", "B\xE4r \x80"),
+            Names{"B\xC3\xA4r \xE2\x82\xAC"});
+  EXPECT_EQ(ids(" encoding='cp1252'", "Bar"), Names{"Bar"});
+  EXPECT_EQ(ids(" encoding=", "Bar"), Names{"Bar"});
+  const auto refused = [&](const std::string& declared, const std::string& id) -> std::string {
+    try {
+      ids(declared, id);
+      return "";
+    } catch (const InvalidInput& error) {
+      return error.problems().at(0).place + " " + error.problems().at(0).what;
+    }
+  };
+  const std::string what = "has a byte that is no UTF-8";
+  EXPECT_EQ(refused("", "B\xE4r").find("t.svg:1:"), 0u);
+  for (const char* bad : {"B\xE4r", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xFF"})
+    EXPECT_NE(refused("", bad).find(what), std::string::npos) << bad;
+  EXPECT_NE(refused(" encoding='utf-8'", "B\xE4r").find(what), std::string::npos);
+  EXPECT_EQ(refused("", "\xF4\x8F\xBF\xBF\xED\x9F\xBF\xE0\xA0\x80"), "");
+  EXPECT_EQ(refused("", "&#xD800;"), "t.svg:rect refers to a character that there is not");
+}
+
 TEST(Svg, AHiddenShapeIsTakenByItsName) {
   EXPECT_NEAR(area(outline("<defs><rect id='a' width='10' height='10'/></defs>")), 100, 1e-12);
   EXPECT_NEAR(area(outline("<g display='none' transform='scale(2)'>" + square + "</g>")), 400, 1e-12);

@@ -262,6 +262,29 @@ TEST(CalibrateCommand, ErrorsInADrawingNameTheDrawing) {
   EXPECT_EQ(scaled.err.find(svg + ":#arm"), 0u) << scaled.err;
 }
 
+TEST(CalibrateCommand, NamesThatAreNoUtf8AreDecodedOrRefused) {
+  const Folder folder;
+  const auto drawn = [&](const std::string& declared) {
+    const std::string file = folder.write(
+        "page.svg",
+        "<?xml version='1.0'" + declared +
+            "?><svg width='1000mm' height='1000mm'><rect id='B\xE4r' width='99' height='9'/></svg>");
+    return std::pair(run("calibrate --json " + file), run("calibrate " + file));
+  };
+  const auto [printed, table] = drawn(" encoding='windows-1252'");
+  ASSERT_EQ(printed.exit, 0) << printed.err;
+  EXPECT_EQ(printed.json()["bodies"][1]["name"], "B\xC3\xA4r");
+  EXPECT_NE(table.out.find("B\xC3\xA4r/0"), std::string::npos);
+  const auto [refused, no_table] = drawn("");
+  expect_bad_input(refused, "page.svg:1:");
+  expect_bad_input(no_table, "has a byte that is no UTF-8; save it in UTF-8");
+  // A file's own name may be any bytes.
+  const std::string scene = folder.write("b\xE4r.scene.json", cantilever()),
+                    picture = (folder / "p.svg").string();
+  EXPECT_EQ(run("calibrate " + scene + " --json --picture " + picture).exit, 0);
+  EXPECT_NE(slurp(picture).find(">B\xEF\xBF\xBDr<"), std::string::npos);
+}
+
 TEST(CalibrateCommand, AScaleOfWhatIsNoDrawingIsTold) {
   const Folder folder;
   const Ran ran = run("calibrate " + folder.write("scene.json", cantilever()) + " --scale 0.001");
