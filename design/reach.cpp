@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "ductile/plane.h"
 #include "ductile/strip_line.h"
@@ -137,15 +139,25 @@ Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Prope
 Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target, Order order) {
   require_positive(target);
   constexpr double within = 1e-9;  // of the target, as reach() meets it
-  double best = 0;
+  std::optional<double> best;
+  std::vector<Problem> refused;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const double reached = measured(calibrate(candidates[i]), measure, order);
+    Plan plan;
+    try {
+      plan = calibrate(candidates[i]);
+    } catch (const InvalidInput& error) {
+      refused = error.problems();
+      continue;
+    }
+    const double reached = measured(plan, measure, order);
     if (is_at_most(measure) ? reached <= (1 + within) * target : reached >= (1 - within) * target)
       return {static_cast<double>(i), reached, candidates[i]};
-    best = i == 0 ? reached : is_at_most(measure) ? std::min(best, reached) : std::max(best, reached);
+    if (!best || (is_at_most(measure) ? reached < *best : reached > *best)) best = reached;
   }
-  throw InvalidInput({{"target", "none of the list reaches it: the best comes to " + to_string(best),
-                       "list stronger ones, or change the target"}});
+  if (!best && !refused.empty()) throw InvalidInput(std::move(refused));
+  throw InvalidInput(
+      {{"target", "none of the list reaches it: the best comes to " + to_string(best.value_or(0)),
+        "list stronger ones, or change the target"}});
 }
 
 Reach lightest(const std::vector<SceneDef>& candidates, Measure measure, double target, Order order) {

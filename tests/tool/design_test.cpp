@@ -58,6 +58,27 @@ TEST_F(DesignCommand, PiecesAndNumbers) {
   EXPECT_NE(design("--for frequency=5 --by E").out.find("frequency of 5 Hz"), std::string::npos);
 }
 
+// Where bars are welded, one of them needs a joint of its own that the weld is as strong as.
+TEST_F(DesignCommand, NumbersOfPiecesThatASceneCannotHaveArePassedOver) {
+  const std::string portal = folder.write("portal.scene.json", R"({"gravity": [0,0],
+  "bodies": [{"name": "l", "outline": [[-0.1,0],[0.1,0],[0.1,4],[-0.1,4]], "depth": 0.1, "material": "S355"},
+             {"name": "r", "outline": [[5.9,0],[6.1,0],[6.1,4],[5.9,4]], "depth": 0.1, "material": "S355"},
+             {"name": "b", "outline": [[0,3.9],[6,3.9],[6,4.1],[0,4.1]], "depth": 0.1, "material": "S355"}],
+  "joints": [{"between": ["l","b"], "at": [0,4], "welded": true},
+             {"between": ["r","b"], "at": [6,4], "welded": true}],
+  "supports": [{"body": "l", "at": [0,0], "fix": ["x","y","angle"]},
+               {"body": "r", "at": [6,0], "fix": ["x","y","angle"]}],
+  "loads": [{"body": "b", "at": [0,4], "force": [20e3,0]}]})");
+  const auto first = [&](const std::string& rest) {
+    return run("design " + portal + " --for displacement=0.02 --by pieces --json" + rest);
+  };
+  const Ran among = first(" --among 1,2,3,4,5,6,7,8"), any = first("");
+  ASSERT_EQ(any.exit, 0) << any.err;
+  EXPECT_GT(any.json()["value"].get<int>(), 1);
+  EXPECT_EQ(any.out, among.out);
+  expect_bad_input(first(" --among 1"), "is welded where neither body ends");
+}
+
 // √(k/m)/2π of a block on a spring, which falls as its depth d grows: m = 1000 d.
 TEST_F(DesignCommand, WhatFallsWithDepth) {
   const std::string spring = folder.write("spring.scene.json", R"({
