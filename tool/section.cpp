@@ -127,13 +127,19 @@ Utilisation utilisation(const Options& options, const Section& section, Point d,
   }
   const double q = std::abs(Q) / Q_max;
   double fibre = unknown;
-  if (std::isfinite(e.I)) {
-    const Material& material = section.regions().front().material;
-    const auto [low, high] = section.extent(d);
+  const bool known = e.EA > 0;
+  if (known || std::isfinite(e.I)) {
+    const double elastic_middle = e.centroid.x * d.x + e.centroid.y * d.y;
+    const double bent = M + N * (middle - elastic_middle);  // about the elastic centroid
     fibre = 0;
-    for (const double s : {low, high}) {
-      const double stress = N / section.area() + M * (s - middle) / e.I;
-      fibre = std::max({fibre, stress / material.yield_stress, -stress / material.compression()});
+    for (const Region& region : section.regions()) {
+      const Material& material = region.material;
+      const double per_N = known ? material.youngs_modulus / e.EA : 1 / section.area();
+      const double per_M = known ? material.youngs_modulus / e.EI : 1 / e.I;
+      for (const Point& p : region.outline.outer) {
+        const double stress = per_N * N + per_M * bent * (p.x * d.x + p.y * d.y - elastic_middle);
+        fibre = std::max({fibre, stress / material.yield_stress, -stress / material.compression()});
+      }
     }
   }
   return {N >= 0 ? N / c.N : -N / c.Nc, q, M >= 0 ? M / c.M : -M / c.M_reverse, std::hypot(g, q), fibre};

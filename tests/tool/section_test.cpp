@@ -124,6 +124,27 @@ TEST(SectionCommand, TellsHowMuchOfASectionIsUsed) {  // rectangle: m + n² = 1 
   expect_near(used["first_fibre"], n + 1.5 * m, 1e-12);
 }
 
+// The first fibre of two materials: N over EA with the part of its E, and M about the elastic centroid, about
+// which N has an arm where the area's centroid is another point.
+TEST(SectionCommand, TellsTheFirstFibreOfSeveralMaterials) {
+  const Folder folder;
+  const std::string file = folder.write("two.section.json", R"({"regions": [
+    {"outer": [[-0.1,0],[0.1,0],[0.1,0.1],[-0.1,0.1]], "material": {"E": 200e9, "fy": 400e6}},
+    {"outer": [[-0.1,0.1],[0.1,0.1],[0.1,0.2],[-0.1,0.2]], "material": {"E": 100e9, "fy": 100e6}}]})");
+  const json alone = run("section " + file + " --M 1e3 --json").json();
+  EXPECT_NEAR(alone["utilisation"]["first_fibre"].get<double>() * alone["yield_moment"].get<double>() / 1e3,
+              1, 1e-12);
+  // A = 0.02 m² each; c = (200 · 0.05 + 100 · 0.15)/300, and the top's stress is E_top (N/EA + M (0.2 −
+  // c)/EI).
+  const double EA = 0.02 * 300e9, c = 0.25 / 3, strip = 0.2 * 1e-3 / 12;
+  const double EI =
+      200e9 * (strip + 0.02 * std::pow(c - 0.05, 2)) + 100e9 * (strip + 0.02 * std::pow(0.15 - c, 2));
+  const double N = 1e5, M = 1e4, about = M + N * (0.1 - c);
+  const json both = run("section " + file + " --N 1e5 --M 1e4 --json").json();
+  const double top = 100e9 * (N / EA + about * (0.2 - c) / EI) / 100e6;
+  expect_near(both["utilisation"]["first_fibre"], top, 1e-12);
+}
+
 TEST(SectionCommand, RemarksOnWhatTheNumbersDoNotSay) {
   const Folder folder;
   const auto remarks = [&](const std::string& outer, const std::string& material) {
