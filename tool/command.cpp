@@ -60,9 +60,16 @@ void add_scale(CLI::App* command, double& metres_per_unit) {
       ->check(finite(0, true));
 }
 
-void add_scene(CLI::App* command, SceneFile& scene) {
-  command->add_option("SCENE", scene.name, "scene file, level of R.U.B.E. or SVG drawing")->required();
+void add_scene(CLI::App* command, SceneFile& scene, const char* what) {
+  command->add_option("SCENE", scene.name, what)->required();
   add_scale(command, scene.metres_per_unit);
+}
+
+void check_profile(const std::string& name, const std::string& option) {
+  if (!names_a_profile(name) && !std::filesystem::exists(name))
+    throw InvalidInput(
+        {{"command line:" + option, "'" + name + "' is no profile, series of profiles or file",
+          "write a profile as in IPE 300, a tube with its size as in CHS 168.3x5, or a section file"}});
 }
 
 namespace {

@@ -43,7 +43,10 @@ struct SceneFile {
   operator const std::string&() const { return name; }
 };
 /// SCENE and --scale.
-void add_scene(CLI::App* command, SceneFile& scene);
+void add_scene(CLI::App* command, SceneFile& scene,
+               const char* what = "scene file, level of R.U.B.E. or SVG drawing");
+/// Refuses what is neither a profile's name nor a file.
+void check_profile(const std::string& name, const std::string& option);
 /// --scale alone.
 void add_scale(CLI::App* command, double& metres_per_unit);
 

@@ -92,7 +92,9 @@ std::vector<std::string> profiles_among(const std::vector<std::string>& among) {
     const std::size_t before = result.size();
     for (const Rolled& profile : rolled_profiles())
       if (profile.name.substr(0, profile.name.find(' ')) == name) result.push_back(profile.name);
-    if (result.size() == before) result.push_back(name);
+    if (result.size() > before) continue;
+    check_profile(name, "--among");
+    result.push_back(name);
   }
   return result;
 }
@@ -154,8 +156,9 @@ Found from_list(const SceneDef& scene, const std::vector<std::size_t>& bodies, c
     for (const std::size_t i : bodies) change(candidates.back(), i, options.by, name);
   }
   const bool pieces = options.by == "pieces";
-  Reach reach =
-      (pieces ? first_to_reach : lightest)(candidates, target.measure, target.value, options.order());
+  Reach reach = in_file(options.scene, [&] {
+    return (pieces ? first_to_reach : lightest)(candidates, target.measure, target.value, options.order());
+  });
   const std::string& name = names[static_cast<std::size_t>(reach.value)];
   if (pieces) return {std::stoi(name), name, std::move(reach)};
   return {name, name, std::move(reach)};
@@ -168,7 +171,9 @@ Found found(const SceneDef& scene, const std::vector<std::size_t>& bodies, const
   if (number == std::end(numbers)) return from_list(scene, bodies, target, options);
   if (!options.among.empty())
     refuse("--among", "does not go with --by " + options.by, "leave it out: any number may be the answer");
-  Reach reached = reach(scene, bodies, number->property, target.measure, target.value, options.order());
+  Reach reached = in_file(options.scene, [&] {
+    return reach(scene, bodies, number->property, target.measure, target.value, options.order());
+  });
   return {reached.value, fmt::format("{:.6g}{}", reached.value, number->unit), std::move(reached)};
 }
 
@@ -197,7 +202,8 @@ Found of_least_mass(const SceneDef& scene, const std::vector<std::size_t>& bodie
   if (options.by != "depth" || target.measure != Measure::collapse || !options.among.empty())
     refuse("--each", "goes with --by depth and --for collapse alone",
            "write --for collapse=1.5 --by depth --each");
-  LeastMass least = least_mass(scene, groups_of(scene, bodies, options), target.value);
+  const auto groups = groups_of(scene, bodies, options);
+  LeastMass least = in_file(options.scene, [&] { return least_mass(scene, groups, target.value); });
   Found found{Json::object(), "", {0, least.collapse, std::move(least.scene)}};
   for (const std::size_t i : bodies) {
     const BodyDef& body = found.reach.scene.bodies[i];
@@ -216,17 +222,15 @@ std::string run(const Options& options) {
   const std::string text = read_text(options.scene.name);
   if (is_rube(text))
     throw InvalidInput(
-        {{options.scene.name, "is a level of R.U.B.E.",
+        {{options.scene.name + ":file", "is a level of R.U.B.E.",
           "design works on scene files and drawings; give the scene that the level was made of"}});
   const Outputs outputs{{"--out", {options.out}}};
   if (is_drawing(text)) keep_inputs({options.scene.name}, outputs);
   if (options.by == "profile") keep_inputs(options.among, outputs);
   const SceneDef scene = scene_of(options.scene, text, outputs);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
-  const Found answer = in_file(options.scene, [&] {
-    return options.each ? of_least_mass(scene, bodies, target, options)
-                        : found(scene, bodies, target, options);
-  });
+  const Found answer =
+      options.each ? of_least_mass(scene, bodies, target, options) : found(scene, bodies, target, options);
   const Plan plan = calibrate(answer.reach.scene);
   warn_of_splits(plan, options.scene);
   const double mass = measured(plan, Measure::mass);
@@ -256,7 +260,7 @@ std::string run(const Options& options) {
 void add_design(CLI::App& app, std::string& output) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("design", "What a scene needs to reach a target");
-  add_scene(command, options->scene);
+  add_scene(command, options->scene, "scene file or SVG drawing");
   command
       ->add_option(
           "--for", options->target,

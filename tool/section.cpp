@@ -52,6 +52,7 @@ struct Subject {
 };
 
 Subject read(const Options& options) {
+  check_profile(options.file, "FILE");
   if (!names_a_profile(options.file) || std::filesystem::exists(options.file)) {
     if (options.material)
       throw InvalidInput(

@@ -110,6 +110,12 @@ TEST_F(DesignCommand, BadInput) {
         "--for reserve=99 --by material", "--for frequency=50 --by depth",
         "--for rotation=0.01 --by depth --body wall", "--for mass=100 --by depth --second-order"})
     expect_bad_input(design(wrong));
+  for (const char* among : {"CHS", "IPX", "nothing.section.json", "IPX300", "IPE301"}) {
+    const Ran ran = design(std::string("--for reserve=2 --by profile --among ") + among);
+    expect_bad_input(ran, among);
+    EXPECT_EQ(ran.err.find("command line:"), 0u) << ran.err;  // and no scene file before that
+  }
+  EXPECT_EQ(run("design --help").out.find("R.U.B.E."), std::string::npos);
 }
 
 // Thin enough, a mast bears its loads as drawn and buckles before that: it is told, and --second-order asks

@@ -145,6 +145,11 @@ TEST(SectionCommand, TellsTheFirstFibreOfSeveralMaterials) {
   expect_near(both["utilisation"]["first_fibre"], top, 1e-12);
 }
 
+TEST(SectionCommand, SaysWhatIsNeitherProfileNorFile) {
+  for (const char* name : {"XXX", "XXX --material S355", "nothing.section.json"})
+    expect_bad_input(run(std::string("section ") + name), "is no profile, series of profiles or file");
+}
+
 TEST(SectionCommand, RemarksOnWhatTheNumbersDoNotSay) {
   const Folder folder;
   const auto remarks = [&](const std::string& outer, const std::string& material) {
