@@ -22,6 +22,14 @@ double positive(const char* name, double length) {
   return length;
 }
 
+/// Of an attribute, or of a style: path("M 0 0 h 1").
+std::string_view path_data(std::string_view d) {
+  if (d == "none") return {};
+  if (!d.starts_with("path(")) return d;
+  const auto open = d.find_first_of("\"'"), close = d.find_last_of("\"'");
+  return open < close ? d.substr(open + 1, close - open - 1) : std::string_view();
+}
+
 std::vector<Subpath> curves(const Painted& shape, const Affine& to) {
   const Node& node = shape.node;
   const Style& style = shape.style;
@@ -30,7 +38,7 @@ std::vector<Subpath> curves(const Painted& shape, const Affine& to) {
   const double diagonal = length(view) / std::sqrt(2.);
   const auto x = [&](const char* name) { return user_length(style, name, view.x); };
   const auto y = [&](const char* name) { return user_length(style, name, view.y); };
-  if (kind == "path") return parse_path(node.attribute("d").value(), to);
+  if (kind == "path") return parse_path(path_data(get(style, "d")), to);
   if (kind == "circle") {
     const double r = positive("r", user_length(style, "r", diagonal));
     return ellipse({x("cx"), y("cy")}, r, r, to);

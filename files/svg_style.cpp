@@ -29,10 +29,27 @@ constexpr std::array<std::string_view, 19> inherited{"clip-rule",
                                                      "stroke-width",
                                                      "visibility"};
 // Geometry is a matter of style, too (SVG 2 §8.9).
-constexpr std::array<std::string_view, 20> own{
-    "clip-path",     "cx",       "cy", "display", "filter", "height",    "mask",          "mask-type",
-    "opacity",       "overflow", "r",  "rx",      "ry",     "transform", "transform-box", "transform-origin",
-    "vector-effect", "width",    "x",  "y"};
+constexpr std::array<std::string_view, 21> own{"clip-path",
+                                               "cx",
+                                               "cy",
+                                               "d",
+                                               "display",
+                                               "filter",
+                                               "height",
+                                               "mask",
+                                               "mask-type",
+                                               "opacity",
+                                               "overflow",
+                                               "r",
+                                               "rx",
+                                               "ry",
+                                               "transform",
+                                               "transform-box",
+                                               "transform-origin",
+                                               "vector-effect",
+                                               "width",
+                                               "x",
+                                               "y"};
 
 /// The property as it is written here, whose case CSS is free in; empty where it is of no use to geometry.
 std::string_view known(std::string_view property) {
@@ -114,6 +131,15 @@ bool of_a_moment(std::string_view selector) {
   });
 }
 
+/// An at-rule whose rules a browser would follow on a screen, under a condition.
+bool is_conditional(std::string_view rule) {
+  static constexpr std::array<std::string_view, 5> kinds{"@media", "@supports", "@layer", "@container",
+                                                         "@scope"};
+  const std::string_view kind = rule.substr(0, rule.find_first_of(" \t\r\n\f({"));
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) return false;
+  return kind != "@media" || !trimmed(rule.substr(kind.size())).starts_with("print");
+}
+
 bool fits_part(const Node& node, std::string_view part) {
   if (part == "*") return true;
   switch (part[0]) {
@@ -167,7 +193,11 @@ void StyleSheet::add(std::string_view css) {
     std::size_t end = brace + 1;
     for (; end < text.size() && depth > 0; ++end) depth += text[end] == '{' ? 1 : text[end] == '}' ? -1 : 0;
     const std::string_view body = text.substr(brace + 1, end - brace - (depth == 0 ? 2 : 1));
-    if (text[0] != '@') add_rule(text.substr(0, brace), body);
+    if (text[0] != '@') {
+      add_rule(text.substr(0, brace), body);
+    } else if (is_conditional(text) && StyleSheet(body).matters()) {
+      not_taken.emplace_back(trimmed(text.substr(0, brace)));
+    }
     text.remove_prefix(end);
   }
   std::stable_sort(rules_.begin(), rules_.end(),
@@ -215,6 +245,14 @@ void StyleSheet::add_rule(std::string_view selectors, std::string_view declarati
       if (matters) not_taken.emplace_back(whole);
     }
   }
+}
+
+bool StyleSheet::matters() const {
+  return !not_taken.empty() || std::any_of(rules_.begin(), rules_.end(), [](const Rule& rule) {
+    bool any = false;
+    each_declaration(rule.declarations, [&](auto, auto, bool) { any = true; });
+    return any;
+  });
 }
 
 bool StyleSheet::fits(const Rule& rule, const Node& node) const {

@@ -20,12 +20,16 @@ using Style = std::map<std::string_view, std::string_view>;
 
 class StyleSheet {
  public:
+  StyleSheet() = default;
+  explicit StyleSheet(std::string_view css) { add(css); }
   /// The rules of a style element's text. Rules within an at-rule, and selectors with a pseudo-class, never
   /// apply: a page that is not interacted with, on no particular medium.
   void add(std::string_view css);
 
-  /// Selectors that a browser would follow, and sheets that it would import.
+  /// Selectors and at-rules that a browser would follow, and sheets that it would import.
   std::vector<std::string> not_taken;
+  /// Is there a rule that geometry depends on, taken or not?
+  bool matters() const;
 
   /// The element's own values for the properties that geometry depends on, over those that it inherits.
   Style style(const pugi::xml_node& node, const Style& parent) const;

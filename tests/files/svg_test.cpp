@@ -656,18 +656,28 @@ TEST(Svg, EntitiesStandForWhatTheDocumentTypeSays) {
   EXPECT_THROW(drawn(tower + "]>", "<rect id='&e11;' width='1' height='1'/>"), InvalidInput);
 }
 
+TEST(Svg, PathDataMayBeAMatterOfStyle) {
+  const std::string styled = path("M0 0h9v9h-9z", "style='d:path(&quot;M 0,0 h2 v2 h-2 z&quot;)'");
+  EXPECT_NEAR(area(outline(styled)), 4, 1e-12);
+  EXPECT_NEAR(area(outline("<style>path { d: path(\"M0 0h3v3h-3z\") }</style>" + path("M0 0h9v9h-9z"))), 9,
+              1e-12);
+}
+
 TEST(Svg, RulesThatAreNotFollowedAreSaid) {
   const auto left_out = [](const std::string& sheet) {
     return Drawing(drawing("<style>" + sheet + "</style>" + square), "t.svg")
         .shapes({.metres_per_unit = 1})
         .left_out;
   };
-  for (const char* said : {"rect:nth-child(2){fill:none}", "g + rect{display:none}", "g~rect{r:2px}",
-                           "@import 'a.css';", "rect:not(.b){stroke:red}"}) {
+  for (const char* said :
+       {"rect:nth-child(2){fill:none}", "g + rect{display:none}", "g~rect{r:2px}", "@import 'a.css';",
+        "rect:not(.b){stroke:red}", "@media screen{rect{display:none}}",
+        "@media (min-width:1px){a:not(.b){r:2px}}", "@supports (fill:none){rect{fill:none}}"}) {
     EXPECT_EQ(left_out(said).size(), 1u) << said;
   }
-  for (const char* silent : {"rect:hover{fill:none}", "a:not(.b){cursor:pointer}",
-                             "@media print{rect{fill:none}}", "@charset 'x';"}) {
+  for (const char* silent :
+       {"rect:hover{fill:none}", "a:not(.b){cursor:pointer}", "@media print{rect{fill:none}}",
+        "@charset 'x';", "@media screen{a{cursor:pointer}}", "@font-face{src:url(x)}"}) {
     EXPECT_TRUE(left_out(silent).empty()) << silent;
   }
 }
