@@ -17,6 +17,7 @@
 #include "ductile/level.h"
 #include "ductile/moments.h"
 #include "ductile/picture.h"
+#include "ductile/plane.h"
 #include "ductile/rolled.h"
 #include "ductile/section.h"
 
@@ -259,6 +260,38 @@ std::vector<std::string> rigid_bars(const Plan& plan) {
   return names;
 }
 
+/// Bodies that go on beyond a node that clamps them at one of their cuts: the piece on one side of it takes
+/// the node's whole moment. At the middle of a piece there is nothing to choose.
+std::vector<std::string> clamped_at_cuts(const Plan& plan) {
+  std::vector<std::vector<const PlannedJoint*>> inside(plan.bodies.size());
+  const auto piece_at = [&](int i) -> const Piece& { return plan.pieces[static_cast<std::size_t>(i)]; };
+  for (const PlannedJoint& joint : plan.joints)
+    if (joint.a >= 0 && piece_at(joint.a).body == piece_at(joint.b).body)
+      inside[static_cast<std::size_t>(piece_at(joint.a).body)].push_back(&joint);
+  std::vector<std::string> names;
+  for (const PlannedJoint& node : plan.joints) {
+    if (node.node == 0 || !(node.M > 0)) continue;
+    for (const int piece : {node.a, node.b}) {
+      if (piece < 0 || !plan.is_dynamic(piece)) continue;
+      const auto body = static_cast<std::size_t>(piece_at(piece).body);
+      const bool over_a_cut =
+          std::any_of(inside[body].begin(), inside[body].end(), [&](const PlannedJoint* cut) {
+            if (cut->a != piece && cut->b != piece) return false;
+            const Point off = node.anchor - cut->anchor;
+            const auto half = [&](int i) {
+              return std::abs(dot(piece_at(i).center - cut->anchor, cut->axis));
+            };
+            constexpr double nearly = 0.2;  // of half of the shorter piece
+            return std::abs(dot(off, cut->axis)) < nearly * std::min(half(cut->a), half(cut->b)) &&
+                   std::abs(cross(off, cut->axis)) <= cut->height;
+          });
+      const std::string& name = plan.bodies[body].name;
+      if (over_a_cut && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
 /// Of numbers that no solid has in the units of scenes, and many in those of tables: what they are, and the
 /// bodies of which they are.
 std::map<std::string, std::vector<std::string>> other_units(const Plan& plan) {
@@ -303,6 +336,12 @@ std::vector<std::string> remarks(const Plan& plan) {
     result.push_back(list_of(rigid) +
                      ": one piece is rigid: between its joints it neither bends nor yields nor buckles; "
                      "split it into several");
+  if (const std::vector<std::string> clamped = clamped_at_cuts(plan); !clamped.empty())
+    result.push_back(
+        list_of(clamped) +
+        ": a node holds it at one of its cuts, and the piece on one side takes the whole moment: "
+        "elastic forces and displacements are off, the less the shorter its pieces are; put a "
+        "piece's middle there, as an odd number of pieces does in the middle of a bar");
   for (const auto& [what, names] : other_units(plan)) result.push_back(list_of(names) + ": " + what);
   for (const auto& [strain, names] : breaking)
     result.push_back(fmt::format(

@@ -144,6 +144,45 @@ TEST(CheckCommand, TellsOfBarsThatAreRigid) {
   EXPECT_EQ(remarks(0.6, 1), json::array());
 }
 
+// A beam clamped at both ends, with a moment of 20 kN m in its middle: a quarter of it at either end, by
+// symmetry. Over a cut the piece on one side takes it all.
+TEST(CheckCommand, TellsOfNodesAtCuts) {
+  const Folder folder;
+  const auto beam = [&](int pieces, const std::string& node) {
+    return folder.write("beam.scene.json", R"({"gravity": [0,0], "bodies": [
+      {"name": "w", "type": "static", "outline": [[-1,-2],[0,-2],[0,2],[-1,2]]},
+      {"name": "v", "type": "static", "outline": [[8,-2],[9,-2],[9,2],[8,2]]},
+      {"name": "b", "outline": [[0,-0.1],[8,-0.1],[8,0.1],[0,0.1]], "material": "S355", "depth": 0.1,
+       "split": {"pieces": )" + std::to_string(pieces) +
+                                               R"(}},
+      {"name": "s", "outline": [[3.9,0],[4.1,0],[4.1,2],[3.9,2]], "material": "S355", "depth": 0.1,
+       "split": {"pieces": 8}}],
+      "joints": [{"between": ["w","b"]}, {"between": ["v","b"]}, {"between": ["b","s"], "at": )" +
+                                               node + R"(}],
+      "loads": [{"body": "s", "at": [4,2], "force": [10e3,0]}]})");
+  };
+  const std::string welded = R"([4,0], "welded": true)";
+  const auto ends = [](const Ran& ran) {
+    std::vector<double> moments;
+    const json result = ran.json();
+    for (const json& joint : result["joints"])
+      if (const auto name = joint["name"].get<std::string>();
+          name.starts_with("w-") || name.starts_with("v-"))
+        moments.push_back(std::abs(joint["M"].get<double>()));
+    return moments;
+  };
+  const std::string said = "b: a node holds it at one of its cuts";
+  const Ran even = run("check --json " + beam(20, welded));
+  EXPECT_GT(std::abs(ends(even)[0] - ends(even)[1]), 500);
+  for (const char* command : {"calibrate ", "check ", "limit "})
+    EXPECT_NE(run(command + beam(20, welded)).out.find(said), std::string::npos) << command;
+  EXPECT_NE(even.json()["remarks"].dump().find(said), std::string::npos);
+  const Ran odd = run("check --json " + beam(21, welded));
+  EXPECT_NEAR(ends(odd)[0] / ends(odd)[1], 1, 1e-6);
+  EXPECT_TRUE(odd.json()["remarks"].empty()) << odd.out;
+  EXPECT_EQ(run("calibrate " + beam(20, "[4.01,0], \"moment\": 0")).out.find(said), std::string::npos);
+}
+
 TEST(CheckCommand, TellsOfADrawingInMillimetres) {
   const Folder folder;
   const auto remarks = [&](double unit) {
