@@ -57,7 +57,7 @@ class Artist {
     if (panel_.diagram) {
       draw_diagram(to, plan_, panel_, frame_, labels_);
       for (std::size_t i = 0; i < plan_.joints.size(); ++i)
-        if (plan_.joints[i].a < 0) draw_support(to, px(plan_.joints[i].anchor));
+        if (plan_.joints[i].a < 0) draw_support(to, px(plan_.joints[i].anchor), plan_.joints[i]);
       return;
     }
     // Plain ones first: what yields or breaks must not lie under its neighbours.
@@ -182,7 +182,7 @@ class Artist {
       add(group, "path", "d", d, "stroke", paint, "stroke-width", 3 * mark_);
     }
     const Point at = between(joint.anchor);
-    if (joint.a < 0) draw_support(group, at);
+    if (joint.a < 0) draw_support(group, at, joint);
     if (!panel_.motions.empty()) {  // of a mechanism, a mode or a bent shape: only hinges have dots
       if (is_hinge(index)) draw_hinge(group, at, index);
       return;
@@ -203,10 +203,43 @@ class Artist {
       add(to, "circle", "cx", at.x, "cy", at.y, "r", 2.4 * mark_, "fill", ink);
   }
 
-  void draw_support(Node to, Point at) const {
-    add(to, "path", "d",
-        fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}h{:.1f}z", at.x, at.y, -7 * mark_, 12 * mark_, 14 * mark_),
-        "fill", still, "stroke", ink);
+  /// What is kept from turning ends at hatched ground, what springs hold at a zigzag along each of them, all
+  /// else at a triangle, which lies on its side where it may move up and down.
+  void draw_support(Node to, Point at, const PlannedJoint& joint) const {
+    const auto path = [&](const std::string& d, const char* fill) {
+      add(to, "path", "d", fmt::format("M{:.1f} {:.1f}", at.x, at.y) + d, "fill", fill, "stroke", ink);
+    };
+    const auto line = [&](double x, double y, char kind = 'l') {
+      return fmt::format("{}{:.1f} {:.1f}", kind, x * mark_, y * mark_);
+    };
+    if (joint.M > 0) {
+      // Below, or beyond the end of what lies there.
+      const Point out = px(joint.anchor) - px(plan_.pieces[static_cast<std::size_t>(joint.b)].center);
+      const bool lies = std::abs(out.x) > std::abs(out.y);
+      const double sense = out.x < 0 ? -1 : 1;
+      const auto step = [&](double along, double away, char kind = 'l') {
+        return lies ? line(sense * away, along, kind) : line(along, away, kind);
+      };
+      std::string d = step(-12, 0, 'm') + step(24, 0);
+      for (int i = 0; i < 4; ++i) d += step(0, i == 0 ? 0 : -6, 'm') + step(-6, 6);
+      path(d, "none");
+      return;
+    }
+    const auto is_spring = [](double cap, double stiffness) { return cap > 0 && stiffness < unlimited; };
+    const bool x_spring = is_spring(joint.N, joint.stiffness.N);
+    const bool y_spring = is_spring(joint.Q, joint.stiffness.Q);
+    if (x_spring)
+      path(line(-4, 0) + line(-2, -4) + line(-4, 8) + line(-4, -8) + line(-2, 4) + line(-4, 0) +
+               line(0, -6, 'm') + line(0, 12),
+           "none");
+    if (y_spring)
+      path(line(0, 4) + line(-4, 2) + line(8, 4) + line(-8, 4) + line(4, 2) + line(0, 4) + line(-6, 0, 'm') +
+               line(12, 0),
+           "none");
+    if (joint.Q > 0 && !y_spring)
+      path(line(-7, 12) + line(14, 0) + "z", still);
+    else if (joint.N > 0 && !x_spring)
+      path(line(-12, -7) + line(0, 14) + "z", still);
   }
 
   void draw_hinge(Node to, Point at, std::size_t index) const {

@@ -314,6 +314,28 @@ TEST(Picture, LabelsLieBesideEachOther) {
 }
 
 // The same beam, which a rope pulls up by 4 kN 2.5 m out, in the middle of a piece: M = −2 kN · 1.5 m there.
+TEST(Picture, SupportsAreDrawnAsWhatTheyHold) {
+  const auto drawn = [](SupportDef support) {
+    BodyDef beam{.name = "beam", .outline = {{{0, 0}, {4, 0}, {4, 1}, {0, 1}}}, .material = materials::S355};
+    beam.pieces = 4;
+    support.body = "beam";
+    SceneDef scene{.bodies = {beam}, .supports = {support}};
+    const auto svg = parse(picture_svg(calibrate(scene), {.title = "t", .panels = {Panel{}}}));
+    std::string paths;
+    for (const Node& path : named(svg, "joint", "support/0").children("path"))
+      paths += std::regex_replace(path.attribute("d").value(), std::regex("[-0-9. ]+"), " ") + ";";
+    return paths;
+  };
+  const std::string triangle = drawn({.at = {0, 0.5}, .fix_x = true, .fix_y = true}),
+                    clamp = drawn({.at = {0, 0.5}, .fix_x = true, .fix_y = true, .fix_angle = true}),
+                    x_spring = drawn({.at = {0, 0.5}, .fix_y = false, .stiffness_x = 1e6}),
+                    both = drawn({.at = {0, 0.5}, .fix_y = true, .stiffness_x = 1e6});
+  EXPECT_EQ(drawn({.at = {0, 0.5}, .fix_y = true}), triangle);
+  EXPECT_NE(clamp, triangle);
+  EXPECT_NE(x_spring, triangle);
+  EXPECT_EQ(both, x_spring + triangle);
+}
+
 TEST(Picture, ARopePullsWhereItIsFixed) {
   Plan plan = beam();
   plan.gravity = {};
