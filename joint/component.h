@@ -70,18 +70,18 @@ struct Component {
     double since_blow = 0;   // s, a hard one
     bool goes_on = false;    // the next step has parts, too
     bool advanced = false;   // this step was solved so: poses have moved
-    bool withholds = false;  // whole steps are to follow, with the means of velocities (go_on_with_means())
+    bool withholds = false;  // bodies have `withheld`: see go_on_with_means() and foresee()
     struct OfBody {          // velocities in world axes
       Pose start;
       double gap = unlimited;  // m, to what it struck in this step
       b2Vec2 to_it{0, 0};      // direction of the gap
       Vec3 before;             // at the step's start
-      Vec3 restored;           // of that, what the last step withheld
+      Vec3 restored;           // of that, what was withheld
       Vec3 given;              // by gravity and loads in a part
       Vec3 sum;                // of the means of all parts
       Vec3 mean;               // of the step: by which it comes where it is
       Vec3 late;          // what blows gave it, times the share of the step that was over: no mean has it
-      Vec3 withheld;      // what it had at the step's end, beyond what it goes on with
+      Vec3 withheld;      // what it has at the step's end, beyond what it goes on with in whole steps
       Vec3 push, more;    // momentum of all that hangs together, at its root: by contacts, and not told yet
       bool tied = false;  // by a stock joint, to what is not part of that
       double energy = 0;  // that a blow gives it, J
@@ -311,6 +311,7 @@ struct Component {
   bool strikes_hard();
   bool strains_much() const;
   void solve_in_parts(const b2SolverData& data, bool blow);
+  void foresee(int count);
   void begin_parts();
   float goes_with_b(const Touch& touch, const PointConstraint& point) const;
   bool is_beside(const Touch& touch, const PointConstraint& point) const;

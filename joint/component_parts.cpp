@@ -264,7 +264,10 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   const std::size_t cost = cost_of_parts();
   const double h = double{data.step.dt} / count;
   if (parts_.count != count) {
-    if (parts_.count > 1) solver.unite(parts_.count);
+    if (parts_.count > 1)
+      solver.unite(parts_.count);
+    else if (count > 1)
+      foresee(count);
     solver.divide(parts_.count = count);
   }
   silence_corners();
@@ -286,9 +289,38 @@ void Component::solve_in_parts(const b2SolverData& data, bool blow) {
   });
 }
 
+// Velocities belong to the middle of the last step, h/2 before the poses, and a part's to h/2n before them:
+// where whole steps end, forces have acted for (h − h/n)/2 less than they are to. Without what they give
+// bodies then, a rope that snaps taut again and again would draw energy from what rings in between. They are
+// those of the step in which nothing would be struck. What comes with velocities from elsewhere, as they are
+// at its start, is not known to have been a step before.
+void Component::foresee(int count) {
+  if (parts_.withholds || !solver.knows_last_step()) return;
+  each_point([&](std::size_t k, const Touch& t, const PointConstraint& p) {
+    if (-closing_speed(t, p) > blow_speed) outside_.contacts[k].bounce = -no_step_closes / solver.step();
+  });
+  const auto own = [this](std::size_t i, const Vec3& v) { return into_own_frame(solver.places[i].turn, v); };
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& m = mirrors[i];
+    if (!m.present) continue;
+    Body& b = solver.bodies[i];
+    (i < solver.free_bodies() ? b.v_free : b.v) = own(i, m.exact - m.jump);
+  }
+  SolveReport solved;
+  solver.foresee(outside_.links, outside_.contacts, solved);
+  for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+    const Mirror& m = mirrors[i];
+    const Vec3 last = m.present ? in_doubles(velocity_of(*m.body)) - m.jump : Vec3{};
+    const Vec3 next = into_world(solver.places[i].turn, solver.bodies[i].v);
+    parts_.bodies[i].withheld = m.present ? (0.5 - 0.5 / count) * (next - last) : Vec3{};
+  }
+  parts_.withholds = true;
+}
+
 // What gravity and loads give a body in the step they give it evenly. Where the last step ended in parts,
-// too, bodies begin with the velocities at its end, not with the means; but where one of them has left, it
-// goes on with its mean, and so must they all, or momentum would be lost.
+// too, bodies begin with the velocities at its end, not with the means, and else with those that foresee()
+// found; but where one of them has left, it goes on with its mean, and so must they all, or momentum would be
+// lost.
 void Component::begin_parts() {
   bool restores = std::exchange(parts_.withholds, false);
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {

@@ -104,6 +104,27 @@ void Solver::strike(double closing) {
   closing_ = closing;
 }
 
+void Solver::foresee(std::span<const Link> links_now, std::span<const Contact> contacts_now,
+                     SolveReport& report) {
+  if (!struck_) strike(0);
+  constexpr double never = 1e3;  // m/s
+  for (std::size_t k = 0; k < own(); ++k) {
+    joints[k].impulse = before_blow_[k];
+    joints[k].regime = 0;
+  }
+  for (const int at : slackening) {
+    Joint& j = joints[z(at)];
+    const JointRecord& r = records[z(at)];
+    for (unsigned i = 0; i < 3; ++i)
+      if (is_slack(j, r, i)) j.bias[i] -= r.material.cap[i] > 0 ? never : -never;
+  }
+  touch(links_now, contacts_now);
+  go_on();
+  newton_.forget();
+  solve(report);
+  for (std::size_t k = 0; k < own(); ++k) before_blow_[k] = joints[k].impulse;
+}
+
 void Solver::weaken(std::size_t joint, double share) {
   dynamics::weaken(joints[joint], records[joint], share);
   weakened_ = true;

@@ -10,6 +10,7 @@
 //   touch(links,     begin                              their rows
 //     contacts)
 //   strike(v)        begin                              velocities jumped at the start of this step
+//   foresee(...)     begin, strike and solve            the solve, if nothing were struck; divide() follows
 //   go_on()          begin, solve                       what presses has just been found
 //   push(i, Δv*)     solve, in the same step            another velocity changed
 //   solve(report)    begin with all v_free written,     v and impulses at the minimum
@@ -71,6 +72,11 @@ class Solver : public System {
   /// joint did not break yet: friction is settled by one round. The caps of that solve alone would let what
   /// rubs do too little work.
   void go_on() { friction_rounds_ = 1; }
+  /// Solves the step as it would be if no line snapped taut, before divide(): joints have the impulses of
+  /// that when the parts begin. Contacts that are not to be struck have a bounce that says so.
+  void foresee(std::span<const Link> links, std::span<const Contact> contacts, SolveReport& report);
+  /// Whether the last step was as long as this one, and of the same joints.
+  bool knows_last_step() const { return prediction_.known(); }
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it. Solves
   /// until the next begin() do not settle the contacts' friction anew.
   void push(std::size_t body, const Vec3& change) {
