@@ -21,6 +21,7 @@ constexpr double rotation_share = 0.25;  // of that δ which rotation rows among
 constexpr double delta_time = 0.5;       // s that δ is kept beyond its need
 constexpr double halting = 0.25;         // of what a strain grows by in a step
 constexpr double turn_time = 0.25;    // s in which what turned bodies parted by in another step is taken back
+constexpr double ease_time = 2.5;     // s in which a row that bears is strained by what it was eased of
 constexpr double least_drift = 1e-7;  // m, of it
 constexpr double squared_turn = 0.5;  // rad in a step: beyond it that is not as the square of the step
 constexpr double wave_step = 1e-3;    // s: shorter ones resolve waves that rows yield to one after the other
@@ -173,9 +174,11 @@ double StepLaws::most_growth(System& system, double last_h) {
 // comes of it. Nor does any of a row that was implicit and is Newmark's now. It stored the strain at its
 // step's end, where velocities belong to the middle: that of half a step before, which they would ask for,
 // may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
-// than it stores: the strain that it will be half a step on gives less. But where its force stopped growing
-// it was strained too far, and what it moved back by is no rate. A force that falls takes the impulse along,
-// of which an implicit row's strain is read.
+// than it stores: the strain that it will be half a step on gives less. It is eased of the rest, which is
+// drift: taken back where the row's force does not pull against that, and slowly where it does, what bears a
+// load comes to where it was before. But where its force stopped growing it was strained too far, and what it
+// moved back by is no rate. A force that falls takes the impulse along, of which an implicit row's strain is
+// read.
 void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& parted,
                           double most_growth) const {
   Rows spring = r.law.spring;
@@ -198,7 +201,11 @@ void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& pa
     j.rate[i] /= longer;
     if (was_implicit[i] && j.is_newmark(i)) {
       j.rate[i] = j.moved[i] = j.mean[i] = 0;
-      if ((halted >> i & 1u) == 0 && ahead * strain[i] < 0) strain_by(std::max(0.0, 1 + ahead / strain[i]));
+      if ((halted >> i & 1u) == 0 && ahead * strain[i] < 0) {
+        r.drift[i] += std::copysign(std::min(std::abs(ahead), std::abs(strain[i])), strain[i]);
+        r.eased |= 1u << i;
+        r.turn_drifts = true;
+      }
     }
     // w and w' (row.h) say nothing of each other
     if (((overdamped ^ j.overdamped) >> i & 1u) != 0) j.rate[i] = j.moved[i] = j.mean[i] = 0;
@@ -406,10 +413,13 @@ bool StepLaws::begin(System& system, double h) {
     r.turn_drifts |= switches;
     double most = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      r.drift[i] *= r.turn_drifts && i < 2 ? std::max(0.0, 1 - h / turn_time) : deferred;
+      const bool eased = (r.eased >> i & 1u) != 0;
+      const double time = eased && j.impulse[i] * r.drift[i] > 0 ? ease_time : turn_time;
+      r.drift[i] *= r.turn_drifts && (eased || i < 2) ? std::max(0.0, 1 - h / time) : deferred;
       most = std::max(most, std::abs(r.drift[i]));
     }
     r.turn_drifts = r.turn_drifts && most > least_drift;
+    if (!r.turn_drifts) r.eased = 0;
     turn_drifts_ |= r.turn_drifts;
     if (turns && h < last_h && r.law.surface == nullptr) {
       allow_turn(j, r, parted, last_h);

@@ -145,6 +145,7 @@ struct JointRecord {
   Rows drift{};           // m or rad: constraint drift of a longer step that is still to be taken back
   TurnGuard turn_guard;
   bool turn_drifts = false;  // `drift` is of turning in a step of another length (step_laws.h)
+  unsigned eased = 0;        // rows, one bit each, whose `drift` no force stands for (StepLaws::follow_law())
   unsigned halts = 0;        // rows, one bit each, whose forces stopped growing in the last step
   PlasticFlow plastic;
   Rows drive_rate{};  // of driven rows in this step, m/s or rad/s
@@ -158,8 +159,8 @@ struct JointRecord {
   double held = 1;  // share of this step's flow after which the joint breaks
 
   void keep(Tape& tape) {
-    tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, halts, plastic, dissipated,
-         stored, strain, strain_before, drive_rate, lightness);
+    tape(gap, x, law, tangent, turn_inertia, drift, turn_guard, turn_drifts, eased, halts, plastic,
+         dissipated, stored, strain, strain_before, drive_rate, lightness);
   }
 };
 
