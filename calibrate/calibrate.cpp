@@ -743,6 +743,48 @@ class Planner {
     return weaker;
   }
 
+  // Which way a piece runs from a node, and how well that tells which way its body does.
+  enum class Runs { nowhere, somewhere, beyond, ends };
+  struct Course {
+    Runs runs = Runs::nowhere;
+    Point outward;         // towards its middle, of length 1
+    double M = unlimited;  // of the joint next to the node in a bar that ends there
+  };
+  Course course(int piece, Point at) {
+    const Piece& p = plan_.pieces[piece];
+    const AreaMoments area = moments(p.outline);
+    const LongAxis axis = p.circle > 0 ? LongAxis{} : long_axis(p.outline, area);
+    const double size = p.circle > 0 ? 2 * p.circle : axis.high - axis.low;
+    const Point arm = p.center - at;
+    if (!plan_.is_dynamic(piece) || length(arm) < 1e-6 * size) return {};
+    Course result{Runs::somewhere, unit(arm)};
+    if (const PlannedJoint* next = next_to_end(piece, at)) {
+      result.runs = Runs::ends;
+      result.M = std::min(next->M, next->M_reverse);
+    } else if (const auto body = static_cast<std::size_t>(p.body);
+               first_inside_[body] < first_inside_[body + 1]) {
+      result.runs = Runs::beyond;
+    } else if (p.circle == 0 && 3 * area.area < size * size) {  // slender: a bar of one piece, no block
+      result.runs = std::abs(dot(arm, axis.direction)) > size / 4 ? Runs::ends : Runs::beyond;
+    }
+    return result;
+  }
+
+  // From the first piece to the second along the bar that ends at the node, of two such bars along the weaker
+  // one, which yields there; where neither is, across the mitre between them. So two bodies have the same
+  // axis, but for its sign, whichever is named first. Of several bodies each is joined to the first by all
+  // that it carries, the first by a part, so that there a tie is the other's.
+  Point axis_at(int a, int b, Point at, bool several) {
+    constexpr double alike = 1e-6;
+    const Course one = course(a, at), two = course(b, at);
+    if (one.runs != two.runs) return one.runs > two.runs ? -one.outward : two.outward;
+    if (one.runs == Runs::nowhere) return {1, 0};
+    if (several || two.M < one.M * (1 - alike)) return two.outward;
+    if (one.M < two.M * (1 - alike)) return -one.outward;
+    const Point across = two.outward - one.outward;
+    return length(across) > alike ? unit(across) : two.outward;
+  }
+
   // The first body's piece is the hub.
   void join_at(const JointBetweenDef& def, int node) {
     std::vector<int> pieces;
@@ -772,8 +814,7 @@ class Planner {
       joint.name = plan_.pieces[joint.a].name + '-' + plan_.pieces[joint.b].name;
       number_repeats(joint);
       joint.anchor = *def.at;
-      const Point along = plan_.pieces[joint.b].center - joint.anchor;
-      joint.axis = length(along) > 0 ? unit(along) : Point{1, 0};
+      joint.axis = axis_at(joint.a, joint.b, *def.at, pieces.size() > 2);
       joint.N = own.axial.value_or(unlimited);
       joint.Nc = own.axial_compression.value_or(joint.N);
       joint.Q = own.shear.value_or(unlimited);

@@ -168,6 +168,66 @@ TEST(Node, WeldedIsAsStrongAsTheWeakerBarThatEndsThere) {
   expect("cap beside that of its drive", driven);
 }
 
+/// A bar 0.2 m high of four pieces, or of one.
+BodyDef bar_between(const char* name, Point from, Point to, double depth, int pieces = 4) {
+  return {.name = name,
+          .outline = {rectangle(0, -0.1, length(to - from), 0.1), {}},
+          .material = test_steel,
+          .depth = depth,
+          .pieces = pieces,
+          .at = from,
+          .angle = std::atan2(to.y - from.y, to.x - from.x)};
+}
+
+/// Of a node that joins the first body to the second with a cap of 10 kN along its axis.
+PlannedJoint node_of(const BodyDef& first, const BodyDef& second) {
+  SceneDef scene;
+  scene.bodies = {first, second};
+  const bool pinned = first.name == "whole" || second.name == "whole";  // no joint to be as strong as
+  scene.joints = {{.a = first.name, .b = second.name, .at = Point{0, 0}, .welded = !pinned}};
+  scene.joints[0].overrides.axial = 10e3;
+  return calibrate(scene).joints.back();
+}
+
+// N is force along the axis, Q across it. So they mean the same of a node whichever of its two bodies is
+// named first: along the bar that ends there, of two such bars along the weaker one, else across their mitre.
+TEST(Node, ItsAxisDoesNotDependOnWhichBodyIsNamedFirst) {
+  const double diagonal = std::sqrt(0.5);
+  const BodyDef weak = bar_between("weak", {0, 0}, {0, 4}, 0.01),
+                girder = bar_between("girder", {-4.5, 0}, {4, 0}, 0.02),
+                strong = bar_between("strong", {-4, 0}, {0, 0}, 0.02),
+                alike = bar_between("alike", {-4, 0}, {0, 0}, 0.01),
+                whole = bar_between("whole", {0, 0}, {0, 4}, 0.01, 1),
+                beam = bar_between("beam", {-4.5, 0}, {4, 0}, 0.02, 1);
+  BodyDef slab{.name = "slab", .type = BodyType::static_body, .outline = {rectangle(-9, -1, 1, 0), {}}};
+  BodyDef block{.name = "block", .outline = {rectangle(-2, -2, 0, 0), {}}, .material = test_steel};
+  BodyDef wheel{.name = "wheel", .material = test_steel};
+  wheel.circle = 0.5;
+  wheel.at = {0.3, 0};
+  struct Case {
+    const char* what;
+    BodyDef one, two;
+    Point axis;  // from one to two
+  };
+  for (const Case& c :
+       {Case{"a post on a girder", girder, weak, {0, 1}}, Case{"a corner", strong, weak, {0, 1}},
+        Case{"a mitre of equals", alike, weak, {diagonal, diagonal}}, Case{"on a slab", slab, weak, {0, 1}},
+        Case{"of one piece", girder, whole, {0, 1}}, Case{"two of one piece", beam, whole, {0, 1}},
+        Case{"on a block", block, whole, {0, 1}}, Case{"on a wheel", wheel, weak, {0, 1}}}) {
+    const PlannedJoint there = node_of(c.one, c.two), back = node_of(c.two, c.one);
+    EXPECT_NEAR(there.axis.x, c.axis.x, 1e-12) << c.what;
+    EXPECT_NEAR(there.axis.y, c.axis.y, 1e-12) << c.what;
+    EXPECT_NEAR(back.axis.x, -c.axis.x, 1e-12) << c.what;
+    EXPECT_NEAR(back.axis.y, -c.axis.y, 1e-12) << c.what;
+    EXPECT_EQ(there.N, back.N) << c.what;
+    EXPECT_EQ(there.Q, back.Q) << c.what;
+    EXPECT_EQ(there.M, back.M_reverse) << c.what;
+    EXPECT_EQ(there.M_reverse, back.M) << c.what;
+    EXPECT_EQ(there.stiffness.M, back.stiffness.M) << c.what;
+    EXPECT_EQ(there.max_rotation, back.max_rotation) << c.what;
+  }
+}
+
 TEST(Build, IntoAStructureThatIsThere) {
   b2World world({0, -10});
   Structure structure(world);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <set>
 
@@ -100,6 +101,33 @@ TEST(LimitAnalysis, WithInteraction) {
   const double factor = limit_analysis(plan).load_factor;
   EXPECT_NEAR(factor / low, 1, 2e-3) << "the joint's polygon is inscribed within 1e-3";
   EXPECT_NEAR(factor / static_check(plan).reserve, 1, 1e-7) << "statically determinate";
+}
+
+// A post on a girder, and at its corner with a beam, pulled along and across by half of what the node bears
+// so: twice that, whichever of the two is named first.
+TEST(LimitAnalysis, ANodesCapsAreThoseOfTheBarThatEndsThere) {
+  for (const double from : {-4., 0.})
+    for (const bool post_first : {false, true})
+      for (const bool along : {false, true}) {
+        SceneDef scene;
+        scene.gravity = {};
+        BodyDef girder = beam(8, 4 - from, 0.4), post = beam(8, 4, 0.2);
+        girder.name = "girder";
+        girder.at = {from, 0};
+        post.name = "post";
+        post.angle = std::numbers::pi / 2;
+        scene.bodies = {girder, post};
+        scene.supports = {{.body = "girder", .at = {4, 0}, .fix_x = true, .fix_y = true, .fix_angle = true}};
+        scene.joints = {{.a = post_first ? "post" : "girder",
+                         .b = post_first ? "girder" : "post",
+                         .at = Point{0, 0},
+                         .welded = true}};
+        (along ? scene.joints[0].overrides.axial : scene.joints[0].overrides.shear) = 10e3;
+        scene.loads = {
+            {.body = "post", .at = {0, along ? 4. : 0.}, .force = {along ? Point{0, 5e3} : Point{5e3, 0}}}};
+        EXPECT_NEAR(limit_analysis(calibrate(scene)).load_factor, 2, 2 * exactly)
+            << from << post_first << along;
+      }
 }
 
 TEST(LimitAnalysis, ShearRoundsTheSurface) {
