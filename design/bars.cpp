@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ductile/plane.h"
@@ -59,6 +60,13 @@ bool stands_for(const PlannedJoint& joint, const std::array<Arm, 2>& arms) {
   return std::abs(compliance(arms) * joint.stiffness.M - 1) < same;
 }
 
+// Whether a body of several pieces ends with this one.
+bool ends(const Plan& plan, int piece) {
+  return std::count_if(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& joint) {
+           return is_inside(plan, joint) && (joint.a == piece || joint.b == piece);
+         }) == 1;
+}
+
 // EI of the cuts across a joint's piece, along the joint's axis; 0 where there are none.
 double next_cut(const Plan& plan, const std::vector<std::array<Arm, 2>>& arms, std::size_t joint, bool of_b) {
   const PlannedJoint& own = plan.joints[joint];
@@ -107,13 +115,13 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
     const PlannedJoint& joint = plan.joints[i];
     if (joint.a < 0) {
       arms[i][1] = arm_to(joint.b, joint.anchor);
-    } else if (joint.node != 0) {  // stands for both bars, for that of b, or for none
-      for (const Arm& of_a : {arm_to(joint.a, joint.anchor), Arm{}}) {
-        const std::array both{of_a, arm_to(joint.b, joint.anchor)};
-        if (!stands_for(joint, both)) continue;
-        arms[i] = both;
-        break;
-      }
+    } else if (joint.node != 0) {  // stands for both bars, for that of one, or for none
+      const Arm of_a = arm_to(joint.a, joint.anchor), of_b = arm_to(joint.b, joint.anchor);
+      std::array ways{std::array{of_a, of_b}, std::array{Arm{}, of_b}, std::array{of_a, Arm{}}};
+      if (!ends(plan, joint.b)) std::swap(ways[1], ways[2]);  // arms that are alike do not tell
+      const auto way = std::find_if(ways.begin(), ways.end(),
+                                    [&](const std::array<Arm, 2>& own) { return stands_for(joint, own); });
+      if (way != ways.end()) arms[i] = *way;
     }
   }
   return arms;

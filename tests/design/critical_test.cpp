@@ -85,6 +85,38 @@ TEST(CriticalLoad, AColumnOnASpring) {
   }
 }
 
+// A column that is welded to a girder within one of its pieces, whichever is named first: the girder, clamped
+// at distances a and b, is the spring it stands on, and gives downwards. Where off is half a metre the
+// girder's arm to the node is as long as the column's.
+TEST(CriticalLoad, AColumnOnAGirder) {
+  for (const double off : {0., 0.5}) {
+    std::array<double, 2> found{};
+    for (const bool column_first : {true, false}) {
+      const double half = 27 * 1.5 / 2, a = half + off, b = half - off;
+      SceneDef scene = bending_only();
+      BodyDef girder = beam(27, 2 * half), column = beam(n);
+      girder.name = "girder";
+      girder.at = {-a, 0};
+      column.angle = pi / 2;
+      scene.bodies = {girder, column};
+      for (const double x : {-a, b})
+        scene.supports.push_back(
+            {.body = "girder", .at = {x, 0}, .fix_x = true, .fix_y = true, .fix_angle = true});
+      scene.joints = {{.a = column_first ? "beam" : "girder",
+                       .b = column_first ? "girder" : "beam",
+                       .at = Point{0, 0},
+                       .welded = true}};
+      scene.loads = {{.body = "beam", .at = {0, L}, .force = {0, -1}}};
+      const double turns = 4 / a + 4 / b, sinks = 12 * (1 / (a * a * a) + 1 / (b * b * b)),
+                   both = 6 * (1 / (a * a) - 1 / (b * b)), k = L * (turns - both * both / sinks);
+      const double phi = root(0.01, pi / 2 - 1e-6, [&](double x) { return x * std::tan(x) - k; });
+      found[column_first] = critical(scene);
+      EXPECT_NEAR(found[column_first] / (phi * phi * EI / (L * L)), 1, within) << off << column_first;
+    }
+    EXPECT_NEAR(found[0] / found[1], 1, 1e-9) << off;
+  }
+}
+
 // On pins, one of which gives across: the bar turns as a whole at k L, or bends at Euler's load.
 TEST(CriticalLoad, AColumnThatASpringHoldsAcross) {
   for (const double share : {0.003, 0.3, 0.9, 1.5, 100.}) {
