@@ -87,8 +87,8 @@ class Programme {
       for (const Row row : {axial, shear, rotation}) {
         if (!statics_.held[i] || yields_[i].is_free(row)) continue;
         const int v = variable_[3 * i + row] = glp_add_cols(problem_.get(), 1);
-        const double high = yields_[i].cap(row, false) / units_.of(row),
-                     low = -yields_[i].cap(row, true) / units_.of(row);
+        const double high = yields_[i].reach(row, false) / units_.of(row),
+                     low = -yields_[i].reach(row, true) / units_.of(row);
         const bool top = high<unlimited, bottom = low> - unlimited;
         glp_set_col_bnds(problem_.get(), v,
                          top && bottom ? (low < high ? GLP_DB : GLP_FX)

@@ -25,7 +25,15 @@ Yield::Yield(const Plan& plan, const PlannedJoint& joint) : joint_(joint) {
     const AxialMoment &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const double twice_area = p.N * q.M - p.M * q.N;
     facets.push_back({(q.M - p.M) / twice_area, (p.N - q.N) / twice_area});
+    most_ = {std::max(most_.N, p.N), std::max(most_.M, p.M)};
+    least_ = {std::min(least_.N, p.N), std::min(least_.M, p.M)};
   }
+}
+
+double Yield::reach(Row row, bool reverse) const {
+  if (facets.empty() || row == shear) return cap(row, reverse);
+  if (row == axial) return reverse ? -least_.N : most_.N;
+  return reverse ? -least_.M : most_.M;
 }
 
 double Yield::usage(Row row, double value) const {

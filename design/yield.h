@@ -32,8 +32,13 @@ class Yield {
   std::vector<Facet> facets;
   const Facet& steepest(double N, double M) const;
 
+  /// What no state within bears more of: the cap, or of N and M the farthest that the polygon reaches, which
+  /// is beyond the cap where a normal force helps the moment.
+  double reach(Row row, bool reverse) const;
+
  private:
   const PlannedJoint& joint_;
+  AxialMoment most_{}, least_{};  // of the polygon
 };
 
 }  // namespace ductile

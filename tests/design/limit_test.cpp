@@ -103,6 +103,34 @@ TEST(LimitAnalysis, WithInteraction) {
   EXPECT_NEAR(factor / static_check(plan).reserve, 1, 1e-7) << "statically determinate";
 }
 
+// A pier of a material that bears a hundred times as much in compression as in tension: under pressure its
+// section bears many times its plastic moment, x of its height h compressed:
+// −N = f_c x − f_t (h − x), M = (f_t + f_c) x (h − x)/2.
+TEST(LimitAnalysis, PressureHelpsAMomentBeyondItsCap) {
+  constexpr double h = 0.5, f_t = 1e5, f_c = 1e7, H = 10e3, V = 300e3, l = 4;
+  SceneDef scene = cantilever(1, H);
+  scene.joint = {.shear = unlimited, .max_rotation = unlimited};
+  scene.interaction = true;
+  scene.bodies[1] = beam(8, l, h);
+  scene.bodies[1].material->yield_stress = f_t;
+  scene.bodies[1].material->yield_stress_compression = f_c;
+  scene.bodies[1].material->youngs_modulus =
+      1e15;  // 1e-6 of its critical load: the deformed state is the drawn one
+  scene.loads[0].at.x = l;
+  scene.loads[0].force.x = -V;
+  double low = 0, high = 10;
+  for (int i = 0; i < 100; ++i) {
+    const double s = (low + high) / 2, x = (f_t * h + s * V) / (f_t + f_c);
+    (s * H * l < (f_t + f_c) * x * (h - x) / 2 ? low : high) = s;
+  }
+  const Plan plan = calibrate(scene);
+  ASSERT_GT(low * H * l, 5 * plan.joints.back().M);
+  const double factor = limit_analysis(plan).load_factor;
+  EXPECT_NEAR(factor / low, 1, 2e-3) << "the joint's polygon is inscribed within 1e-3";
+  EXPECT_NEAR(factor / static_check(plan).reserve, 1, 1e-7) << "statically determinate";
+  EXPECT_NEAR(factor / second_order_limit(plan).load_factor, 1, 1e-5);
+}
+
 // A post on a girder, and at its corner with a beam, pulled along and across by half of what the node bears
 // so: twice that, whichever of the two is named first.
 TEST(LimitAnalysis, ANodesCapsAreThoseOfTheBarThatEndsThere) {
