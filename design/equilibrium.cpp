@@ -30,7 +30,32 @@ std::array<double, 3> row_on_piece(Row row, Point axis, Point arm) {
   return {e.x, e.y, dot(e, left(arm))};
 }
 
+// Of pieces: whether joints hold them to something that stands still, or they stand still themselves.
+std::vector<bool> held_pieces(const Plan& plan) {
+  const std::size_t n = plan.pieces.size();
+  Groups groups(n + 1);  // the last one: all that stands still
+  const auto index = [&](int piece) { return piece < 0 ? n : static_cast<std::size_t>(piece); };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!plan.is_dynamic(static_cast<int>(i))) groups.unite(n, i);
+    if (plan.pieces[i].part_of >= 0) groups.unite(index(plan.pieces[i].part_of), i);
+  }
+  for (const PlannedJoint& j : plan.joints)
+    if (!is_free(j, axial) || !is_free(j, shear) || !is_free(j, rotation))
+      groups.unite(index(j.b), index(j.a));
+  std::vector<bool> held;
+  for (std::size_t i = 0; i < n; ++i) held.push_back(groups.of(i) == groups.of(n));
+  return held;
+}
+
 }  // namespace
+
+std::vector<int> loose_pieces(const Plan& plan) {
+  const std::vector<bool> held = held_pieces(plan);
+  std::vector<int> loose;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (!held[i]) loose.push_back(static_cast<int>(i));
+  return loose;
+}
 
 // A = √k B = Q [Lᵀ …] Pᵀ, √k the root of k; what is not shown belongs to mechanisms. L Lᵀ = Pᵀ K P without
 // squaring A's condition. SPQR, for its fronts: Eigen's own sparse QR took a thousand times as long on a
@@ -59,7 +84,7 @@ Equilibrium::~Equilibrium() = default;
 
 Equilibrium::Equilibrium(const Plan& plan, Between between) : plan_(plan) {
   if (between == Between::elastic_bars) arms_ = arms_of(plan);
-  find_loose();
+  number_columns();
   if (std::all_of(column.begin(), column.end(), [](int c) { return c < 0; }))
     throw InvalidInput(
         {{"joints", "no joint holds anything that could move to the ground or to a body that stands still",
@@ -97,32 +122,19 @@ void Equilibrium::stiffen(const std::vector<Root>& roots) {
   factors_ = std::make_unique<Factors>(root_ * B);
 }
 
-void Equilibrium::find_loose() {
-  const std::size_t n = plan_.pieces.size();
-  const auto stands = [&](std::size_t i) { return i == n || !plan_.is_dynamic(static_cast<int>(i)); };
-  Groups groups(n + 1);  // the last one: all that stands still
-  const auto index = [&](int piece) { return piece < 0 ? n : static_cast<std::size_t>(piece); };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (stands(i)) groups.unite(n, i);
-    if (plan_.pieces[i].part_of >= 0) groups.unite(index(plan_.pieces[i].part_of), i);
-  }
-  for (const PlannedJoint& j : plan_.joints)
-    if (!is_free(j, axial) || !is_free(j, shear) || !is_free(j, rotation))
-      groups.unite(index(j.b), index(j.a));
-  const auto is_held = [&](std::size_t i) { return groups.of(i) == groups.of(n); };
-  column.assign(n, -1);
+void Equilibrium::number_columns() {
+  const std::vector<bool> is_held = held_pieces(plan_);
+  column.assign(plan_.pieces.size(), -1);
   int columns = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (stands(i)) continue;
-    if (is_held(i)) {
-      const int carrier = plan_.pieces[i].part_of;  // comes before its parts
-      column[i] = carrier >= 0 ? column[static_cast<std::size_t>(carrier)] : columns;
-      if (carrier < 0) columns += 3;
-    } else {
-      loose.push_back(static_cast<int>(i));
-    }
+  for (std::size_t i = 0; i < plan_.pieces.size(); ++i) {
+    if (!plan_.is_dynamic(static_cast<int>(i)) || !is_held[i]) continue;
+    const int carrier = plan_.pieces[i].part_of;  // comes before its parts
+    column[i] = carrier >= 0 ? column[static_cast<std::size_t>(carrier)] : columns;
+    if (carrier < 0) columns += 3;
   }
-  for (const PlannedJoint& j : plan_.joints) held.push_back(is_held(index(j.b)));
+  loose = loose_pieces(plan_);
+  for (const PlannedJoint& j : plan_.joints)
+    held.push_back(j.b < 0 || is_held[static_cast<std::size_t>(j.b)]);
 }
 
 std::array<double, 3> Equilibrium::scale(int piece) const {

@@ -98,7 +98,7 @@ class Equilibrium {
 
  private:
   void bend(const Plan::Load& load, Eigen::VectorXd& elongation) const;
-  void find_loose();
+  void number_columns();
   void fill();
   void set_stiffness();
   Eigen::VectorXd least_energy(const Eigen::VectorXd& f) const;

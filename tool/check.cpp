@@ -34,7 +34,7 @@ Json json(const Plan& plan, const Reached& reached) {
 
 Json json(const Plan& plan, const Found& found) {
   const StaticCheck& check = found.check;
-  Json joints = Json::array(), first = Json::array(), loose = Json::array();
+  Json joints = Json::array(), first = Json::array();
   for (std::size_t i = 0; i < check.joints.size(); ++i) {
     const StaticJoint& j = check.joints[i];
     joints.push_back(
@@ -47,7 +47,6 @@ Json json(const Plan& plan, const Found& found) {
          {"yields_at", number(j.yields_at)}});
   }
   for (const int i : check.first_to_yield) first.push_back(joint_name(plan, i));
-  for (const int i : check.loose) loose.push_back(piece_name(plan, i));
   return {{"joints", std::move(joints)},
           {"reserve", number(check.reserve)},
           {"first_to_yield", std::move(first)},
@@ -57,7 +56,7 @@ Json json(const Plan& plan, const Found& found) {
           {"profiles", profiles_json(plan)},
           {"remarks", remarks(plan)},
           {"time", check.time},
-          {"loose", std::move(loose)}};
+          {"loose", loose_names(plan)}};
 }
 
 std::string table(const Plan& plan, const Found& found, const Options& options) {
@@ -91,9 +90,8 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
   if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
     text += '\n' + notes;
   if (check.time > 0) text += fmt::format("\nthe loads are those from {:g} s on\n", check.time);
-  for (std::size_t i = 0; i < check.loose.size(); ++i)
-    text += (i == 0 ? "\nloose, and not looked at: " : ", ") + piece_name(plan, check.loose[i]);
-  return check.loose.empty() ? text : text + '\n';
+  const std::string loose = loose_line(plan);
+  return loose.empty() ? text : text + '\n' + loose;
 }
 
 /// Moments, shear and axial forces, and the deformed shape.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/moments.h"
@@ -358,6 +359,17 @@ std::vector<std::string> remarks(const Plan& plan) {
                     "0.001 of every coordinate, of depths, too",
                     list_of(high), *std::max_element(heights.begin(), heights.end())));
   return result;
+}
+
+std::vector<std::string> loose_names(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const int piece : loose_pieces(plan)) names.push_back(piece_name(plan, piece));
+  return names;
+}
+
+std::string loose_line(const Plan& plan) {
+  const std::vector<std::string> names = loose_names(plan);
+  return names.empty() ? "" : "loose, and not looked at: " + list_of(names) + '\n';
 }
 
 std::string remark_lines(const Plan& plan) {

@@ -116,6 +116,10 @@ std::string shown(double value);
 /// whether a drawing seems to be in millimetres, for two. As lines of a table and for --json.
 std::vector<std::string> remarks(const Plan& plan);
 std::string remark_lines(const Plan& plan);
+/// What no joint holds, by name: statics leaves it out with its weight. And as a line of a table, where there
+/// is something.
+std::vector<std::string> loose_names(const Plan& plan);
+std::string loose_line(const Plan& plan);
 
 /// A section of more metres than this was drawn in millimetres.
 inline constexpr double too_high = 20;

@@ -234,6 +234,7 @@ std::string run(const Options& options) {
   const Plan plan = calibrate(answer.reach.scene);
   warn_of_splits(plan, options.scene);
   const double mass = measured(plan, Measure::mass);
+  const bool all_counts = target.measure == Measure::mass;  // what is loose weighs, and does nothing else
   const double critical = has_order ? critical_load(plan).factor : unlimited;
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
@@ -243,6 +244,7 @@ std::string run(const Options& options) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
     if (has_order) result["critical_load_factor"] = number(critical);
     result["remarks"] = remarks(plan);
+    result["loose"] = all_counts ? std::vector<std::string>{} : loose_names(plan);
     return result.dump() + "\n";
   }
   std::string of;
@@ -252,7 +254,7 @@ std::string run(const Options& options) {
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
                      has_order ? buckling_line(options.second_order, critical) + '\n' : "",
-                     remark_lines(plan));
+                     remark_lines(plan) + (all_counts ? "" : loose_line(plan)));
 }
 
 }  // namespace

@@ -163,4 +163,18 @@ TEST_F(DesignCommand, TheLeastMassOfSeveralBodies) {
                    "'wall' is none");
 }
 
+// What rests on a structure does not bear, and weighs nothing but where mass is asked for.
+TEST_F(DesignCommand, SaysWhatIsLoose) {
+  std::string text = bracket;
+  text.insert(
+      text.find(R"({"name": "beam")"),
+      R"({"name": "block", "outline": [[3,0.3],[4,0.3],[4,1.3],[3,1.3]], "depth": 0.5, "material": "S235"},)");
+  const std::string task =
+      "design " + folder.write("loaded.scene.json", text) + " --by depth --body beam --for ";
+  EXPECT_EQ(run(task + "reserve=1.5 --json").json()["loose"], json{"block"});
+  EXPECT_NE(run(task + "reserve=1.5").out.find("\nloose, and not looked at: block\n"), std::string::npos);
+  EXPECT_EQ(run(task + "mass=8000 --json").json()["loose"], json::array());
+  EXPECT_EQ(run(task + "mass=8000").out.find("loose"), std::string::npos);
+}
+
 }  // namespace

@@ -70,4 +70,20 @@ TEST(LimitCommand, WhatHasNoAnswerIsBadInput) {
       "gravity alone");
 }
 
+// What rests on a structure is no part of it: limit says so as check does.
+TEST(LimitCommand, SaysWhatIsLoose) {
+  const Folder folder;
+  std::string text = fixed_fixed("[0,-10]", load);
+  const std::string alone = folder.write("alone.json", text);
+  text.insert(text.find(R"({"name": "beam")"),
+              R"({"name": "block", "outline": [[4,1],[6,1],[6,2],[4,2]], "material": "steel"},)");
+  const std::string scene = folder.write("scene.json", text);
+  for (const char* command : {"check ", "limit ", "limit --second-order "}) {
+    EXPECT_EQ(run(command + alone + " --json").json()["loose"], json::array());
+    EXPECT_EQ(run(command + alone).out.find("loose"), std::string::npos);
+    EXPECT_EQ(run(command + scene + " --json").json()["loose"], json{"block"});
+    EXPECT_NE(run(command + scene).out.find("\nloose, and not looked at: block\n"), std::string::npos);
+  }
+}
+
 }  // namespace

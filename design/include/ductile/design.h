@@ -41,8 +41,12 @@ struct StaticCheck {
   double reserve = unlimited;       ///< the least yields_at: the factor on all loads until the first yield;
                                     ///< of second order no more than the critical load factor
   std::vector<int> first_to_yield;  ///< joints that yield at some factor, the first first
-  std::vector<int> loose;           ///< pieces that no joint holds to anything that stands still
+  std::vector<int> loose;           ///< loose_pieces()
 };
+
+/// Pieces that no joint holds to anything that stands still: what rests on a structure, which statics leaves
+/// out with its weight.
+std::vector<int> loose_pieces(const Plan& plan);
 
 enum class Order {
   first,   ///< equilibrium of the structure as drawn
