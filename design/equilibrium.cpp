@@ -47,15 +47,16 @@ std::vector<bool> held_pieces(const Plan& plan) {
   return held;
 }
 
-}  // namespace
-
-std::vector<int> loose_pieces(const Plan& plan) {
-  const std::vector<bool> held = held_pieces(plan);
+std::vector<int> others_than(const std::vector<bool>& held) {
   std::vector<int> loose;
   for (std::size_t i = 0; i < held.size(); ++i)
     if (!held[i]) loose.push_back(static_cast<int>(i));
   return loose;
 }
+
+}  // namespace
+
+std::vector<int> loose_pieces(const Plan& plan) { return others_than(held_pieces(plan)); }
 
 // A = √k B = Q [Lᵀ …] Pᵀ, √k the root of k; what is not shown belongs to mechanisms. L Lᵀ = Pᵀ K P without
 // squaring A's condition. SPQR, for its fronts: Eigen's own sparse QR took a thousand times as long on a
@@ -132,7 +133,7 @@ void Equilibrium::number_columns() {
     column[i] = carrier >= 0 ? column[static_cast<std::size_t>(carrier)] : columns;
     if (carrier < 0) columns += 3;
   }
-  loose = loose_pieces(plan_);
+  loose = others_than(is_held);
   for (const PlannedJoint& j : plan_.joints)
     held.push_back(j.b < 0 || is_held[static_cast<std::size_t>(j.b)]);
 }

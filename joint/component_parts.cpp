@@ -306,13 +306,13 @@ void Component::foresee(int count) {
     Body& b = solver.bodies[i];
     (i < solver.free_bodies() ? b.v_free : b.v) = own(i, m.exact - m.jump);
   }
-  SolveReport solved;
-  solver.foresee(outside_.links, outside_.contacts, solved);
+  solver.foresee(outside_.links, outside_.contacts);
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
     const Mirror& m = mirrors[i];
-    const Vec3 last = m.present ? in_doubles(velocity_of(*m.body)) - m.jump : Vec3{};
-    const Vec3 next = into_world(solver.places[i].turn, solver.bodies[i].v);
-    parts_.bodies[i].withheld = m.present ? (0.5 - 0.5 / count) * (next - last) : Vec3{};
+    Vec3& withheld = parts_.bodies[i].withheld = {};
+    if (!m.present) continue;
+    const Vec3 last = in_doubles(velocity_of(*m.body)) - m.jump;
+    withheld = (0.5 - 0.5 / count) * (into_world(solver.places[i].turn, solver.bodies[i].v) - last);
   }
   parts_.withholds = true;
 }

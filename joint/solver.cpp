@@ -80,14 +80,7 @@ void Solver::begin(double h) {
 }
 
 void Solver::divide(double parts) {
-  if (std::exchange(struck_, false)) {
-    for (std::size_t k = 0; k < own(); ++k) {
-      joints[k].impulse = before_blow_[k];
-      joints[k].regime = 0;
-      records[k].held = 1;
-    }
-    newton_.forget();
-  }
+  if (std::exchange(struck_, false)) undo_blow();
   laws_.divide(*this, parts);
   prediction_.forget();
 }
@@ -104,14 +97,22 @@ void Solver::strike(double closing) {
   closing_ = closing;
 }
 
-void Solver::foresee(std::span<const Link> links_now, std::span<const Contact> contacts_now,
-                     SolveReport& report) {
-  if (!struck_) strike(0);
-  constexpr double never = 1e3;  // m/s
+// Joints have the impulses and regimes that they had before the blow.
+void Solver::undo_blow() {
   for (std::size_t k = 0; k < own(); ++k) {
     joints[k].impulse = before_blow_[k];
     joints[k].regime = 0;
+    records[k].held = 1;
   }
+  newton_.forget();
+}
+
+// A slack line whose bias is that of one far from taut takes nothing. The parts' first begin() makes all
+// biases anew.
+void Solver::foresee(std::span<const Link> links_now, std::span<const Contact> contacts_now) {
+  if (!struck_) strike(0);
+  undo_blow();
+  constexpr double never = 1e3;  // m/s
   for (const int at : slackening) {
     Joint& j = joints[z(at)];
     const JointRecord& r = records[z(at)];
@@ -120,8 +121,8 @@ void Solver::foresee(std::span<const Link> links_now, std::span<const Contact> c
   }
   touch(links_now, contacts_now);
   go_on();
-  newton_.forget();
-  solve(report);
+  SolveReport unreported;
+  solve(unreported);
   for (std::size_t k = 0; k < own(); ++k) before_blow_[k] = joints[k].impulse;
 }
 

@@ -74,8 +74,8 @@ class Solver : public System {
   void go_on() { friction_rounds_ = 1; }
   /// Solves the step as it would be if no line snapped taut, before divide(): joints have the impulses of
   /// that when the parts begin. Contacts that are not to be struck have a bounce that says so.
-  void foresee(std::span<const Link> links, std::span<const Contact> contacts, SolveReport& report);
-  /// Whether the last step was as long as this one, and of the same joints.
+  void foresee(std::span<const Link> links, std::span<const Contact> contacts);
+  /// Whether the last step is known to have been as long as this one, and of the same joints.
   bool knows_last_step() const { return prediction_.known(); }
   /// In the body's own frame. All that happens between two solves of a step is said so, or none of it. Solves
   /// until the next begin() do not settle the contacts' friction anew.
@@ -153,6 +153,7 @@ class Solver : public System {
   }
 
  private:
+  void undo_blow();
   void place_others();
   void solve_again(Solution& solution, SolveReport& report);
   void settle_friction(Solution& solution, SolveReport& report);

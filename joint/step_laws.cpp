@@ -175,10 +175,10 @@ double StepLaws::most_growth(System& system, double last_h) {
 // step's end, where velocities belong to the middle: that of half a step before, which they would ask for,
 // may be far more, and so it starts with w = 0. A full step's impulse of a strain that falls would give more
 // than it stores: the strain that it will be half a step on gives less. It is eased of the rest, which is
-// drift: taken back where the row's force does not pull against that, and slowly where it does, what bears a
-// load comes to where it was before. But where its force stopped growing it was strained too far, and what it
-// moved back by is no rate. A force that falls takes the impulse along, of which an implicit row's strain is
-// read.
+// drift. Where the row's force does not pull against that, drift is taken back as that of turns is;
+// where it does, slowly, so that what bears a load comes back to where it hung. But where its force stopped
+// growing it was strained too far, and what it moved back by is no rate. A force that falls takes the impulse
+// along, of which an implicit row's strain is read.
 void StepLaws::follow_law(Joint& j, JointRecord& r, Rows& strain, const Rows& parted,
                           double most_growth) const {
   Rows spring = r.law.spring;

@@ -24,6 +24,7 @@ class LinearPrediction {
   void form(std::span<const Vec3> masses);
   /// What comes does not go on from what was.
   void forget() { known_ = 0; }
+  /// Whether any solution is known since forget().
   bool known() const { return known_ > 0; }
   /// Where to write the newest velocities, in place of the oldest; then fit(), then next().
   std::span<Vec3> newest();
