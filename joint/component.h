@@ -300,6 +300,7 @@ struct Component {
   bool goes_on_in_parts(const b2SolverData& data) const;
   bool is_strained() const;
   Vec3 pushed(std::size_t body) const;
+  bool flies(int body) const;
   bool throws() const;
   bool normals_held() const;
   bool snaps_hard();

@@ -234,11 +234,19 @@ Vec3 Component::pushed(std::size_t body) const {
   return mirrors[body].exact - b.before - parts_.count * b.given;
 }
 
+// Whether nothing but lines holds a body.
+bool Component::flies(int body) const {
+  return mirrors[z(body)].guest() || std::none_of(members.begin(), members.end(), [&](const Member* m) {
+           const Joint& j = solver.joints[m->index];
+           return !j.frame.line && (j.a == body || j.b == body);
+         });
+}
+
 // Whether the structure gave what strikes it more than twice what bears its weight: moments may pass through
 // 0 while it is thrown, or braked.
 bool Component::throws() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    if (!mirrors[i].guest()) continue;
+    if (!flies(static_cast<int>(i))) continue;
     const Vec3 weight = parts_.count * parts_.bodies[i].given, push = pushed(i);
     if (std::hypot(push.x, push.y) > std::max(double{blow_speed}, 2 * std::hypot(weight.x, weight.y)))
       return true;

@@ -334,6 +334,35 @@ bool put_held_back(const b2World& world, Groups& groups, b2Body& guest, b2Body& 
   return true;
 }
 
+/// Half of the thinner of two fixtures' least widths, m.
+float half_thickness(const b2Contact& contact) {
+  float least = b2_maxFloat;
+  for (const auto& [fixture, child] : {std::pair{contact.GetFixtureA(), contact.GetChildIndexA()},
+                                       std::pair{contact.GetFixtureB(), contact.GetChildIndexB()}}) {
+    b2AABB box;
+    b2Transform upright;
+    upright.SetIdentity();
+    fixture->GetShape()->ComputeAABB(&box, upright, child);
+    least = std::min({least, box.GetExtents().x, box.GetExtents().y});
+  }
+  return least;
+}
+
+// Of two pieces that are both held, the one that has gone farther goes back on its own way, if it went so
+// deep that it might come out on the other side. In the next step its structure follows, as far as joints let
+// it, like one that the game has moved: a ball on a rope does, and a beam stays where it is.
+void put_piece_back(b2World& world, b2Body& one, b2Body& other, const b2Contact& contact) {
+  b2Sweep way_of_one = motion_of(one), way_of_other = motion_of(other);
+  const bool first =
+      (way_of_one.c - way_of_one.c0).LengthSquared() >= (way_of_other.c - way_of_other.c0).LengthSquared();
+  b2Body &body = first ? one : other, &piece = first ? other : one;
+  const b2Sweep& own = first ? way_of_one : way_of_other;
+  const Way way = way_to(contact, piece, body, own);
+  if (!(way.share < 1)) return;
+  const float deep = -(1 - way.share) * b2Dot(own.c - own.c0, way.normal);
+  if (deep > half_thickness(contact) / 2) put_back(body, own, way.share, world.GetGravity());
+}
+
 // A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
 // is where it was.
 void share_way(const b2World& world, Groups& groups, b2Body& guest, b2Body& piece, const b2Vec2& way) {
@@ -479,7 +508,9 @@ void Island::meet_guests(b2World& in) {
              (o.way.share < m.way.share || (o.way.share == m.way.share && &o < &m));
     };
     if (!m.straight) {
-      move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal);
+      if (!move_apart(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal) &&
+          is_joined(*m.body))
+        put_piece_back(in, *m.body, *m.piece, *m.contact);
     } else if (std::none_of(meetings.begin(), meetings.end(), earlier)) {
       if (raise_wheel(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way.normal)) continue;
       if (put_held_back(in, groups, *m.body, *m.piece, *m.contact, m.motion, m.way)) continue;
