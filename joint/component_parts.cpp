@@ -107,14 +107,23 @@ bool Component::may_divide(const b2SolverData& data) const {
     const Vec3 apart = m.exact - first->exact;
     return &m == first || (dot(apart, apart) == 0 && m.exact.w == 0);
   };
+  // What strikes may be spun by more than π/2 a step, which Box2D takes of it in the end; parts resolve that.
+  const auto within_limits = [&] {
+    for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
+      const Vec3& v = solver.bodies[i].v;
+      if (!mirrors[i].guest() &&
+          !(h * std::hypot(v.x, v.y) < b2_maxTranslation && h * std::abs(v.w) < b2_maxRotation))
+        return false;
+    }
+    return true;
+  };
   // A distance joint has no rows where its two anchors are one.
   const auto has_rows = [](const StockJoint& t) { return t.rows.count > 0; };
   return coupling_ != Coupling::partly && std::all_of(outside_.ties.begin(), outside_.ties.end(), has_rows) &&
          std::all_of(mirrors.begin() + static_cast<std::ptrdiff_t>(solver.free_bodies()), mirrors.end(),
                      moves_alike) &&
          !structures.front()->world->GetSubStepping() && data.step.positionIterations > 0 &&
-         parts_of(h) > 1 && h * solver.fastest() < b2_maxTranslation &&
-         h * solver.fastest_turn() < b2_maxRotation;
+         parts_of(h) > 1 && within_limits();
 }
 
 bool Component::goes_on_in_parts(const b2SolverData& data) const {
