@@ -97,6 +97,25 @@ b2Vec2 way_out(const b2Contact& contact, b2Body& piece, const b2Body& body, floa
   return (1 - way_to(contact, piece, body, in).share) * most * direction;
 }
 
+/// Half of the thinner of two fixtures' least widths, m.
+float half_thickness(const b2Contact& contact) {
+  float least = b2_maxFloat;
+  for (const auto& [fixture, child] : {std::pair{contact.GetFixtureA(), contact.GetChildIndexA()},
+                                       std::pair{contact.GetFixtureB(), contact.GetChildIndexB()}}) {
+    b2AABB box;
+    b2Transform upright;
+    upright.SetIdentity();
+    fixture->GetShape()->ComputeAABB(&box, upright, child);
+    least = std::min({least, box.GetExtents().x, box.GetExtents().y});
+  }
+  return least;
+}
+
+/// How deep a body goes into a piece by its motion after the first touch, m.
+float depth(const b2Sweep& moving, const Way& way) {
+  return -(1 - way.share) * b2Dot(moving.c - moving.c0, way.normal);
+}
+
 using Bodies = std::unordered_set<const b2Body*>;
 
 /// Whether a body would overlap nothing there by more than its skin, but pieces, what it so overlaps where it
@@ -334,20 +353,6 @@ bool put_held_back(const b2World& world, Groups& groups, b2Body& guest, b2Body& 
   return true;
 }
 
-/// Half of the thinner of two fixtures' least widths, m.
-float half_thickness(const b2Contact& contact) {
-  float least = b2_maxFloat;
-  for (const auto& [fixture, child] : {std::pair{contact.GetFixtureA(), contact.GetChildIndexA()},
-                                       std::pair{contact.GetFixtureB(), contact.GetChildIndexB()}}) {
-    b2AABB box;
-    b2Transform upright;
-    upright.SetIdentity();
-    fixture->GetShape()->ComputeAABB(&box, upright, child);
-    least = std::min({least, box.GetExtents().x, box.GetExtents().y});
-  }
-  return least;
-}
-
 // Of two pieces that are both held, the one that has gone farther goes back on its own way, if it went so
 // deep that it might come out on the other side. In the next step its structure follows, as far as joints let
 // it, like one that the game has moved: a ball on a rope does, and a beam stays where it is.
@@ -359,8 +364,7 @@ void put_piece_back(b2World& world, b2Body& one, b2Body& other, const b2Contact&
   const b2Sweep& own = first ? way_of_one : way_of_other;
   const Way way = way_to(contact, piece, body, own);
   if (!(way.share < 1)) return;
-  const float deep = -(1 - way.share) * b2Dot(own.c - own.c0, way.normal);
-  if (deep > half_thickness(contact) / 2) put_back(body, own, way.share, world.GetGravity());
+  if (depth(own, way) > half_thickness(contact) / 2) put_back(body, own, way.share, world.GetGravity());
 }
 
 // A guest went this way back from a piece of what may be free as well: both go on until their centre of mass
@@ -457,7 +461,7 @@ void Island::meet_guests(b2World& in) {
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
   forget_blows(in);
   end_stale();
-  const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body, bool advanced) {
+  const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body) {
     const bool guest = !is_joined(body);
     const bool alone =
         std::any_of(all_alone.begin(), all_alone.end(), [&body](const Alone& a) { return a.guest == &body; });
@@ -476,7 +480,10 @@ void Island::meet_guests(b2World& in) {
     if (!(way.share < 1)) return;
     // What hangs together turns as it swings, and what touched something in parts of a step has not gone
     // straight on.
-    const bool straight = alone || (guest && !(advanced && is_touching(body)));
+    const bool touches = is_touching(body), straight = alone || (guest && !touches);
+    // What touches one piece and meets the next of another structure is in the way of both from now on. If it
+    // went out of that, it would leave the first, and meet each of them in turn, without coming any farther.
+    if (guest && touches && !alone && depth(seen, way) < half_thickness(contact)) return;
     b2Transform there;
     seen.GetTransform(&there, way.share);
     if (!straight || has_room(in, body, there)) {
@@ -487,12 +494,12 @@ void Island::meet_guests(b2World& in) {
   };
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
-      look(*piece.body, contact, body, c->advanced());
+      look(*piece.body, contact, body);
     });
     c->leave_step();
   }
   each_lone_piece([&](b2Body& piece) {
-    each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body, false); });
+    each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body); });
   });
   for (const Alone& a : all_alone) {
     // Where its way grazes them by less than rounding, it is where Box2D let them meet.

@@ -1515,6 +1515,43 @@ TEST(FirstTouch, KeepsTwoStructuresApart) {
   }
 }
 
+// A heavy disc falls between the tips of two bars, each a structure of its own, and bends them out of its
+// way. It touched one, met the other, was put back to where it did, off the first, and so in turn: it hung
+// there.
+TEST(FirstTouch, OfADiscBetweenTwoBarsLetsItFallThrough) {
+  const auto height = [](double off, double hz) {
+    b2World world({0, -10});
+    Structure structure(world);
+    b2BodyDef at_origin;
+    b2Body* ground = world.CreateBody(&at_origin);
+    for (const double side : {-1.0, 1.0}) {
+      b2Body* bar =
+          add_box(world, {.x = side * 1.5, .y = 0, .width = 3, .height = 0.4, .mass = 200, .group = 0});
+      ElasticPlasticJointDef root;
+      root.Initialize(ground, bar, vec(side * 3, 0), {1, 0});
+      root.rows[axial] = {.stiffness = 1e9};
+      root.rows[shear] = {.stiffness = 1e8};
+      root.rows[rotation] = {.stiffness = 3e7, .cap = 5.5e5, .cap_reverse = 5.5e5, .damping = 1e5};
+      structure.create_joint(root);
+    }
+    b2Body* disc = add(world, {.x = off, .bottom = 0.7, .mass = 50e3});
+    make_wheel(*disc);
+    static_cast<b2CircleShape*>(disc->GetFixtureList()->GetShape())->m_radius = 1;
+    disc->SetTransform(vec(off, 1.7), 0);
+    disc->SetLinearVelocity({0, -3});
+    for (int i = 0; i < 2 * hz; ++i) {
+      world.Step(static_cast<float>(1 / hz), 8, 3);
+      structure.update();
+    }
+    return disc->GetPosition().y;
+  };
+  for (const double off : {0.06, 0.1, 0.15}) {
+    const double right = height(off, 1920);
+    EXPECT_LT(right, -8) << off;
+    for (const double hz : {60.0, 120.0}) EXPECT_NEAR(height(off, hz), right, 4) << off << ", " << hz;
+  }
+}
+
 // A ball that hangs on a rope of the structure, taut or slack, strikes a post as one that hangs on nothing:
 // it was a piece that is held, as the post is, and went through that, wherever a step ended behind it.
 TEST(FirstTouch, OfABallOnARopePassesThroughNothing) {
