@@ -86,17 +86,27 @@ void Component::enter_ties(int parts) {
   }
 }
 
-// Whether a joint that closes its gap presses harder than the bodies' masses could ask for: something that
-// touches them is in its way, and presses back harder in each step.
+// Whether a joint that closes its gap presses harder than the bodies' masses and motors could ask for:
+// something that touches them is in its way, and presses back harder in each step.
 bool Component::is_jammed() const {
   if (jam_time_ > 0 || solver.links.empty() || solver.contacts.empty()) return false;
   const double weight = solver.step() * b2Distance(structures.front()->world->GetGravity(), b2Vec2_zero);
+  const auto is_bounded = [](const Link& link, unsigned i) {
+    return std::max(link.cap[i], link.cap_reverse[i]) < unlimited;
+  };
+  double motors = 0;
+  for (const Link& link : solver.links)
+    for (unsigned i = 0; i < 2; ++i) motors += is_bounded(link, i) ? std::abs(link.impulse[i]) : 0;
+  for (const Joint& j : solver.own_joints())
+    for (unsigned i = 0; i < 2 && j.special; ++i)
+      if (solver.record(j).material.is_driven(i)) motors += std::abs(j.impulse[i]);
   return std::any_of(solver.links.begin(), solver.links.end(), [&](const Link& link) {
-    for (unsigned i = 0; i < 2; ++i)
-      if (link.G[i] == unlimited && std::max(link.cap[i], link.cap_reverse[i]) == unlimited &&
-          link.bias[i] != 0 &&
-          std::abs(link.impulse[i]) > most_weights * solver.mass * (std::abs(link.bias[i]) + weight))
+    for (unsigned i = 0; i < 2; ++i) {
+      const double asked = most_weights * solver.mass * (std::abs(link.bias[i]) + weight) + motors;
+      if (link.G[i] == unlimited && !is_bounded(link, i) && link.bias[i] != 0 &&
+          std::abs(link.impulse[i]) > asked)
         return true;
+    }
     return false;
   });
 }

@@ -561,6 +561,34 @@ TEST(StockSliders, RestOnTheirLimit) {
   EXPECT_LE(slider->GetMotorForce(60), 1.001 * Deck::weight);
 }
 
+// A lift with a block on its deck that its motor, 250 times as strong as all of it is heavy, lifts to the
+// upper limit and holds there: the limit's answer to the motor is no jam, for which gaps would be left open.
+TEST(StockSliders, OfALiftRestAtTheUpperLimit) {
+  for (const double hz : {30.0, 60.0}) {
+    Deck deck(6);
+    add_box(deck.world, {.x = 3, .y = 0.4, .width = 0.6, .height = 0.6, .mass = 720, .group = 0});
+    for (b2Body* piece : deck.pieces) {
+      b2Filter filter = piece->GetFixtureList()->GetFilterData();
+      filter.groupIndex = 0;
+      piece->GetFixtureList()->SetFilterData(filter);
+    }
+    b2PrismaticJointDef def;
+    def.Initialize(deck.ground, deck.pieces.front(), {0, 0}, {0, 1});
+    def.enableMotor = def.enableLimit = true;
+    def.motorSpeed = 0.5f;
+    def.maxMotorForce = 1e7f;
+    def.upperTranslation = 2;
+    auto* slider = static_cast<b2PrismaticJoint*>(deck.hold(def));
+    deck.run(8, hz);
+    for (int i = 0; i < hz; ++i) {
+      deck.run(1 / hz, hz);
+      ASSERT_NEAR(slider->GetJointTranslation(), 2, 1e-4) << hz;
+      const double weight = (Deck::mass + 720) * gravity;
+      ASSERT_NEAR(slider->GetReactionForce(static_cast<float>(hz)).y, weight, 1e-3 * weight) << hz;
+    }
+  }
+}
+
 // As Box2D has it: gear joints, and all where nothing starts warm.
 TEST(StockJoints, WithoutWarmStartsAreBox2Ds) {
   Deck deck;
