@@ -21,6 +21,7 @@
 #include "ductile/plane.h"
 #include "ductile/strip_line.h"
 #include "fundamental.h"
+#include "half.h"
 #include "lines.h"
 #include "split.h"
 #include "strip.h"
@@ -301,6 +302,7 @@ class Planner {
     }
     refuse_problems();  // what follows needs all pieces
     first_inside_.push_back(plan_.joints.size());
+    for (const JointBetweenDef& joint : scene_.joints) contacts_.push_back(contacts_of(joint));
     for (const JointBetweenDef& joint : scene_.joints) join(joint);
     for (std::size_t i = 0; i < scene_.supports.size(); ++i) support(static_cast<int>(i));
     for (std::size_t i = 0; i < scene_.loads.size(); ++i) load(static_cast<int>(i));
@@ -517,6 +519,8 @@ class Planner {
     std::stable_sort(intervals.begin(), intervals.end(), [](const Interval& i, const Interval& j) {
       return std::pair(i.left, i.right) < std::pair(j.left, j.right);
     });
+    for (const Interval& i : intervals)
+      add_face(first + i.left, first + i.right, frame.world(i.from), frame.world(i.to));
     const std::array overriding{Overriding{"body", &body.joint}, Overriding{"scene", &scene_.joint}};
     std::vector<Touch> touches;
     for (std::size_t k = 0; k < intervals.size(); ++k) {
@@ -528,6 +532,23 @@ class Planner {
       add_joints(first + i.left, first + i.right, touches, overriding);
       touches.clear();
     }
+  }
+
+  // Of what lies behind an edge of a piece, the part of one joint: several on that edge share it.
+  double share_of(int piece, Point from, Point to) const {
+    const double own = length(to - from), apart = 1e-3 * own;
+    const Point u = unit(to - from);
+    const auto is_on = [&](Point p) { return std::abs(cross(u, p - from)) <= apart; };
+    double all = 0;
+    if (const auto found = faces_.find(piece); found != faces_.end())
+      for (const auto& [start, end] : found->second)
+        if (dot(u, end - start) > 0 && is_on(start) && is_on(end)) all += dot(u, end - start);
+    return own / std::max(own, all);
+  }
+
+  void add_face(int left, int right, Point from, Point to) {
+    faces_[left].push_back({from, to});
+    faces_[right].push_back({to, from});
   }
 
   // An interval that has piece a on its left and piece b on its right; `reach` is ℓ where it is known.
@@ -612,6 +633,17 @@ class Planner {
     }
     const bool inside = plan_.pieces[a].body == plan_.pieces[b].body;
     std::array<Side, 2> sides{side(a, joint, -joint.axis, inside), side(b, joint, joint.axis, inside)};
+    const double known = touches.front().reach;  // along an axis that may bend
+    if (!(known > 0) && sharing.intervals == 1)
+      for (const int i : {0, 1}) {
+        Side& s = sides[i];
+        if (!(s.reach > 0) || !s.straight || !s.strip || s.strip->profile_height()) continue;
+        const int piece = i == 0 ? a : b;
+        const Face face{joint.anchor, i == 0 ? -joint.axis : joint.axis, height,
+                        i == 0 ? share_of(a, from, to) : share_of(b, to, from)};
+        s.longer = half_of(plan_.pieces[piece].outline, face, s.reach);
+        joint.mean[i] = {s.reach / (s.reach + s.longer.along), s.reach / (s.reach + s.longer.bending)};
+      }
     for (const Side& s : sides) {
       const std::optional<double> profile = s.strip ? s.strip->profile_height() : std::nullopt;
       if (!profile || std::abs(height - *profile) <= 0.01 * *profile) continue;
@@ -622,8 +654,9 @@ class Planner {
       if (inside) break;
     }
     if (inside) {  // one section, and both pieces give
-      const double reach = touches.front().reach;
-      sides[0].reach = reach > 0 ? reach : sides[0].reach + sides[1].reach;
+      sides[0].reach = known > 0 ? known : sides[0].reach + sides[1].reach;
+      sides[0].longer.along += sides[1].longer.along;
+      sides[0].longer.bending += sides[1].longer.bending;
       sides[1].strip = nullptr;
     }
     caps_.fill_in(joint, sides, overriding, sharing);
@@ -640,8 +673,10 @@ class Planner {
         result.reach = std::max(result.reach, dot(p - joint.anchor, outward) / 2);
     if (const auto ends = ends_.find(piece.body); !inside && result.reach > 0 && ends != ends_.end())
       for (const AutomaticSplit::End& end : ends->second)  // a bent piece is longer than it reaches
-        if (length(end.at - joint.anchor) < joint.height && dot(end.outward, outward) < -0.7)
+        if (length(end.at - joint.anchor) < joint.height && dot(end.outward, outward) < -0.7) {
+          result.straight = std::abs(end.half - result.reach) < 1e-3 * result.reach;
           result.reach = end.half;
+        }
     if (!inside && !body.profile.empty()) result.reversed = dot(joint.axis, strip_direction(body)) < 0;
     return result;
   }
@@ -851,28 +886,16 @@ class Planner {
   void join_where_it_says(const JointBetweenDef& def) {
     if (def.is_line()) return join_by_line(def);
     if (def.at) return join_at(def, static_cast<int>(&def - scene_.joints.data()) + 1);
-    const auto of_a = pieces_of(def.a), of_b = pieces_of(def.b);  // from, to
-    double size = unlimited;
-    for (const int piece : {of_a.first, of_b.first}) {
-      const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
-      size = std::min(size, body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal());
-    }
-    const double least = 1e-6 * size;
-    const double gap = def.gap > 0 ? def.gap : least;
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
-    if (def.across) return join_across(def, overriding);
-    std::vector<Contact> contacts;
-    for (int i = of_a.first; i < of_a.second; ++i)
-      for (int j = of_b.first; j < of_b.second; ++j) {
-        const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
-        if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
-        for (Contact& c : touching(one.outline, two.outline, gap, least)) {
-          c.a = i;
-          c.b = j;
-          contacts.push_back(c);
-        }
-      }
-    keep_shared(contacts, gap, least);
+    const std::vector<Contact>& contacts = contacts_[static_cast<std::size_t>(&def - scene_.joints.data())];
+    if (def.across) {
+      const Contact& c = contacts.front();
+      const auto joined_before =
+          std::count_if(plan_.joints.begin(), plan_.joints.end(),
+                        [&](const PlannedJoint& j) { return j.a == c.a && j.b == c.b; });
+      return add_joint(c.a, c.b, std::array{Touch{c.from, c.to}}, static_cast<std::size_t>(joined_before),
+                       overriding, {});
+    }
     std::vector<Touch> touches;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const Contact& c = contacts[k];
@@ -883,18 +906,48 @@ class Planner {
     }
     if (contacts.empty())
       problems_.push_back({"joint '" + def.a + "'-'" + def.b + "'",
-                           "their edges do not overlap anywhere within " + to_string(gap) + " m",
+                           "their edges do not overlap anywhere within " + to_string(gap_of(def)) + " m",
                            "let the two outlines share part of an edge, or give a larger gap"});
   }
 
-  // As if the segment were a common edge of the pieces on its sides.
-  void join_across(const JointBetweenDef& def, std::span<const Overriding> overriding) {
-    auto [from, to] = *def.across;
-    const int a = nearest_piece(def.a, middle(from, to)), b = nearest_piece(def.b, middle(from, to));
-    if (dot(right(to - from), plan_.pieces[b].center - plan_.pieces[a].center) < 0) std::swap(from, to);
-    const auto joined_before = std::count_if(plan_.joints.begin(), plan_.joints.end(),
-                                             [&](const PlannedJoint& j) { return j.a == a && j.b == b; });
-    add_joint(a, b, std::array{Touch{from, to}}, static_cast<std::size_t>(joined_before), overriding, {});
+  // m: what two bodies' edges must have in common at least.
+  double least_contact(const JointBetweenDef& def) const {
+    double size = unlimited;
+    for (const int piece : {pieces_of(def.a).first, pieces_of(def.b).first}) {
+      const BodyDef& body = plan_.bodies[plan_.pieces[piece].body];
+      size = std::min(size, body.circle > 0 ? 2 * body.circle : bounds_of(body.outline.outer).diagonal());
+    }
+    return 1e-6 * size;
+  }
+
+  double gap_of(const JointBetweenDef& def) const { return def.gap > 0 ? def.gap : least_contact(def); }
+
+  // Where a joint's pieces touch, by pieces; none at points and of lines.
+  std::vector<Contact> contacts_of(const JointBetweenDef& def) {
+    std::vector<Contact> contacts;
+    if (def.is_line() || def.at) return contacts;
+    if (def.across) {  // as if the segment were a common edge of the pieces on its sides
+      auto [from, to] = *def.across;
+      const int a = nearest_piece(def.a, middle(from, to)), b = nearest_piece(def.b, middle(from, to));
+      if (dot(right(to - from), plan_.pieces[b].center - plan_.pieces[a].center) < 0) std::swap(from, to);
+      contacts.push_back({.from = from, .to = to, .a = a, .b = b});
+    } else {
+      const auto of_a = pieces_of(def.a), of_b = pieces_of(def.b);  // from, to
+      const double least = least_contact(def), gap = gap_of(def);
+      for (int i = of_a.first; i < of_a.second; ++i)
+        for (int j = of_b.first; j < of_b.second; ++j) {
+          const Piece &one = plan_.pieces[i], &two = plan_.pieces[j];
+          if (one.circle > 0 || two.circle > 0 || !near(one.outline, two.outline, gap)) continue;
+          for (Contact& c : touching(one.outline, two.outline, gap, least)) {
+            c.a = i;
+            c.b = j;
+            contacts.push_back(c);
+          }
+        }
+      keep_shared(contacts, gap, least);
+    }
+    for (const Contact& c : contacts) add_face(c.a, c.b, c.from, c.to);
+    return contacts;
   }
 
   static bool near(const Outline& a, const Outline& b, double gap) {
@@ -1031,9 +1084,12 @@ class Planner {
 
   const SceneDef& scene_;
   Plan plan_;
-  std::vector<Strip> strips_;                                       // of plan_.bodies
-  std::vector<int> first_piece_;                                    // of plan_.bodies
-  std::vector<std::size_t> first_inside_;                           // joint of each body, and beyond the last
+  std::vector<Strip> strips_;                   // of plan_.bodies
+  std::vector<int> first_piece_;                // of plan_.bodies
+  std::vector<std::size_t> first_inside_;       // joint of each body, and beyond the last
+  std::vector<std::vector<Contact>> contacts_;  // of scene_.joints
+  std::unordered_map<int, std::vector<std::array<Point, 2>>>
+      faces_;                                                       // joints' edges of pieces, on their left
   std::unordered_map<int, std::vector<AutomaticSplit::End>> ends_;  // of bodies split automatically
   Splitter splitter_;
   std::vector<Problem> problems_;

@@ -114,9 +114,9 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
     if (const double D = side.strip->doubling_rate() * joint.hinge_length; D > rate.doubling[axial])
       rate = {{D, std::numbers::sqrt3 * D, D / s.farther}, side.strip->rate_exponent()};
     if (s.EA > 0) {
-      along += side.reach / s.EA;
-      across += side.reach / s.GA;
-      bending += side.reach / s.EI;
+      along += (side.reach + side.longer.along) / s.EA;
+      across += (side.reach + side.longer.along) / s.GA;
+      bending += (side.reach + side.longer.bending) / s.EI;
     }
   }
   for (std::size_t i = overriding.size(); i-- > 0;) {

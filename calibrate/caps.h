@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "half.h"
 #include "strip.h"
 
 namespace ductile::calibration {
@@ -18,7 +19,9 @@ struct Side {
   const Strip* strip = nullptr;       ///< null: no material, does not govern
   bool reversed = false;              ///< the joint's axis runs against the strip
   double reach = 0;  ///< m: ℓ of this side, half of the piece's extent along the axis; 0: it does not give
-  double inertia = 0;  ///< kg m² of the piece about its centre
+  bool straight = true;  ///< ℓ is along the axis
+  Longer longer;         ///< than ℓ: what gives as much of the cut's section
+  double inertia = 0;    ///< kg m² of the piece about its centre
 };
 
 /// Of the intervals in line along which two pieces touch.

@@ -26,7 +26,7 @@ Vector3d across(const PlannedJoint& joint, const Arm& arm) {
   return {dot(left(arm.along), joint.axis), dot(left(arm.along), left(joint.axis)), 0};
 }
 
-// As calibrate() has it: half of the piece's extent along the axis bends as the section that touches.
+// As calibrate() has it: half of the piece's extent along the axis bends as the piece is high there.
 Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
   const int piece = of_b ? joint.b : joint.a;
   if (piece < 0 || !plan.is_dynamic(piece) || !(joint.stiffness.M < unlimited)) return {};
@@ -37,7 +37,8 @@ Arm arm(const Plan& plan, const PlannedJoint& joint, bool of_b) {
   for (const Point& p : plan.pieces[static_cast<std::size_t>(piece)].outline.outer)
     reach = std::max(reach, dot(p - joint.anchor, outward) / 2);
   const Elastic e = section->elastic({0, -1});
-  return e.EI > 0 ? Arm{reach, e.EI, -outward, 5. / 6 * e.EA / 2.6} : Arm{};
+  const PlannedJoint::Mean& mean = joint.mean[of_b];
+  return e.EI > 0 ? Arm{reach, mean.EI * e.EI, -outward, mean.EA * 5. / 6 * e.EA / 2.6} : Arm{};
 }
 
 // rad per N m.
@@ -67,20 +68,6 @@ bool ends(const Plan& plan, int piece) {
          }) == 1;
 }
 
-// EI of the cuts across a joint's piece, along the joint's axis; 0 where there are none.
-double next_cut(const Plan& plan, const std::vector<std::array<Arm, 2>>& arms, std::size_t joint, bool of_b) {
-  const PlannedJoint& own = plan.joints[joint];
-  const int piece = of_b ? own.b : own.a;
-  double most = 0;
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    const PlannedJoint& other = plan.joints[i];
-    if ((other.a == piece || other.b == piece) && is_inside(plan, other) &&
-        std::abs(dot(other.axis, own.axis)) > 0.9)
-      most = std::max(most, arms[i][other.b == piece].EI);
-  }
-  return most;
-}
-
 }  // namespace
 
 std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
@@ -97,11 +84,6 @@ std::vector<std::array<Arm, 2>> arms_of(const Plan& plan) {
         most = std::max(most, own[b].EI);
       }
   }
-  // A body that meets a slighter one is as stiff up to there as its next cut is.
-  for (std::size_t i = 0; i < arms.size(); ++i)
-    for (const bool b : {false, true})
-      if (arms[i][b].length > 0 && !is_inside(plan, plan.joints[i]))
-        arms[i][b].EI = std::max(arms[i][b].EI, next_cut(plan, arms, i, b));
   // From the middle of a piece to a point where no section is cut.
   const auto arm_to = [&](int index, Point at) {
     if (index < 0 || stiffest[static_cast<std::size_t>(index)] == 0) return Arm{};

@@ -86,6 +86,72 @@ TEST(Calibrate, TrueStiffnessOverHalfOfEachNeighbour) {
   EXPECT_EQ(inner.damping_ratio, 0.05);
 }
 
+TEST(Calibrate, AHigherNeighbourGivesAsItIsHigh) {
+  SceneDef
+      scene;  // an arm 0.2 m high in the middle of a block's side of 4 m, and a bar of half its height on it
+  scene.bodies = {
+      {.name = "block", .outline = {rectangle(-4, -2, 0, 2), {}}, .material = test_steel},
+      {.name = "arm", .outline = {rectangle(0, -0.1, 2, 0.1), {}}, .material = test_steel, .pieces = 20},
+      {.name = "bar", .outline = {rectangle(2, -0.05, 3, 0.05), {}}, .material = test_steel, .pieces = 2}};
+  scene.joints = {{.a = "block", .b = "arm"}, {.a = "arm", .b = "bar"}};
+  const double E = 210e9, G = E / 2.6, EI = E * 0.008 / 12, small = EI / 8;
+  const Plan plan = calibrate(scene);
+  const PlannedJoint root = joint(plan, "block-arm/0"), step = joint(plan, "arm/19-bar/0");
+  EXPECT_NEAR(root.stiffness.M * (0.05 / EI + 2 / (8000 * EI)), 1, 1e-12);
+  EXPECT_NEAR(root.stiffness.N * (0.05 / (E * 0.2) + 2 / (E * 4)), 1, 1e-12);
+  EXPECT_NEAR(root.stiffness.Q * (0.05 / (E * 0.2) + 2 / (E * 4)) * E / (5. / 6 * G), 1, 1e-12);
+  EXPECT_NEAR(step.stiffness.M * (0.05 / EI + 0.25 / small), 1, 1e-12);
+  EXPECT_NEAR(step.mean[0].EI, 8, 1e-12);
+  EXPECT_EQ(step.mean[1].EI, 1);
+  EXPECT_DOUBLE_EQ(step.M, 0.01 / 4 * 350e6);  // strength is the cut's
+}
+
+// Two halves of a course carry as much as one of their width.
+TEST(Calibrate, JointsOnOneEdgeShareWhatIsBehindIt) {
+  SceneDef scene;
+  scene.bodies = {{.name = "l", .outline = {rectangle(0, 0, 1, 1), {}}, .material = test_steel},
+                  {.name = "r", .outline = {rectangle(1, 0, 2, 1), {}}, .material = test_steel},
+                  {.name = "top", .outline = {rectangle(0, 1, 2, 2), {}}, .material = test_steel}};
+  scene.joints = {{.a = "l", .b = "top"}, {.a = "r", .b = "top"}};
+  const double E = 210e9;
+  for (const PlannedJoint& j : calibrate(scene).joints)
+    EXPECT_NEAR(j.stiffness.N / E, 1, 1e-12);  // E 1 m²/1 m
+}
+
+TEST(Calibrate, AStripGivesAsItsCutToTheBit) {
+  for (const double angle : {0., 0.3, 2.}) {
+    SceneDef scene = cantilever(7);
+    scene.bodies[1].angle = angle;
+    scene.joints.clear();
+    for (const PlannedJoint& j : calibrate(scene).joints)
+      for (const PlannedJoint::Mean& mean : j.mean) EXPECT_TRUE(mean.EA == 1 && mean.EI == 1) << j.name;
+  }
+}
+
+// Of a taper, joints are the trapezoidal rule: EI of the cut over the pieces' length. A step at a cut in a
+// body is as one between bodies; ∫ ds/h³ of a block that tapers is (1/h₁² − 1/h₀²)/2m from h₀ to h₁ by a
+// slope of m.
+TEST(Calibrate, TapersAndStepsInABody) {
+  SceneDef scene;
+  scene.bodies = {{.name = "bar",
+                   .outline = {{{0, -1}, {4, -0.5}, {4, 0.5}, {0, 1}}, {}},
+                   .material = test_steel,
+                   .pieces = 2,
+                   .along = {Point{0, 0}, Point{4, 0}}}};
+  const double E = 210e9;
+  EXPECT_NEAR(calibrate(scene).joints[0].stiffness.M * 12 / E * 2 / (1.5 * 1.5 * 1.5), 1, 1e-14);
+  EXPECT_EQ(calibrate(scene).joints[0].mean[0].EI, 1);
+  scene.bodies[0].outline.outer = {{0, -1},  {2, -1},  {2, -0.5}, {4, -0.5},
+                                   {4, 0.5}, {2, 0.5}, {2, 1},    {0, 1}};
+  EXPECT_NEAR(calibrate(scene).joints[0].stiffness.M * 12 / E * (1 + 1. / 8), 1, 1e-12);
+  scene.bodies[0].outline.outer = {{0, -0.75}, {2, -1},  {2, -0.5}, {4, -0.5},
+                                   {4, 0.5},   {2, 0.5}, {2, 1},    {0, 0.75}};
+  const double h0 = 2, h1 = 1.75, m = 0.25;
+  EXPECT_NEAR(
+      calibrate(scene).joints[0].stiffness.M * 12 / E * (1 + (1 / (h1 * h1) - 1 / (h0 * h0)) / (2 * m)), 1,
+      1e-6);
+}
+
 TEST(Calibrate, LimitsFromFractureStrainAndHingeLength) {
   SceneDef scene = cantilever(4);
   // θ_max = ε_f·L_p/y with L_p = h = 1 m and y = h/2.

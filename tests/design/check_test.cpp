@@ -87,6 +87,41 @@ TEST(StaticCheck, ElasticTipDeflection) {
   }
 }
 
+// An arm on a block that moves bends as on a wall: P L³/3EI, but for 1/2n² of it.
+TEST(StaticCheck, AnArmOnABlock) {
+  constexpr int n = 20;
+  SceneDef scene = cantilever(n, P);
+  scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+  scene.bodies[0] = {.name = "wall", .outline = {rectangle(-40, -20, 0, 20), {}}, .material = test_steel};
+  scene.supports = {{.body = "wall", .at = {-40, -20}, .fix_x = true, .fix_y = true},
+                    {.body = "wall", .at = {0, -20}, .fix_y = true}};
+  const StaticCheck check = static_check(calibrate(scene));
+  const double tip = check.displacement.back().y + check.turn.back() * L / (2 * n);
+  EXPECT_NEAR(-tip / (P * L * L * L / 3 / (210e9 / 12)), 1, 1. / (n * n));
+}
+
+// A cantilever of two bars, the outer one half as high, with P where they meet and a prop at its end: R of it
+// is ∫ M m/EI over ∫ m²/EI, (20/3)/40 of P.
+TEST(StaticCheck, AStepInAProppedBarIsOfSecondOrder) {
+  const auto error = [](int n) {
+    SceneDef scene = cantilever(n, 0);
+    scene.joint.stiffness_axial = scene.joint.stiffness_shear = unlimited;
+    scene.bodies[1] = beam(n, L / 2);
+    BodyDef outer = beam(n, L / 2, 0.5);
+    outer.name = "outer";
+    outer.at = {L / 2, 0};
+    scene.bodies.push_back(outer);
+    scene.joints.push_back({.a = "beam", .b = "outer"});
+    scene.supports = {{.body = "outer", .at = {L, 0}, .fix_y = true}};
+    scene.loads = {{.body = "outer", .at = {L / 2, 0}, .force = {0, -P}}};
+    const Plan plan = calibrate(scene);
+    return std::abs(at(plan, static_check(plan), "support/0").Q) / P - 1. / 6;
+  };
+  EXPECT_NEAR(error(8) * 6, 0, 0.01);
+  EXPECT_NEAR(error(4) / error(8), 4, 0.3);
+  EXPECT_NEAR(error(8) / error(16), 4, 0.1);
+}
+
 // P L/8 at the ends and in the middle of a clamped beam; 3 P L/16 at the clamped end of a propped one.
 TEST(StaticCheck, IndeterminateForcesFollowTheStiffness) {
   for (const int n : {20, 40}) {

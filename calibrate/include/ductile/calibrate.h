@@ -243,6 +243,11 @@ struct PlannedJoint {
   /// Of a joint that is several intervals: from and to, m to the left of the axis, from the anchor, which is
   /// their centroid. Empty where there is one; `height` is from the first's start to the last's end.
   std::vector<std::array<double, 2>> intervals;
+  /// Of a's half and of b's, to the cut's: not 1 where a piece is not as high up to its middle as the cut.
+  struct Mean {
+    double EA = 1, EI = 1;  ///< on the mean of their flexibility
+  };
+  std::array<Mean, 2> mean;
   int governed_by = -1;                  ///< index into Plan::reasons
   bool hold = false;                     ///< JointOverrides::hold
   std::array<double, 3> displacement{};  ///< SupportDef::displacement, by rows
