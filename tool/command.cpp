@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -293,6 +294,69 @@ std::vector<std::string> clamped_at_cuts(const Plan& plan) {
   return names;
 }
 
+/// m, of an outline's stretch around a point in it, in a direction; 0 from outside.
+double stretch(const Ring& ring, Point at, Point direction) {
+  double back = 0, on = 0;
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point a = ring[j] - at, b = ring[i] - at;
+    const double from = cross(direction, a), to = cross(direction, b);
+    if ((from > 0) == (to > 0)) continue;
+    const double s = dot(direction, a + (from / (from - to)) * (b - a));
+    if (s > 0) inside = !inside;
+    if (s > 0 && (on == 0 || s < on)) on = s;
+    if (s < 0 && (back == 0 || s > back)) back = s;
+  }
+  return inside ? on - back : 0;
+}
+
+/// A cut askew through a strip is longer than the strip is wide, and stronger than the hinge that forms
+/// beside it. How wide the piece is from its middle up to halfway to the joint; 0 where it is no such strip.
+double width_beside(const Plan& plan, const PlannedJoint& joint, int index) {
+  if (!plan.is_dynamic(index)) return 0;
+  const Piece& piece = plan.pieces[static_cast<std::size_t>(index)];
+  const Point to_middle = piece.center - joint.anchor;
+  const bool inside = joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
+                                          plan.pieces[static_cast<std::size_t>(joint.b)].body;
+  // The less, the more askew. Two bodies that lie on each other are joined along them, which is no cut.
+  const double across = std::abs(dot(joint.axis, unit(to_middle)));
+  if (across < (inside ? 0.2 : 0.6) || piece.circle > 0) return 0;
+  const Point direction = left(unit(to_middle));
+  const double width = stretch(piece.outline.outer, piece.center, direction),
+               nearer = stretch(piece.outline.outer, joint.anchor + 0.5 * to_middle, direction);
+  constexpr double alike = 0.02, like_the_cut = 0.15;
+  if (length(to_middle) < width || std::abs(nearer - width) > alike * width ||
+      std::abs(joint.height * across - width) > like_the_cut * width)
+    return 0;
+  return width;
+}
+
+/// Joints across a strip that are too long, and so too strong by their sections: names, and the worst of
+/// them.
+struct Askew {
+  std::vector<std::string> names;
+  double height = 0, width = 1;  ///< m
+};
+Askew cuts_askew(const Plan& plan) {
+  constexpr double too_long = 1.05;  // to the width
+  Askew result;
+  for (const PlannedJoint& joint : plan.joints) {
+    if (joint.a < 0 || !(joint.height > 0) || !joint.intervals.empty()) continue;
+    for (const int piece : {joint.a, joint.b}) {
+      const double width = width_beside(plan, joint, piece);
+      if (width == 0 || joint.height < too_long * width) continue;
+      const std::optional<Section> section = section_at(plan, joint, piece);
+      const double by_section = section ? section->capacities({0, -1}).M : 0, share = width / joint.height;
+      if (joint.M > by_section * (1 + 1e-6) || joint.M < too_long * share * share * by_section) continue;
+      if (joint.height / width > result.height / result.width)
+        result.height = joint.height, result.width = width;
+      result.names.push_back(joint.name);
+      break;
+    }
+  }
+  return result;
+}
+
 /// Of numbers that no solid has in the units of scenes, and many in those of tables: what they are, and the
 /// bodies of which they are.
 std::map<std::string, std::vector<std::string>> other_units(const Plan& plan) {
@@ -343,6 +407,13 @@ std::vector<std::string> remarks(const Plan& plan) {
         ": a node holds it at one of its cuts, and the piece on one side takes the whole moment: "
         "elastic forces and displacements are off, the less the shorter its pieces are; put a "
         "piece's middle there, as an odd number of pieces does in the middle of a bar");
+  if (const Askew askew = cuts_askew(plan); !askew.names.empty()) {
+    const double longer = askew.height / askew.width;
+    result.push_back(fmt::format(
+        "{}: cut askew over {:.3g} m where the body is {:.3g} m across: {:.2g} times as strong in bending as "
+        "a hinge beside it, which no joint stands for; cut across the body, or give `moment`",
+        list_of(askew.names), askew.height, askew.width, longer * longer));
+  }
   for (const auto& [what, names] : other_units(plan)) result.push_back(list_of(names) + ": " + what);
   for (const auto& [strain, names] : breaking)
     result.push_back(fmt::format(

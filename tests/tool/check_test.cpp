@@ -87,6 +87,43 @@ TEST(CheckCommand, TellsOfMaterialsWithoutPlasticHinges) {
   }
 }
 
+// A cut that runs 0.4 m along a strip of 0.2 m is √5 times as long as the strip is wide, and its section 5
+// times as strong; a mitre of 45° twice. Up to 5 % longer, across a block, or where a moment is given, there
+// is nothing to say.
+TEST(CheckCommand, TellsOfCutsAskew) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& bodies) {
+    const std::string scene = folder.write("scene.json", R"({"bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]}, )" +
+                                                             bodies);
+    for (const char* command : {"limit", "calibrate"})
+      EXPECT_EQ(run(command + (" " + scene) + " --json").json()["remarks"],
+                run("check " + scene + " --json").json()["remarks"]);
+    return run("check " + scene + " --json").json()["remarks"];
+  };
+  const auto cut = [&](const std::string& from, const std::string& to, const std::string& more = "") {
+    return remarks(R"({"name": "bar", "outline": [[0,-0.1],[4,-0.1],[4,0.1],[0,0.1]], "material": "S355", )" +
+                   more + R"("split": {"cuts": [[[)" + from + ",-0.2],[" + to + R"(,0.2]]]}}],
+      "joints": [{"between": ["wall", "bar"]}]})");
+  };
+  EXPECT_EQ(cut("1.6", "2.4"),
+            (json{"bar/0-bar/1: cut askew over 0.447 m where the body is 0.2 m across: 5 times as "
+                  "strong in bending as a hinge beside it, which no joint stands for; cut across "
+                  "the body, or give `moment`"}));
+  EXPECT_EQ(cut("2", "2"), json::array());
+  EXPECT_EQ(cut("1.95", "2.05"), json::array());
+  EXPECT_EQ(cut("1.6", "2.4", R"("joint": {"moment": 355e3}, )"), json::array());
+  const json mitre =
+      remarks(R"({"name": "post", "outline": [[0,0],[0.2,0],[0.2,2.8],[0,3]], "material": "S355"},
+      {"name": "arm", "outline": [[0.2,2.8],[3,2.8],[3,3],[0,3]], "material": "S355"}],
+      "joints": [{"between": ["wall", "post"]}, {"between": ["post", "arm"]}]})");
+  ASSERT_EQ(mitre.size(), 2u) << mitre;  // and one on bars of one piece
+  EXPECT_NE(mitre[1].get<std::string>().find(
+                "post-arm: cut askew over 0.283 m where the body is 0.2 m across: 2 times"),
+            std::string::npos)
+      << mitre;
+}
+
 // Numbers of tables, where the unit is not the scene's.
 TEST(CheckCommand, TellsOfOtherUnits) {
   const Folder folder;
