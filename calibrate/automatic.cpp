@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <queue>
+#include <span>
 #include <utility>
 
 #include "axis.h"
@@ -45,15 +47,85 @@ Place between(const Place& a, const Place& b, double s) {
           a.area + share * (b.area - a.area), a.depth + share * (b.depth - a.depth)};
 }
 
-Place place_at(double s, const Chord& chord, const Outline& outline) {
+// An outline's holes by what is around them: a tree of boxes, in which a chord finds those that it may cross.
+class Holes {
+ public:
+  explicit Holes(const Outline& outline) : holes_(outline.holes) {
+    std::vector<Bounds> around;
+    around.reserve(holes_.size());
+    for (const Ring& hole : holes_) around.push_back(bounds_of(hole));
+    std::size_t leaves = 1;
+    while (leaves < holes_.size()) leaves *= 2;
+    boxes_.resize(2 * leaves);
+    order_.resize(holes_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    if (!order_.empty()) build(around, 1, order_);
+  }
+
+  // As the outline has them, so that sums over them are the same whatever the tree.
+  std::vector<std::size_t> crossed_by(const Chord& chord) const {
+    Bounds box;
+    box.add(chord.left);
+    box.add(chord.right);
+    const double rounding = 1e-9 * (width(chord) + length(chord.left));
+    std::vector<std::size_t> found, todo;
+    if (!order_.empty()) todo.push_back(1);
+    while (!todo.empty()) {
+      const Box& at = boxes_[todo.back()];
+      const std::size_t child = 2 * todo.back();
+      todo.pop_back();
+      if (!at.around.meets(box, rounding)) continue;
+      if (at.holes.size() == 1)
+        found.push_back(at.holes[0]);
+      else
+        todo.insert(todo.end(), {child, child + 1});
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  bool empty() const { return holes_.empty(); }
+  const Ring& operator[](std::size_t hole) const { return holes_[hole]; }
+
+ private:
+  struct Box {
+    Bounds around;
+    std::span<std::size_t> holes;
+  };
+
+  void build(const std::vector<Bounds>& around, std::size_t at, std::span<std::size_t> holes) {
+    Bounds all;
+    for (const std::size_t hole : holes) {
+      all.add(around[hole].low);
+      all.add(around[hole].high);
+    }
+    boxes_[at] = {all, holes};
+    if (holes.size() == 1) return;
+    const bool wide = all.size().x > all.size().y;
+    const auto place = [&](std::size_t hole) {
+      return wide ? around[hole].middle().x : around[hole].middle().y;
+    };
+    const std::size_t half = holes.size() / 2;
+    std::nth_element(holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(half), holes.end(),
+                     [&](std::size_t i, std::size_t k) { return place(i) < place(k); });
+    build(around, 2 * at, holes.first(half));
+    build(around, 2 * at + 1, holes.subspan(half));
+  }
+
+  const std::vector<Ring>& holes_;
+  std::vector<std::size_t> order_;
+  std::vector<Box> boxes_;  // 1: all; 2i and 2i + 1: halves of i
+};
+
+Place place_at(double s, const Chord& chord, const Holes& holes) {
   const double w = width(chord);
   Place place{s, middle(chord), w, w, w};
-  if (outline.holes.empty() || !(w > 0)) return place;
+  if (holes.empty() || !(w > 0)) return place;
   // Even crossings with a hole's edges are pairs: between them there is nothing.
   const Point u = (1 / w) * (chord.right - chord.left);
   double moment = w * w / 2, second = w * w * w / 3;  // about the left end
   std::vector<double> crossings;
-  for (const Ring& hole : outline.holes) {
+  for (const std::size_t index : holes.crossed_by(chord)) {
+    const Ring& hole = holes[index];
     crossings.clear();
     for (std::size_t i = 0; i < hole.size(); ++i) {
       const Point p = hole[i] - chord.left, q = hole[(i + 1) % hole.size()] - chord.left;
@@ -224,7 +296,7 @@ class Automatic {
  public:
   // `straight`: as a body that is no strip, whatever its axis.
   Automatic(const Outline& outline, double target, std::span<const Hold> holds, bool straight)
-      : outline_(outline), target_(target), faces_(faces_of(holds)), axis_(outline, faces_) {
+      : outline_(outline), holes_(outline), target_(target), faces_(faces_of(holds)), axis_(outline, faces_) {
     if (straight || !is_strip()) make_straight();
     for (int w = 0; w < std::ssize(axis_.members); ++w) lines_.push_back(line_of(w));
     find_longest_path();
@@ -330,7 +402,7 @@ class Automatic {
     std::vector<Place> line;
     line.reserve(m.stations.size() + 2);
     const auto add = [&](const Member::Station& station) {
-      line.push_back(place_at(station.s, station.chord, outline_));
+      line.push_back(place_at(station.s, station.chord, holes_));
     };
     add(m.stations.front());
     line.back().s = 0;
@@ -573,7 +645,7 @@ class Automatic {
     for (const auto& [way, backwards, offset] : steps_)
       for (const PlacedCut& c : cuts_of(cuts, way)) {
         const double s = offset + (backwards ? axis_.members[way].length - c.s : c.s);
-        joints.push_back({place_at(s, c.chord, outline_), c.length});
+        joints.push_back({place_at(s, c.chord, holes_), c.length});
       }
     std::sort(joints.begin(), joints.end(),
               [](const Hinge& a, const Hinge& b) { return a.place.s < b.place.s; });
@@ -708,6 +780,7 @@ class Automatic {
   }
 
   const Outline& outline_;
+  const Holes holes_;
   double target_;
   std::vector<Chord> faces_;
   Axis axis_;

@@ -379,10 +379,13 @@ class PlanarMap {
         cycles.push_back({std::move(ring)});
       }
     }
+    std::vector<Bounds> around;
+    for (const Outline& piece : result.pieces) around.push_back(bounds_of(piece.outer));
     for (Cycle& cycle : cycles) {
       if (cycle.hole.empty()) continue;
       for (std::size_t i = 0; i < result.pieces.size() && cycle.piece < 0; ++i)
-        if (result.pieces.size() == 1 || surrounds(result.pieces[i].outer, cycle.hole))
+        if (result.pieces.size() == 1 ||
+            (around[i].contains(cycle.hole[0]) && surrounds(result.pieces[i].outer, cycle.hole)))
           cycle.piece = static_cast<int>(i);
       if (cycle.piece >= 0) result.pieces[cycle.piece].holes.push_back(std::move(cycle.hole));
     }

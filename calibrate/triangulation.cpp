@@ -1,13 +1,17 @@
 #include "triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "ductile/moments.h"
+#include "ductile/plane.h"
 #include "orientation.h"
 #include "regions.h"
 
@@ -100,6 +104,43 @@ class Remaining {
   std::vector<std::size_t> leaf_;
 };
 
+// The nodes of a ring in its order, in blocks with a box around their edges: a search leaves out whole
+// blocks.
+class Blocks {
+ public:
+  struct Block {
+    std::vector<int> nodes;
+    Bounds around;
+  };
+  struct Place {
+    std::size_t block = 0, index = 0;
+  };
+
+  const std::vector<Block>& all() const { return blocks_; }
+
+  // Puts nodes after the one at a place; `add(node, box)` adds the edge from a node to a box.
+  template <class Add>
+  void insert(Place after, const std::vector<int>& nodes, const Add& add) {
+    if (blocks_.empty()) blocks_.emplace_back();
+    std::vector<int> all = std::move(blocks_[after.block].nodes);
+    const auto at = all.empty() ? all.end() : all.begin() + static_cast<std::ptrdiff_t>(after.index) + 1;
+    all.insert(at, nodes.begin(), nodes.end());
+    std::vector<Block> parts((all.size() + most - 1) / most);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Block& part = parts[i * parts.size() / all.size()];
+      part.nodes.push_back(all[i]);
+      add(all[i], part.around);
+    }
+    blocks_[after.block] = std::move(parts[0]);
+    blocks_.insert(blocks_.begin() + static_cast<std::ptrdiff_t>(after.block) + 1,
+                   std::make_move_iterator(parts.begin() + 1), std::make_move_iterator(parts.end()));
+  }
+
+ private:
+  static constexpr std::size_t most = 64;  // nodes in a block
+  std::vector<Block> blocks_;
+};
+
 // Triangles of an outline: holes are joined to the outer ring by bridges, then ears are cut off.
 class EarClipping {
  public:
@@ -111,7 +152,8 @@ class EarClipping {
     if (outer < 0) return;
     // From right to left, so that what a hole is joined to is joined already.
     std::sort(holes.begin(), holes.end(), [&](int a, int b) { return at(a).x > at(b).x; });
-    for (const int hole : holes) bridge(outer, hole);
+    if (!holes.empty()) put_on({}, ring_from(outer));
+    for (const int hole : holes) bridge(hole);
     clip(outer);
   }
 
@@ -160,12 +202,11 @@ class EarClipping {
 
   // Joins a hole's rightmost node to a node of the outer ring that it sees (Eberly, "Triangulation by Ear
   // Clipping", §3): the nearer end of the first edge to its right, or what lies between.
-  void bridge(int outer, int hole) {
+  void bridge(int hole) {
     const Point m = at(hole);
     double nearest = std::numeric_limits<double>::infinity();
     int seen = -1;
-    int node = outer;
-    do {
+    visit({m, {std::numeric_limits<double>::infinity(), m.y}}, [&](int node, Blocks::Place) {
       const Point p = at(node), q = at(next(node));
       if (p.y <= m.y && m.y <= q.y && p.y < q.y && orientation(p, q, m) >= 0) {
         const double x = std::max(m.x, p.x + (m.y - p.y) / (q.y - p.y) * (q.x - p.x));
@@ -174,8 +215,7 @@ class EarClipping {
           seen = q.y == m.y || (p.y != m.y && q.x > p.x) ? next(node) : node;
         }
       }
-      node = next(node);
-    } while (node != outer);
+    });
     if (seen < 0) return;  // not inside: rings that rounding has pushed across each other
 
     // A node in the triangle of m, the point hit and the edge's end hides that end; of these, the one at the
@@ -184,9 +224,14 @@ class EarClipping {
     const Point end = at(seen);
     double least = std::numeric_limits<double>::infinity();
     Point best = end;
-    node = outer;
-    do {
+    Blocks::Place place;  // of what is seen
+    constexpr double everything = std::numeric_limits<double>::infinity();
+    Bounds triangle = bounds_of(std::array{m, hit, end});
+    if (hit == m || end.y == m.y) triangle.high.x = everything;  // it is a line, which goes on beyond its end
+    if (hit == m) (end.y >= m.y ? triangle.high.y : triangle.low.y) = end.y >= m.y ? everything : -everything;
+    visit(triangle, [&](int node, Blocks::Place its) {
       const Point p = at(node);
+      if (node == seen) place = its;
       const bool above = end.y >= m.y;
       const bool in = p.x >= m.x && p != m &&
                       (above ? p.y >= m.y && orientation(m, end, p) <= 0 && orientation(hit, end, p) >= 0
@@ -197,10 +242,10 @@ class EarClipping {
           least = slope;
           best = p;
           seen = node;
+          place = its;
         }
       }
-      node = next(node);
-    } while (node != outer);
+    });
 
     const int seen2 = static_cast<int>(nodes_.size()), hole2 = seen2 + 1;
     const int bridge = -2 - static_cast<int>(bridges_.size());
@@ -212,6 +257,31 @@ class EarClipping {
     nodes_[previous(hole)].next = hole2;
     nodes_[seen].next = hole;
     nodes_[hole].previous = seen;
+    std::vector<int> joined = ring_from(hole, hole2);
+    joined.insert(joined.end(), {hole2, seen2});
+    put_on(place, joined);
+  }
+
+  std::vector<int> ring_from(int first, int up_to = -1) const {
+    std::vector<int> ring{first};
+    for (int node = next(first); node != first && node != up_to; node = next(node)) ring.push_back(node);
+    return ring;
+  }
+
+  void put_on(Blocks::Place after, const std::vector<int>& nodes) {
+    joined_.insert(after, nodes, [&](int node, Bounds& box) {
+      box.add(at(node));
+      box.add(at(next(node)));
+    });
+  }
+
+  // Of what is joined, in its order, all edges that meet a box, and some others: visit(node, place).
+  template <class Visit>
+  void visit(const Bounds& box, const Visit& visit) const {
+    for (std::size_t b = 0; b < joined_.all().size(); ++b) {
+      const auto& [nodes, around] = joined_.all()[b];
+      for (std::size_t i = 0; around.meets(box) && i < nodes.size(); ++i) visit(nodes[i], {b, i});
+    }
   }
 
   // Does the wedge of material at a node open towards a point? Straight on counts, so does the node itself.
@@ -299,6 +369,7 @@ class EarClipping {
   std::vector<Point> points_;
   std::vector<Node> nodes_;
   std::vector<int> bridges_;
+  Blocks joined_;  // the outer ring, with the holes that are joined to it
   std::vector<HalfEdge> triangles_;
   std::optional<Remaining> remaining_;  // corners
 };

@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <span>
 #include <string>
@@ -17,6 +21,8 @@
 
 namespace ductile {
 namespace {
+
+namespace geometry = boost::geometry;
 
 constexpr double size_without_scale = 10;  // m, of a drawing that does not say how large it is
 
@@ -125,30 +131,65 @@ std::vector<Point> along(const Ring& ring, int count) {
   return points;
 }
 
-bool is_deep_in(const Outline& outline, Point p, double depth) {
-  if (!contains(outline, p)) return false;
-  const auto is_near = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      if (distance(p, ring[i], ring[(i + 1) % ring.size()]) < depth) return true;
-    return false;
-  };
-  return !is_near(outline.outer) && std::none_of(outline.holes.begin(), outline.holes.end(), is_near);
-}
+/// The edges of an outline in a tree of boxes.
+class Edges {
+ public:
+  explicit Edges(const Outline& outline) {
+    std::vector<Entry> entries;
+    const auto add = [&](const Ring& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::array edge{ring[i], ring[(i + 1) % ring.size()]};
+        const Bounds around = bounds_of(edge);
+        entries.emplace_back(box(around.low, around.high), edge);
+      }
+    };
+    add(outline.outer);
+    for (const Ring& hole : outline.holes) add(hole);
+    tree_ = Tree(entries);  // packed
+  }
+
+  /// Is a point inside, and no edge nearer to it than `depth`?
+  bool hold(Point p, double depth) const {
+    const Point reach{depth, depth};
+    const auto near = tree_.qbegin(geometry::index::intersects(box(p - reach, p + reach)) &&
+                                   geometry::index::satisfies([&](const Entry& entry) {
+                                     return distance(p, entry.second[0], entry.second[1]) < depth;
+                                   }));
+    if (near != tree_.qend()) return false;
+    bool inside = false;  // it is where the edges to its right are odd in number
+    const Box right = box(p, {std::numeric_limits<double>::max(), p.y});
+    for (auto at = tree_.qbegin(geometry::index::intersects(right)); at != tree_.qend(); ++at) {
+      const auto [a, b] = at->second;
+      if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+    }
+    return inside;
+  }
+
+ private:
+  using Box = geometry::model::box<geometry::model::d2::point_xy<double>>;
+  using Entry = std::pair<Box, std::array<Point, 2>>;
+  using Tree = geometry::index::rtree<Entry, geometry::index::quadratic<16>>;
+
+  static Box box(Point low, Point high) { return {{low.x, low.y}, {high.x, high.y}}; }
+
+  Tree tree_;
+};
 
 /// Shapes that are drawn over one another would burst apart: those of a heap have a group in which nothing
 /// collides. Returns how many they are. What lies over another by less than `depth` rests on it.
 int group_heaps(std::span<BodyDef> bodies, double depth) {
   constexpr int samples = 200;  // of each outline: what reaches into another by less than a 200th is missed
   std::vector<Bounds> bounds;
+  std::vector<Edges> edges;
   std::vector<std::vector<Point>> points;
   for (const BodyDef& body : bodies) {
     bounds.push_back(bounds_of(body.outline.outer));
+    edges.emplace_back(body.outline);
     points.push_back(along(body.outline.outer, samples));
   }
   const auto reaches_into = [&](std::size_t i, std::size_t k) {
-    return std::any_of(points[i].begin(), points[i].end(), [&](Point p) {
-      return bounds[k].contains(p) && is_deep_in(bodies[k].outline, p, depth);
-    });
+    return std::any_of(points[i].begin(), points[i].end(),
+                       [&](Point p) { return bounds[k].contains(p) && edges[k].hold(p, depth); });
   };
   std::int16_t heaps = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
