@@ -112,29 +112,47 @@ class Arrangement {
 
 /// More than this many pairs of edges whose boxes overlap would take too long.
 constexpr std::size_t most_pairs = 4'000'000;
+/// So would more than this many pairs of a crossing and an edge above or below it, which Boost looks at all.
+constexpr std::size_t most_looks = 100'000'000;
 
 using Segment = boost::polygon::segment_data<int>;
 
 void refuse_entangled(const std::vector<Segment>& segments) {
   struct Span {
     int left, right, low, high;
+    GridPoint a, b;
+  };
+  const auto refuse = [] {
+    throw ShapeError("outline", "crosses itself too often", "draw it with fewer lines");
   };
   std::vector<Span> spans;
   spans.reserve(segments.size());
   for (const Segment& s : segments) {
-    spans.push_back({std::min(s.low().x(), s.high().x()), std::max(s.low().x(), s.high().x()),
-                     std::min(s.low().y(), s.high().y()), std::max(s.low().y(), s.high().y())});
+    const GridPoint a{s.low().x(), s.low().y()}, b{s.high().x(), s.high().y()};
+    spans.push_back({std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y), a, b});
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.left < b.left; });
   std::size_t pairs = 0, looks = 0;
+  std::vector<double> crossings;  // x of each
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    for (std::size_t j = i + 1; j < spans.size() && spans[j].left < spans[i].right; ++j) {
-      pairs += spans[j].low < spans[i].high && spans[i].low < spans[j].high;
-      if (pairs > most_pairs || ++looks > 100 * most_pairs) {
-        throw ShapeError("outline", "crosses itself too often", "draw it with fewer lines");
-      }
+    const Span& s = spans[i];
+    for (std::size_t j = i + 1; j < spans.size() && spans[j].left < s.right; ++j) {
+      const Span& t = spans[j];
+      if (++looks > 100 * most_pairs) refuse();
+      if (t.low >= s.high || s.low >= t.high) continue;
+      if (++pairs > most_pairs) refuse();
+      const double c = double(cross(t.a, t.b, s.a)), d = double(cross(t.a, t.b, s.b));
+      if (c * d < 0 && double(cross(s.a, s.b, t.a)) * double(cross(s.a, s.b, t.b)) < 0)
+        crossings.push_back(s.a.x + c / (c - d) * (double(s.b.x) - s.a.x));
     }
   }
+  std::sort(crossings.begin(), crossings.end());
+  looks = 0;
+  for (const Span& s : spans) {
+    const auto first = std::lower_bound(crossings.begin(), crossings.end(), s.left);
+    looks += static_cast<std::size_t>(std::upper_bound(first, crossings.end(), s.right) - first);
+  }
+  if (looks > most_looks) refuse();
 }
 
 void Arrangement::divide() {

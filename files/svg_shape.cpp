@@ -145,6 +145,17 @@ std::size_t take_slivers_out(std::vector<Ring>& rings, double tolerance) {
   return seen;
 }
 
+/// Making pieces of a shape with more holes would take too long.
+void refuse_riddled(const std::vector<Ring>& rings) {
+  constexpr std::ptrdiff_t most = 10'000;
+  const auto holes =
+      std::count_if(rings.begin(), rings.end(), [](const Ring& ring) { return doubled_area_of(ring) < 0; });
+  if (holes > most) {
+    throw ShapeError("outline", "has " + std::to_string(holes) + " holes, more than " + std::to_string(most),
+                     "draw it with fewer lines");
+  }
+}
+
 double length_of(const Polyline& line) {
   double whole = line.closed ? length(line.points.front() - line.points.back()) : 0;
   for (std::size_t i = 1; i < line.points.size(); ++i) whole += length(line.points[i] - line.points[i - 1]);
@@ -294,6 +305,7 @@ Areas Document::areas(const Painted& shape, double tolerance) const {
   rings = within(std::move(rings), shape, tolerance, 0);
   Areas areas;
   areas.slivers = take_slivers_out(rings, tolerance);
+  refuse_riddled(rings);
   areas.outlines = outlines(std::move(rings));
   const auto drawn = filled_rings(flatten(curves(shape, shape.to), tolerance), tolerance);
   constexpr std::size_t few = 1000;  // comparing takes quadratic time

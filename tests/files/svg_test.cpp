@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "ductile/box2d.h"
 #include "ductile/files.h"
@@ -259,6 +260,25 @@ struct Bad {
 std::ostream& operator<<(std::ostream& out, const Bad& bad) { return out << bad.name; }
 class BadDrawing : public testing::TestWithParam<Bad> {};
 
+/// From anywhere to anywhere, over and over.
+std::string scribble(int lines) {
+  std::minstd_rand random;
+  std::string d = "M";
+  for (int i = 0; i <= lines; ++i)
+    for (int axis = 0; axis < 2; ++axis) d += " " + std::to_string(double(random() % 10'000) / 100);
+  return d;
+}
+
+/// So many lines along x and as many along y.
+std::string grating(int lines) {
+  std::string d;
+  for (int i = 0; i < lines; ++i) {
+    const std::string at = std::to_string((i + 0.5) * 100 / lines);
+    d += "M0 " + at + "H100M" + at + " 0V100";
+  }
+  return d;
+}
+
 TEST_P(BadDrawing, NamesFileElementAndCommand) {
   std::string said;
   try {
@@ -289,6 +309,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"only_a_line", path("M 0 0 L 10 10"), "no area"},
         Bad{"dashes_without_end", "<path id='a' d='M 0 0 H 99' stroke='red' stroke-dasharray='0.001'/>",
             "makes more than 10000 dashes; make the dashes longer"},
+        Bad{"scribble", path(scribble(3000)), "crosses itself too often; draw it with fewer lines"},
+        Bad{"grating", path(grating(102), "fill='none' stroke='red' stroke-width='0.1'"),
+            "has 10201 holes, more than 10000; draw it with fewer lines"},
         Bad{"group_of_two", "<g id='a'><rect width='1' height='1'/><rect width='1' height='1'/></g>",
             "2 shapes; name the shape itself: rect 1, rect 2"},
         Bad{"text", "<text id='a'>x</text>", "#a: is text; turn it into a path"},
