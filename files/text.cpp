@@ -1,6 +1,9 @@
+#include <signal.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +46,38 @@ namespace {
 [[noreturn]] void cannot_write(const fs::path& file) {
   throw std::system_error(errno ? errno : EIO, std::generic_category(), "cannot write " + file.string());
 }
+
+/// The names of files that are not kept yet, of which a signal that ends the program removes the first 64.
+std::array<std::atomic<const char*>, 64> unfinished;
+static_assert(std::atomic<const char*>::is_always_lock_free);  // so that a signal may look at them
+
+extern "C" void remove_unfinished(int signal) {
+  for (const auto& file : unfinished) {
+    if (const char* name = file.load()) ::unlink(name);
+  }
+  ::raise(signal);  // which ends the program now
+}
+
+/// Signals that the program ignores or takes itself stay its own.
+void remove_at_signals() {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action = {};
+    if (::sigaction(signal, nullptr, &action) != 0 || (action.sa_flags & SA_SIGINFO) ||
+        action.sa_handler != SIG_DFL)
+      continue;
+    action.sa_handler = remove_unfinished;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+/// Of two threads that finish files, each finds its own.
+void exchange(const char* from, const char* to) {
+  for (auto& file : unfinished) {
+    const char* expected = from;
+    if (file.compare_exchange_strong(expected, to)) return;
+  }
+}
 }  // namespace
 
 NewFile::NewFile(const fs::path& file) : target_(file), fresh_(file) {
@@ -50,15 +85,21 @@ NewFile::NewFile(const fs::path& file) : target_(file), fresh_(file) {
   if (!fs::exists(file) || fs::is_regular_file(file)) {
     fresh_ = target_;
     fresh_ += ".new" + std::to_string(::getpid());
+    remove_at_signals();
+    exchange(nullptr, fresh_.c_str());
   }
   errno = 0;
   out_.open(fresh_, std::ios::binary);
-  if (!out_) cannot_write(target_);
+  if (!out_) {
+    exchange(fresh_.c_str(), nullptr);
+    cannot_write(target_);
+  }
 }
 
 NewFile::~NewFile() {
   std::error_code ignored;
   if (fresh_ != target_) fs::remove(fresh_, ignored);
+  exchange(fresh_.c_str(), nullptr);
 }
 
 void NewFile::write(std::string_view text) {

@@ -114,7 +114,8 @@ DrawnScene drawing_scene(const Drawing& drawing, double metres_per_unit = 0);
 std::string read_text(const std::filesystem::path& file);
 
 /// A file that appears whole or not at all: written beside its place, and put there by keep(). What is there
-/// already stays until then; a device or a pipe is written to directly. Throws std::system_error.
+/// already stays until then; a device or a pipe is written to directly. SIGHUP, SIGINT and SIGTERM remove it,
+/// where the program has left these to end it. Throws std::system_error.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& file);
