@@ -89,6 +89,7 @@ class Walk {
  private:
   void enter(const Node& node, Around here, std::string_view kind);
   void use(const Node& node, const Around& here);
+  void show(const Node& target, const Around& around);
   void frame(const Node& node, Around& here, const Point& corner, const Point& size) const;
   void clip(const Node& node, Around& here, const Style& of, std::string_view property, int depth = 0);
   Affine box_of(const Node& node, Around here);
@@ -231,6 +232,18 @@ void Walk::use(const Node& node, const Around& around) {
                      (within ? "shows itself: \"" : "leads nowhere: \"") + std::string(reference) + "\"",
                      "let it show another shape of the drawing");
   }
+  const std::size_t before = shown.shapes.size();
+  show(target, around);
+  // A copy is called by the name of its use where it has one.
+  if (shown.shapes.size() == before + 1 && !title(node).empty() && title(node) != "use") {
+    Painted& copy = shown.shapes.back();
+    copy.name = title(node);
+    copy.names.push_back(copy.name);
+  }
+}
+
+/// What a use shows, in its place.
+void Walk::show(const Node& target, const Around& around) {
   Around here = around;
   here.uses.push_back(target);
   const Point corner{user_length(here.style, "x", here.view.x), user_length(here.style, "y", here.view.y)};
@@ -248,14 +261,7 @@ void Walk::use(const Node& node, const Around& around) {
     return;
   }
   here.to = here.to * Affine{1, 0, 0, 1, corner.x, corner.y};
-  const std::size_t before = shown.shapes.size();
   visit(target, here);
-  // A copy is called by the name of its use where it has one.
-  if (shown.shapes.size() == before + 1 && !title(node).empty() && title(node) != "use") {
-    Painted& copy = shown.shapes.back();
-    copy.name = title(node);
-    copy.names.push_back(copy.name);
-  }
 }
 
 /// From the unit square to the box around what an element fills, in its own coordinates (SVG 2 §8.10).

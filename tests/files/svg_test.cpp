@@ -251,6 +251,11 @@ TEST(Svg, KnowsItsShapes) {
                              "<circle><title>wheel</title></circle><rect fill='none'/>"),
                      "t.svg");
   EXPECT_EQ(page.ids(), (std::vector<std::string>{"b", "c", "circle 1", "wheel"}));
+  EXPECT_EQ(Drawing(drawing("<defs><rect id='r'/><symbol id='s'><rect/></symbol></defs>"
+                            "<use id='u' href='#r'/><use id='v' href='#s'/><use href='#r'/>"),
+                    "t.svg")
+                .ids(),
+            (std::vector<std::string>{"u", "v", "r"}));
 }
 
 struct Bad {
