@@ -166,7 +166,8 @@ void Caps::fill_in(PlannedJoint& joint, const std::array<Side, 2>& sides,
         break;
     }
   }
-  for (std::size_t i = overriding.size(); i-- > 0;) {
+  // What `elastic` overrides, it overrides with its stiffnesses.
+  for (std::size_t i = elastic ? static_cast<std::size_t>(elastic_level) + 1 : overriding.size(); i-- > 0;) {
     const JointOverrides& o = *overriding[i].values;
     if (o.stiffness_axial || o.stiffness_shear || o.stiffness_moment) stiffness = overriding[i].name;
     joint.stiffness = {o.stiffness_axial.value_or(joint.stiffness.N),

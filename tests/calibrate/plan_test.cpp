@@ -410,6 +410,8 @@ TEST(Calibrate, EachStiffnessMayBeGivenAlone) {  // they go before `elastic`, th
   j = joint(calibrate(scene), "beam/0-beam/1");
   EXPECT_EQ(j.stiffness.N, 3);
   EXPECT_EQ(j.stiffness.M, 7);
+  scene.bodies[1].joint.stiffness_moment = {};
+  EXPECT_EQ(joint(calibrate(scene), "beam/0-beam/1").stiffness.M, unlimited);  // not the scene's 5
   scene.joint.stiffness_shear = 0;
   EXPECT_NE(problems_of(scene).find("stiffness_shear is 0"), std::string::npos);
 }
