@@ -141,21 +141,21 @@ std::string table(const Plan& plan, const std::string& scene) {
                       "joint", widest, "N [N]", "Nc [N]", "Q [N]", "M [N m]", "M_reverse", "k [N m/rad]",
                       "M/k [rad]", "max_rot. [rad]");
   for (const PlannedJoint& joint : plan.joints) {
-    text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n", joint.name,
-                        widest, shown(joint.N), shown(joint.Nc), shown(joint.Q), shown(joint.M),
-                        shown(joint.M_reverse), shown(joint.stiffness.M), shown(elastic_rotation(joint)),
-                        shown(joint.max_rotation), joint.governed_by + 1);
+    text += fmt::format("{:<{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14}  [{}]\n",
+                        one_line(joint.name), widest, shown(joint.N), shown(joint.Nc), shown(joint.Q),
+                        shown(joint.M), shown(joint.M_reverse), shown(joint.stiffness.M),
+                        shown(elastic_rotation(joint)), shown(joint.max_rotation), joint.governed_by + 1);
   }
   text += '\n';
   for (const SplitError& split : plan.split_errors) {
     const auto pieces = std::count_if(plan.pieces.begin(), plan.pieces.end(),
                                       [&](const Piece& piece) { return piece.body == split.body; });
     text += fmt::format("{}: {} pieces, displacement error {:.2g} %, governed by {}\n",
-                        plan.bodies[static_cast<std::size_t>(split.body)].name, pieces, 100 * split.error,
-                        split.governed_by);
+                        one_line(plan.bodies[static_cast<std::size_t>(split.body)].name), pieces,
+                        100 * split.error, split.governed_by);
   }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
-    text += fmt::format("[{}] {}\n", i + 1, plan.reasons[i]);
+    text += fmt::format("[{}] {}\n", i + 1, one_line(plan.reasons[i]));
   if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
     text += '\n' + notes;
   return text;

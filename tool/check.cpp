@@ -83,9 +83,10 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
   };
   for (std::size_t i = 0; i < plan.joints.size(); ++i) {
     const StaticJoint& j = check.joints[i];
-    text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>11} {:>10}\n", plan.joints[i].name,
-                        widest, shown(j.N), shown(j.Q), shown(j.M), percent(j.usage.N), percent(j.usage.Q),
-                        percent(j.usage.M), shown(found.fibre.joints[i]), shown(j.yields_at));
+    text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>11} {:>10}\n",
+                        one_line(plan.joints[i].name), widest, shown(j.N), shown(j.Q), shown(j.M),
+                        percent(j.usage.N), percent(j.usage.Q), percent(j.usage.M),
+                        shown(found.fibre.joints[i]), shown(j.yields_at));
   }
   if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
     text += '\n' + notes;

@@ -500,6 +500,13 @@ void keep_inputs(const std::vector<std::string>& inputs, const Outputs& outputs)
                              "give another one: it would be lost"}});
 }
 
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
 NewFiles::NewFiles(const Outputs& outputs) {
   for (const auto& [option, file] : single(outputs)) files_.try_emplace(file, file);
 }

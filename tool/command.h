@@ -59,6 +59,9 @@ void keep_apart(const Outputs& outputs);
 /// Refuses to write an output over a file that is read.
 void keep_inputs(const std::vector<std::string>& inputs, const Outputs& outputs);
 
+/// On one line, whatever names a file brings along.
+std::string one_line(std::string text);
+
 /// Outputs, all of which can be written before any is: they appear together, or none of them does.
 class NewFiles {
  public:

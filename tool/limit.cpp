@@ -73,7 +73,7 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
   } else {
     text = fmt::format("{}: collapses at {:.6g} times {}, in\n", options.scene.name, found.limit.load_factor,
                        what);
-    for (const int i : found.limit.hinges) text += fmt::format("  {}\n", joint_name(plan, i));
+    for (const int i : found.limit.hinges) text += fmt::format("  {}\n", one_line(joint_name(plan, i)));
   }
   if (!options.second_order) {
     text += buckling_line(false, found.critical.factor) + '\n';
@@ -85,11 +85,11 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
                       : std::string(", does not collapse");
     text += !pushover.hinges.empty() ? ", after\n" : collapses ? ", before any hinge\n" : "\n";
     for (const Reached& hinge : pushover.hinges)
-      text += fmt::format("  {} at {:.6g}\n", joint_name(plan, hinge.joint), hinge.factor);
+      text += fmt::format("  {} at {:.6g}\n", one_line(joint_name(plan, hinge.joint)), hinge.factor);
     for (const std::size_t i : moved_supports(plan)) {
       const auto [N, Q, M] = pushover.forces[i];
-      text += fmt::format("{} then carries N {} N, Q {} N, M {} N m\n", plan.joints[i].name, shown(N),
-                          shown(Q), shown(M));
+      text += fmt::format("{} then carries N {} N, Q {} N, M {} N m\n", one_line(plan.joints[i].name),
+                          shown(N), shown(Q), shown(M));
     }
   }
   text += remark_lines(plan) + loose_line(plan);

@@ -12,21 +12,13 @@ using namespace ductile;
 
 enum Exit { done = 0, failed = 1, bad_input = 2 };
 
-/// On one line, whatever names a file brings along.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
-
 void print(const std::vector<Problem>& problems) {
   constexpr std::size_t most = 20;
   const std::size_t shown = problems.size() > most ? most - 1 : problems.size();
-  for (std::size_t i = 0; i < shown; ++i) std::cerr << one_line(to_string(problems[i])) << '\n';
+  for (std::size_t i = 0; i < shown; ++i) std::cerr << tool::one_line(to_string(problems[i])) << '\n';
   if (shown < problems.size()) {
     const std::string file = problems[shown].place.substr(0, problems[shown].place.find(':'));
-    std::cerr << one_line(file) << ":further: " << problems.size() - shown
+    std::cerr << tool::one_line(file) << ":further: " << problems.size() - shown
               << " more problems; mend these first\n";
   }
 }
@@ -63,7 +55,7 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     const bool misnamed = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
     const std::string what =
-        one_line(misnamed ? std::string("there is no command '") + argv[1] + "'" : error.what());
+        tool::one_line(misnamed ? std::string("there is no command '") + argv[1] + "'" : error.what());
     const bool placed = what.find(": ") < what.find(' ');  // "--scale: -1 is not > 0"
     std::cerr << "command line:" << (placed ? "" : "arguments: ") << what
               << "; ductile --help lists commands and options\n";
@@ -72,7 +64,7 @@ int run(int argc, char** argv) {
     print(error.problems());
     return bad_input;
   } catch (const std::exception& error) {
-    std::cerr << "ductile: " << one_line(error.what()) << '\n';
+    std::cerr << "ductile: " << tool::one_line(error.what()) << '\n';
     return failed;
   }
 }

@@ -193,8 +193,8 @@ std::string table(const Simulation& simulation, const std::string& scene) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const JointReading& j = joints[i];
     text += fmt::format("{:<{}} {:>12} {:>12} {:>12} {:>6} {:>12} {:>12} {:>6}\n",
-                        simulation.plan().joints[i].name, widest, shown(j.N), shown(j.Q), shown(j.M),
-                        percent(j.usage.M), shown(j.plastic_rotation), shown(j.dissipated),
+                        one_line(simulation.plan().joints[i].name), widest, shown(j.N), shown(j.Q),
+                        shown(j.M), percent(j.usage.M), shown(j.plastic_rotation), shown(j.dissipated),
                         j.broken ? "broke" : percent(j.capacity_used));
   }
   text += "\nenergy [J]:";

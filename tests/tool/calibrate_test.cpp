@@ -112,6 +112,19 @@ TEST(CalibrateCommand, PrintsATable) {
   EXPECT_NE(ran.out.find("4.375e+07"), std::string::npos) << ran.out;  // M = b h² fy / 4
 }
 
+TEST(CalibrateCommand, KeepsEachLineOfItsTableWhateverTheNames) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", R"({"bodies": [
+    {"name": "a\nb", "outline": [[0,0],[9,0],[9,1],[0,1]], "material": "S355", "split": {"pieces": 2}}],
+    "supports": [{"body": "a\nb", "at": [0, 0.5], "fix": ["x", "y", "angle"]}]})");
+  for (const char* command : {"calibrate ", "check ", "simulate --time 0 "}) {
+    const Ran ran = run(command + scene);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_NE(ran.out.find("\na b/0-a b/1 "), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.out.find("a\nb"), std::string::npos) << ran.out;
+  }
+}
+
 TEST(CalibrateCommand, WritesDefinitionsToAFile) {
   const Folder folder;
   const std::string scene = folder.write("scene.json", cantilever());
