@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -167,7 +168,10 @@ SupportDef read_support(const Value& value) {
   }
   const bool sprung = value.json().contains("stiffness");
   if (const auto fix = sprung ? object.find("fix") : object.require("fix")) {
+    std::set<std::string> fixed;
     for (const Value& row : fix->elements()) {
+      if (row.json().is_string() && !fixed.insert(row.json().get<std::string>()).second)
+        row.wrong("stands twice", "fix each row once");
       if (row.json() == "x") {
         def.fix_x = true;
       } else if (row.json() == "y") {

@@ -294,7 +294,8 @@ void add_calibrate(CLI::App& app, std::string& output) {
       command
           ->add_option("--leave-out", options->leave_out,
                        "leave out what the scene does not need, within this relative displacement error")
-          ->check(finite(0, true));
+          ->check(finite(0, true))
+          ->check(CLI::Range(0.0, 1.0));
   command->add_option("--impact", options->leaving.impact, "J that may hit a structure besides (default 0)")
       ->needs(leaves)
       ->check(finite(0));

@@ -489,6 +489,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"stiffness_zero", body(R"("joint": {"stiffness_axial": 0})"),
             "bodies[0].joint.stiffness_axial: "},
         Bad{"velocities_flat", body(R"("velocities": [1, 2])"), "bodies[0].velocities[0]"},
+        Bad{"fix_x_twice", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": ["x", "x"]}]})",
+            "supports[0].fix[1]: stands twice"},
         Bad{"fix_z", R"({"bodies": [], "supports": [{"body": "a", "at": [0,0], "fix": ["z"]}]})",
             "supports[0].fix[0]: "},
         Bad{"load_nowhere", R"({"bodies": [], "loads": [{"body": "a", "force": [0,1]}]})",

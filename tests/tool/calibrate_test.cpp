@@ -496,6 +496,7 @@ TEST(CalibrateCommand, LeavesOutWhatTheSceneDoesNotNeed) {
   EXPECT_EQ(result["bodies"][1]["pieces"][3]["stands_still"], true);
   EXPECT_NE(run("calibrate " + scene + " --leave-out 0.01 --time 2").out.find("promised"), std::string::npos);
   expect_bad_input(run("calibrate " + scene + " --leave-out 0.01 --to box2d"), "--leave-out");
+  expect_bad_input(run("calibrate " + scene + " --leave-out 2"), "--leave-out");
   expect_bad_input(run("calibrate " + scene + " --leave-out -1"));
 }
 
