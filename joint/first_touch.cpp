@@ -1,8 +1,8 @@
 // First touch: bodies that are fast reach far into a piece, or through it, before there is a contact,
 // and the manifold of so deep a touch has a normal of its own. So after each step a guest that met a piece on
 // its way is put back to where it did, and the next step finds a contact as it should be. What has not gone
-// straight on, as it was struck in a part of the step or hangs on other bodies, goes out of the piece along
-// the normal with which they met. Where both are free to move, their centre of mass stays: a way that only
+// straight on, as it touched something else or hangs on other bodies, goes out of the piece along the normal
+// with which they met. Where both are free to move, their centre of mass stays: a way that only
 // one has would change angular momentum by its cross product with that one's momentum.
 // Written against Box2D 2.4.1.
 
@@ -97,18 +97,20 @@ b2Vec2 way_out(const b2Contact& contact, b2Body& piece, const b2Body& body, floa
   return (1 - way_to(contact, piece, body, in).share) * most * direction;
 }
 
-/// Half of the thinner of two fixtures' least widths, m.
+/// Half of the thinner of two fixtures, m.
 float half_thickness(const b2Contact& contact) {
-  float least = b2_maxFloat;
-  for (const auto& [fixture, child] : {std::pair{contact.GetFixtureA(), contact.GetChildIndexA()},
-                                       std::pair{contact.GetFixtureB(), contact.GetChildIndexB()}}) {
-    b2AABB box;
-    b2Transform upright;
-    upright.SetIdentity();
-    fixture->GetShape()->ComputeAABB(&box, upright, child);
-    least = std::min({least, box.GetExtents().x, box.GetExtents().y});
-  }
-  return least;
+  const auto half_of = [](const b2Shape& shape) {
+    float least = shape.m_radius;
+    if (shape.GetType() != b2Shape::e_polygon) return least;
+    const auto& polygon = static_cast<const b2PolygonShape&>(shape);
+    least = b2_maxFloat;
+    for (int32 i = 0; i < polygon.m_count; ++i) {
+      const auto [first, last] = extent(polygon, polygon.m_normals[i]);
+      least = std::min(least, (last - first) / 2);
+    }
+    return least;
+  };
+  return std::min(half_of(*contact.GetFixtureA()->GetShape()), half_of(*contact.GetFixtureB()->GetShape()));
 }
 
 /// How deep a body goes into a piece by its motion after the first touch, m.
@@ -478,8 +480,7 @@ void Island::meet_guests(b2World& in) {
     if (body.IsBullet()) piece.SetAwake(true);
     const Way way = way_to(contact, piece, body, seen);
     if (!(way.share < 1)) return;
-    // What hangs together turns as it swings, and what touched something in parts of a step has not gone
-    // straight on.
+    // What hangs together turns as it swings, and what touched something has not gone straight on.
     const bool touches = is_touching(body), straight = alone || (guest && !touches);
     // What touches one piece and meets the next of another structure is in the way of both from now on. If it
     // went out of that, it would leave the first, and meet each of them in turn, without coming any farther.
