@@ -1,8 +1,8 @@
 // First touch: bodies that are fast reach far into a piece, or through it, before there is a contact,
 // and the manifold of so deep a touch has a normal of its own. So after each step a guest that met a piece on
 // its way is put back to where it did, and the next step finds a contact as it should be. What has not gone
-// straight on, as it touched something else or hangs on other bodies, goes out of the piece along the normal
-// with which they met. Where both are free to move, their centre of mass stays: a way that only
+// straight on, as it was struck in a part of the step or hangs on other bodies, goes out of the piece along
+// the normal with which they met. Where both are free to move, their centre of mass stays: a way that only
 // one has would change angular momentum by its cross product with that one's momentum.
 // Written against Box2D 2.4.1.
 
@@ -463,7 +463,7 @@ void Island::meet_guests(b2World& in) {
   const std::vector<Alone> all_alone = undo_impacts_alone(components, in);
   forget_blows(in);
   end_stale();
-  const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body) {
+  const auto look = [&](b2Body& piece, const b2Contact& contact, b2Body& body, bool advanced) {
     const bool guest = !is_joined(body);
     const bool alone =
         std::any_of(all_alone.begin(), all_alone.end(), [&body](const Alone& a) { return a.guest == &body; });
@@ -480,10 +480,11 @@ void Island::meet_guests(b2World& in) {
     if (body.IsBullet()) piece.SetAwake(true);
     const Way way = way_to(contact, piece, body, seen);
     if (!(way.share < 1)) return;
-    // What hangs together turns as it swings, and what touched something has not gone straight on.
-    const bool touches = is_touching(body), straight = alone || (guest && !touches);
-    // What touches one piece and meets the next of another structure is in the way of both from now on. If it
-    // went out of that, it would leave the first, and meet each of them in turn, without coming any farther.
+    // What hangs together turns as it swings, and what touched something in parts of a step has not gone
+    // straight on.
+    const bool touches = is_touching(body), straight = alone || (guest && !(advanced && touches));
+    // What touches one piece and meets the next is in the way of both from now on. If it went back or out, it
+    // would leave the first, and meet each of them in turn, without coming any farther.
     if (guest && touches && !alone && depth(seen, way) < half_thickness(contact)) return;
     b2Transform there;
     seen.GetTransform(&there, way.share);
@@ -495,12 +496,12 @@ void Island::meet_guests(b2World& in) {
   };
   for (const auto& c : components) {
     each_near(*c, [&](const b2Contact& contact, const Mirror& piece, b2Body& body) {
-      look(*piece.body, contact, body);
+      look(*piece.body, contact, body, c->advanced());
     });
     c->leave_step();
   }
   each_lone_piece([&](b2Body& piece) {
-    each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body); });
+    each_near(piece, [&](const b2Contact& contact, b2Body& body) { look(piece, contact, body, false); });
   });
   for (const Alone& a : all_alone) {
     // Where its way grazes them by less than rounding, it is where Box2D let them meet.
