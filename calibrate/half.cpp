@@ -17,7 +17,7 @@ constexpr double rounding = 1e-6;
 // Of the cut's height. A cut marks where a bar is weak. What is thinner beside it is a notch or a corner,
 // which gives in one place, and no bar: by (H/h)³ it would take the whole bar's stiffness.
 constexpr double least_height = 0.5;
-constexpr int most_parts = 64;
+constexpr int most_stretches = 64;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Gauss's three points of a stretch from 0 to 1.
@@ -56,7 +56,7 @@ std::vector<double> depths(const Ring& ring, const Face& face, double reach) {
   std::sort(result.begin(), result.end());
   std::size_t kept = 1;
   for (const double s : result)
-    if (s - result[kept - 1] > reach / most_parts) result[kept++] = s;
+    if (s - result[kept - 1] > reach / most_stretches) result[kept++] = s;
   result.resize(kept);
   result.push_back(reach);
   return result;
