@@ -255,9 +255,9 @@ bool Component::flies(int body) const {
 // 0 while it is thrown, or braked.
 bool Component::throws() const {
   for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
-    if (!flies(static_cast<int>(i))) continue;
     const Vec3 weight = parts_.count * parts_.bodies[i].given, push = pushed(i);
-    if (std::hypot(push.x, push.y) > std::max(double{blow_speed}, 2 * std::hypot(weight.x, weight.y)))
+    if (std::hypot(push.x, push.y) > std::max(double{blow_speed}, 2 * std::hypot(weight.x, weight.y)) &&
+        flies(static_cast<int>(i)))
       return true;
   }
   return false;
