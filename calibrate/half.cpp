@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <vector>
 
 #include "ductile/plane.h"
@@ -18,7 +16,6 @@ constexpr double rounding = 1e-6;
 // which gives in one place, and no bar: by (H/h)³ it would take the whole bar's stiffness.
 constexpr double least_height = 0.5;
 constexpr int most_stretches = 64;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Gauss's three points of a stretch from 0 to 1.
 struct Sample {
@@ -27,26 +24,6 @@ struct Sample {
 constexpr double off_middle = 0.3872983346207417;  // √0.15
 constexpr std::array samples{Sample{0.5 - off_middle, 5. / 18}, Sample{0.5, 8. / 18},
                              Sample{0.5 + off_middle, 5. / 18}};
-
-// Of an outline through a point parallel to a cut; none where the point is outside.
-std::optional<double> chord(const Ring& ring, Point at, Point outward) {
-  double low = -infinity, high = infinity;
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point a = ring[j] - at, b = ring[i] - at;
-    const double from = dot(a, outward), to = dot(b, outward);
-    if ((from > 0) == (to > 0)) continue;
-    const double along = cross(outward, a + (from / (from - to)) * (b - a));
-    if (along > 0) {
-      high = std::min(high, along);
-      inside = !inside;
-    } else {
-      low = std::max(low, along);
-    }
-  }
-  if (!inside || !(high - low < infinity)) return std::nullopt;
-  return high - low;
-}
 
 // Between these depths chords grow or shrink evenly, but for parts that are not worth it.
 std::vector<double> depths(const Ring& ring, const Face& face, double reach) {
@@ -65,9 +42,10 @@ std::vector<double> depths(const Ring& ring, const Face& face, double reach) {
 // Whether the outline goes on beside the cut higher or lower than the cut, by more than it tapers.
 bool steps(const Outline& piece, const Face& face, double reach) {
   const double off = 1e-3 * reach, least = 1e-3 * face.height;
-  const auto near = chord(piece.outer, face.anchor + off * face.outward, face.outward),
-             far = chord(piece.outer, face.anchor + 2 * off * face.outward, face.outward);
-  return near && far && std::abs(2 * *near - *far - face.height) > least;
+  const Point along = right(face.outward);
+  const double near = chord(piece.outer, face.anchor + off * face.outward, along),
+               far = chord(piece.outer, face.anchor + 2 * off * face.outward, along);
+  return near > 0 && far > 0 && std::abs(2 * near - far - face.height) > least;
 }
 
 }  // namespace
@@ -79,9 +57,9 @@ Longer half_of(const Outline& piece, const Face& face, double reach) {
   for (std::size_t i = 1; i < s.size(); ++i)
     for (const Sample& sample : samples) {
       const Point at = face.anchor + (s[i - 1] + sample.at * (s[i] - s[i - 1])) * face.outward;
-      const std::optional<double> behind = chord(piece.outer, at, face.outward);
-      if (!behind) continue;
-      const double h = *behind / face.height,
+      const double behind = chord(piece.outer, at, right(face.outward));
+      if (behind == 0) continue;
+      const double h = behind / face.height,
                    higher = std::max({least_height, std::min(h, 1.), face.share * h});
       if (std::abs(higher - 1) <= rounding) continue;
       const double part = sample.weight * (s[i] - s[i - 1]);

@@ -294,22 +294,6 @@ std::vector<std::string> clamped_at_cuts(const Plan& plan) {
   return names;
 }
 
-/// m, of an outline's stretch around a point in it, in a direction; 0 from outside.
-double stretch(const Ring& ring, Point at, Point direction) {
-  double back = 0, on = 0;
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point a = ring[j] - at, b = ring[i] - at;
-    const double from = cross(direction, a), to = cross(direction, b);
-    if ((from > 0) == (to > 0)) continue;
-    const double s = dot(direction, a + (from / (from - to)) * (b - a));
-    if (s > 0) inside = !inside;
-    if (s > 0 && (on == 0 || s < on)) on = s;
-    if (s < 0 && (back == 0 || s > back)) back = s;
-  }
-  return inside ? on - back : 0;
-}
-
 /// A cut askew through a strip is longer than the strip is wide, and stronger than the hinge that forms
 /// beside it. How wide the piece is from its middle up to halfway to the joint; 0 where it is no such strip.
 double width_beside(const Plan& plan, const PlannedJoint& joint, int index) {
@@ -322,8 +306,8 @@ double width_beside(const Plan& plan, const PlannedJoint& joint, int index) {
   const double across = std::abs(dot(joint.axis, unit(to_middle)));
   if (across < (inside ? 0.2 : 0.6) || piece.circle > 0) return 0;
   const Point direction = left(unit(to_middle));
-  const double width = stretch(piece.outline.outer, piece.center, direction),
-               nearer = stretch(piece.outline.outer, joint.anchor + 0.5 * to_middle, direction);
+  const double width = chord(piece.outline.outer, piece.center, direction),
+               nearer = chord(piece.outline.outer, joint.anchor + 0.5 * to_middle, direction);
   constexpr double alike = 0.02, like_the_cut = 0.15;
   if (length(to_middle) < width || std::abs(nearer - width) > alike * width ||
       std::abs(joint.height * across - width) > like_the_cut * width)

@@ -96,6 +96,26 @@ inline bool contains(const Outline& outline, Point p) {
                                                     [p](const Ring& hole) { return contains(hole, p); });
 }
 
+/// The chord of a simple ring through a point, m along a direction of length 1; 0 from outside.
+inline double chord(const Ring& ring, Point at, Point along) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double back = -infinity, on = infinity;
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point a = ring[j] - at, b = ring[i] - at;
+    const double from = cross(along, a), to = cross(along, b);
+    if ((from > 0) == (to > 0)) continue;
+    const double s = dot(along, a + (from / (from - to)) * (b - a));
+    if (s > 0) {
+      on = std::min(on, s);
+      inside = !inside;
+    } else {
+      back = std::max(back, s);
+    }
+  }
+  return inside && back > -infinity ? on - back : 0;
+}
+
 /// For messages: "1.25" and "(1.25, -3)".
 inline std::string to_string(double number) {
   char text[32];
