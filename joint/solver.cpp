@@ -83,11 +83,19 @@ void Solver::divide(double parts) {
   if (std::exchange(struck_, false)) undo_blow();
   laws_.divide(*this, parts);
   prediction_.forget();
+  scale_turn_inertia(1 / (parts * parts));
 }
 
 void Solver::unite(double parts) {
   laws_.unite(*this, parts);
   prediction_.forget();
+  scale_turn_inertia(parts * parts);
+}
+
+// What tension needs is as the square of the step: a blow in parts would meet thousands of times as much.
+void Solver::scale_turn_inertia(double by) {
+  for (TurnInertia& t : turn_inertias) t.inertia *= by, t.highest *= by;
+  if (!turn_inertias.empty()) hessian_.forget();
 }
 
 void Solver::strike(double closing) {

@@ -154,6 +154,7 @@ class Solver : public System {
 
  private:
   void undo_blow();
+  void scale_turn_inertia(double by);
   void place_others();
   void solve_again(Solution& solution, SolveReport& report);
   void settle_friction(Solution& solution, SolveReport& report);
