@@ -32,7 +32,10 @@ void Member::set_state(const JointState& s) {
     r.plastic.back[i] = s.back[i];
     r.dissipated[i] = s.dissipated[i];
   }
-  if (!own.fresh) StepLaws::set_equal_bias(j, r.gap);
+  if (!own.fresh) {
+    StepLaws::set_equal_bias(j, r.gap);
+    if (j.special) j.forget_rates();  // of what was slack they hold all of its way as strain
+  }
   said = {s.yielded, joint->capacity_used(), joint->dissipated()};
 }
 

@@ -428,6 +428,27 @@ TEST(Lines, AreNotDrawnLongerByPushes) {
   }
 }
 
+// A rope that is slack is set to what it was as new: as long as it is, and without force. What it was slack
+// by is no strain of the next step, or a load that drifts away at 1 m/s would be flung back at up to 95 m/s.
+TEST(Lines, ThatAreSetAsNewWhileSlackGiveNoEnergy) {
+  for (const double stiffness : {1e5, 1e8}) {
+    for (const double slack : {0.5, 2.0}) {
+      Line line(5, 0, RowDef::rope(stiffness, 1e8), 5 + slack);
+      line.world.SetGravity({0, 0});
+      line.load->SetLinearVelocity({1, 0});
+      line.run(0.05);
+      line.joint->set_state({});
+      EXPECT_NEAR(line.joint->neutral(axial), line.distance(), 1e-6);
+      double most = 0;
+      for (int i = 0; i < 120; ++i) {
+        line.step();
+        most = std::max(most, static_cast<double>(line.load->GetLinearVelocity().Length()));
+      }
+      EXPECT_LE(most, 1 + 1e-6) << stiffness << ", " << slack;
+    }
+  }
+}
+
 // Two lines hold a block between them, and nothing else does: their forces cancel to the last bits.
 TEST(Lines, ThatPullAgainstEachOtherLeaveNothingUnbalanced) {
   b2World world({0, 0});

@@ -151,8 +151,9 @@ class ElasticPlasticJoint : public b2WeldJoint {
   /// def().state
   JointState state() const;
   /// Sets what was used up and how far it is strained, between steps; no body is moved by it. {}: as new,
-  /// without force where it is, and as bent as it is. What has hardened stays: see set_caps(). Throws
-  /// std::invalid_argument where a number is not finite, or forward or back is negative.
+  /// without force where it is, and as bent as it is; a rope that is slack becomes as short as it hangs (keep
+  /// `elastic`, its slack below 0, where it is to stay as long). What has hardened stays: see set_caps().
+  /// Throws std::invalid_argument where a number is not finite, or forward or back is negative.
   void set_state(const JointState& state);
 
   b2Vec2 GetReactionForce(float inv_dt) const override;
