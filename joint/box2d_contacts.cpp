@@ -144,6 +144,13 @@ float separation_of(const b2Contact& contact) {
                                                 : at.separations[0];
 }
 
+float closing_speed(const Touch& t, const PointConstraint& p) {
+  const auto at = [](const b2Body* body, const b2Vec2& arm) {
+    return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
+  };
+  return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
+}
+
 void silence(const Touch& t) {
   for (int32 k = 0; k < t.velocity->count; ++k)
     t.velocity->points[k].normal_impulse = t.velocity->points[k].tangent_impulse = 0;

@@ -65,6 +65,9 @@ struct Touch {
   bool is_near() const { return manifold != contact->GetManifold(); }
 };
 
+/// Of a point, with the velocities at the step's start, m/s; below 0 it closes.
+float closing_speed(const Touch& touch, const PointConstraint& at);
+
 /// A contact of a blow, and what pressed at its points in the last part of the step, N s, where that was
 /// over.
 struct Struck {
@@ -88,6 +91,9 @@ class IslandContacts {
   /// step, or a blow may drive them together by `driven` m/s. Its body B slides so far against A until then.
   void add_near(b2Contact& contact, const Touch* touch, float h, float driven = 0,
                 const b2Vec2& slide = b2Vec2_zero);
+  /// Leaves out what was added since `first` of a kinematic body and does not face the way in which that
+  /// strikes first, in a step of h seconds.
+  void keep_first_ways(std::size_t first, float h);
   /// A body that something which is solved with the structure holds.
   void reach(b2Body& body);
   /// The index of a body that can move in the island that is being solved.

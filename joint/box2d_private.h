@@ -12,10 +12,17 @@ DUCTILE_REVEAL(b2World, m_inv_dt0, float);
 DUCTILE_REVEAL(b2World, m_newContacts, bool);
 DUCTILE_REVEAL(b2World, m_destructionListener, b2DestructionListener*);
 DUCTILE_REVEAL(b2Body, m_flags, uint16);
+inline constexpr uint16 in_island = 0x0001;  // Box2D's own: of one that this step has come to
 // Bits of it that are ours. Box2D 2.4.1 uses the seven lowest, leaves the others as they are, and makes
 // bodies without them.
 inline constexpr uint16 broke_off = 0x1000, held_bullet = 0x2000, in_node = 0x4000;
 DUCTILE_REVEAL(b2Body, m_sweep, b2Sweep);
+/// Where a body is at the start of the step, also one of an island that was solved before.
+inline b2Position start_of_step(const b2Body& body) {
+  const b2Sweep& sweep = of(body, b2Body_m_sweep{});
+  const bool solved = (of(body, b2Body_m_flags{}) & in_island) != 0;
+  return solved ? b2Position{sweep.c0, sweep.a0} : b2Position{sweep.c, sweep.a};
+}
 // The index of a body in the island that is being solved. b2WeldJoint::InitVelocityConstraints would fetch it
 // at the cost of a sine, a cosine and a matrix inverse per joint; so it is a load per body.
 DUCTILE_REVEAL(b2Body, m_islandIndex, int32);

@@ -264,7 +264,6 @@ struct Component {
   void take(Mirror& mirror, const b2SolverData& data);
   bool is_blow() const;
   double closing() const;
-  static float closing_speed(const Touch& touch, const PointConstraint& at);
   static double opening(const Touch& touch, int32 point, double h);
   Vec3 came_at(int body) const;
   bool parts(const Joint& joint) const;

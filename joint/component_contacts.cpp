@@ -245,14 +245,6 @@ void Component::remember_blow() {
   });
 }
 
-// Of the velocities at the step's start, m/s; below 0 it closes.
-float Component::closing_speed(const Touch& t, const PointConstraint& p) {
-  const auto at = [](const b2Body* body, const b2Vec2& arm) {
-    return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
-  };
-  return b2Dot(at(t.b(), p.rb) - at(t.a(), p.ra), t.velocity->normal);
-}
-
 float Component::closes(const Touch& t) {
   float most = 0;
   for (int32 k = 0; k < t.velocity->count; ++k)

@@ -99,10 +99,10 @@ int Component::parts_of(double h) const {
 
 bool Component::may_divide(const b2SolverData& data) const {
   const double h = data.step.dt;
-  // Of supports that are there; one alone may turn.
+  // Of supports that are there; one alone may turn. What only touches has no springs.
   const Mirror* first = nullptr;
   const auto moves_alike = [&first](const Mirror& m) {
-    if (!m.present) return true;
+    if (!m.present || m.guest()) return true;
     if (first == nullptr) first = &m;
     const Vec3 apart = m.exact - first->exact;
     return &m == first || (dot(apart, apart) == 0 && m.exact.w == 0);
@@ -190,7 +190,8 @@ bool Component::snaps_hard() {
 
 // Whether a blow needs parts. The solution of the whole step does not know the peak of what joints bear. Nor
 // does it know where a piece is that restitution throws away and springs bring back within the step: it would
-// meet what threw it again and again, from step to step, until nothing is left of the rebound.
+// meet what threw it again and again, from step to step, until nothing is left of the rebound. Nor what a
+// kinematic body runs down: continuous collision would move the piece alone, and its structure stay behind.
 bool Component::strikes_hard() {
   if (snapped_) return true;
   forget_blows();
@@ -200,9 +201,12 @@ bool Component::strikes_hard() {
     for (const int i : {t.in_a, t.in_b})
       if (solver.is_free(i) && speed > blow_speed) parts_.bodies[z(i)].rebounds |= p.bounce > 0;
   });
-  for (const Touch& t : outside_.near)
+  bool runs_down = false;
+  for (const Touch& t : outside_.near) {
     for (int32 k = 0; k < t.velocity->count; ++k)
       strike(t.in_a, t.in_b, -closing_speed(t, t.velocity->points[k]));
+    for (const int i : {t.in_a, t.in_b}) runs_down |= mirrors[z(i)].type == b2_kinematicBody;
+  }
   const auto jump = [this](int i) { return into_own_frame(solver.places[z(i)].turn, mirrors[z(i)].jump); };
   for (const Member* m : members) {
     const Joint& j = solver.joints[m->index];
@@ -219,7 +223,7 @@ bool Component::strikes_hard() {
       if (!is_rigid(r, i) && r.law.h * r.law.h * r.law.spring[i] > r.m_eff[i]) return true;
     return false;
   });
-  return rings || strains_joints();
+  return runs_down || rings || strains_joints();
 }
 
 // What is heavy strains much by its weight or its way in a step, though it may strike slowly; so may the hand

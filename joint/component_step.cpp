@@ -38,8 +38,14 @@ void Component::clear_outside() {
 }
 
 bool Component::find_present() {
-  for (Mirror& m : mirrors) m.present = !m.guest();
+  for (Mirror& m : mirrors) m.present = !m.guest(), m.comes = false;
   each_guest([this](int body) { mirrors[z(body)].present = true; });
+  for (const Touch& t : outside_.near) {
+    for (const int body : {t.in_a, t.in_b}) {
+      Mirror& m = mirrors[z(body)];
+      if (!m.present && m.type == b2_kinematicBody) m.present = m.comes = true;
+    }
+  }
   return std::all_of(mirrors.begin(), mirrors.end(), [](const Mirror& m) { return !m.present || m.fits(); });
 }
 
@@ -97,7 +103,7 @@ bool Component::as_before(const b2SolverData& data) const {
     if (!m.present) continue;
     if (!m.stays(m.pose_in(data))) return false;
     if (m.type == b2_staticBody) continue;
-    const b2Velocity& v = data.velocities[m.island_index];
+    const b2Velocity v = m.velocity_in(data);
     const float change = std::max({std::abs(v.v.x - m.taken.v.x), std::abs(v.v.y - m.taken.v.y),
                                    m.mass.gyration * std::abs(v.w - m.taken.w)});
     if (!(change <= slack + m.rounding)) return false;
@@ -109,7 +115,7 @@ bool Component::as_before(const b2SolverData& data) const {
 // that we gave, and what contacts' stored impulses add to that (set_warm_starts_aside()), so are the doubles:
 // rounded anew in each step, they would shake what swings or rests, and spoil the forecast.
 void Component::take(Mirror& m, const b2SolverData& data) {
-  m.taken = data.velocities[m.island_index];
+  m.taken = m.velocity_in(data);
   m.pushed = {{0, 0}, 0};
   m.jump = std::exchange(m.thrown, false) ? in_doubles(velocity_of(*m.body)) : Vec3{};
   const auto look_for_jump = [&](const b2Velocity& now) {
@@ -151,7 +157,7 @@ void Component::first_velocity(const b2SolverData& data) {
   if (!alone() && is_whole())
     coupling_ = outside_.corners.empty() && outside_.ties.empty() ? Coupling::whole : Coupling::nearly;
   const bool expected = std::exchange(rest_, Rest::none) != Rest::none;
-  if (expected && outside_.ties.empty() && touched_as_before() && as_before(data)) {
+  if (expected && outside_.ties.empty() && outside_.near.empty() && touched_as_before() && as_before(data)) {
     rest_ = Rest::kept;
     for (std::size_t i = 0; i < solver.free_bodies(); ++i) {
       if (mirrors[i].present) data.velocities[mirrors[i].island_index] = mirrors[i].given;

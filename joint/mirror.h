@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "box2d_private.h"
 #include "frames.h"
 #include "pose.h"
 #include "tape.h"
@@ -50,6 +51,7 @@ struct Mirror {
   float rounding = 0;            // m/s: of `taken`, by the contacts' stored impulses in it
   int32 island_index = 0;
   bool present = true;  // a guest may be elsewhere, or be no more: then `body` must not be asked
+  bool comes = false;   // a kinematic guest that does not touch yet: it is in no island, or in another
 
   Mirror() = default;
   /// Of a body that has no joint of the component yet.
@@ -71,8 +73,11 @@ struct Mirror {
   bool only_ours() const { return body->GetContactList() == nullptr && joins_only_ours(); }
   /// Its pose and velocity at the start of a step.
   b2Position pose_in(const b2SolverData& data) const {
-    return type == b2_staticBody ? b2Position{body->GetWorldCenter(), body->GetAngle()}
-                                 : data.positions[island_index];
+    if (type == b2_staticBody) return {body->GetWorldCenter(), body->GetAngle()};
+    return comes ? start_of_step(*body) : data.positions[island_index];
+  }
+  b2Velocity velocity_in(const b2SolverData& data) const {
+    return comes ? velocity_of(*body) : data.velocities[island_index];
   }
   /// Whether nothing has pushed it from where it was left. Box2D corrects a guest's pose, and turns it by
   /// what its place is rounded by.

@@ -14,6 +14,8 @@
 
 #include "blow.h"
 #include "box2d_contacts.h"
+#include "box2d_private.h"
+#include "frames.h"
 #include "seams.h"
 
 namespace ductile::dynamics {
@@ -67,16 +69,19 @@ b2Vec2 normal_of(const Touch& touch, const b2Body& a, const b2Body& b) {
 
 // Whether one of so many points strikes within h seconds, and does not slide along what it meets; or is
 // driven there.
-bool strikes_within(const b2Body& a, const b2Body& b, const b2WorldManifold& points, int32 count, float h,
-                    float driven) {
+bool strikes_within(const b2Body& a, const b2Vec2& center_a, const b2Body& b, const b2Vec2& center_b,
+                    const b2WorldManifold& points, int32 count, float h, float driven) {
+  const auto velocity = [](const b2Body& body, const b2Vec2& arm) {
+    return body.GetLinearVelocity() + b2Cross(body.GetAngularVelocity(), arm);
+  };
+  const bool is_driven = a.GetType() == b2_kinematicBody || b.GetType() == b2_kinematicBody;
   for (int32 k = 0; k < count; ++k) {
-    const b2Vec2 v = b.GetLinearVelocityFromWorldPoint(points.points[k]) -
-                     a.GetLinearVelocityFromWorldPoint(points.points[k]);
+    const b2Vec2& point = points.points[k];
+    const b2Vec2 v = velocity(b, point - center_b) - velocity(a, point - center_a);
     const float closing = -b2Dot(v, points.normal);
     if (h * driven > points.separations[k]) return true;
-    if (closing > blow_speed && h * closing > points.separations[k] &&
-        std::abs(b2Cross(v, points.normal)) < 2 * closing)
-      return true;
+    const bool slides = std::abs(b2Cross(v, points.normal)) > 2 * closing;
+    if (closing > blow_speed && h * closing > points.separations[k] && (is_driven || !slides)) return true;
   }
   return false;
 }
@@ -128,6 +133,40 @@ void tell_of_near(const Touch& touch) {
   });
 }
 
+// What it strikes first tells the way: the corner beside that, of a piece that is joined to it, is none of
+// the whole.
+void IslandContacts::keep_first_ways(std::size_t first, float h) {
+  const auto ram_of = [](const Touch& t) -> const b2Body* {
+    for (const b2Body* body : {t.a(), t.b()})
+      if (body->GetType() == b2_kinematicBody) return body;
+    return nullptr;
+  };
+  const auto strikes_after = [h](const Touch& t) {  // s
+    if (!t.is_near()) return 0.0f;
+    float least = b2_maxFloat;
+    for (int32 k = 0; k < t.velocity->count; ++k) {
+      const PointConstraint& p = t.velocity->points[k];
+      const float gap = -h * p.bounce - b2_linearSlop, closes = -closing_speed(t, p);
+      if (closes > 0) least = std::min(least, gap / closes);
+    }
+    return least;
+  };
+  for (std::size_t i = first; i < touches_.size(); ++i) {
+    const b2Body* ram = ram_of(touches_[i]);
+    if (ram == nullptr) continue;
+    const Touch* struck = &touches_[i];
+    float least = strikes_after(*struck);
+    for (const Touch& t : touches_) {
+      if (ram_of(t) != ram) continue;
+      if (const float time = strikes_after(t); time < least) least = time, struck = &t;
+    }
+    const b2Vec2 &n = touches_[i].velocity->normal, &way = struck->velocity->normal;
+    const float cosine = (touches_[i].a() == ram) == (struck->a() == ram) ? b2Dot(n, way) : -b2Dot(n, way);
+    touches_[i].at_seam = cosine < same_way;
+  }
+  std::erase_if(touches_, [](const Touch& t) { return t.at_seam; });
+}
+
 void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, float driven,
                               const b2Vec2& slide) {
   b2Fixture &fa = *contact.GetFixtureA(), &fb = *contact.GetFixtureB();
@@ -145,8 +184,9 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
   const float way = std::min(way_of(contact, h) + h * driven, b2_maxTranslation);
   const b2Vec2 lift = touch != nullptr && are_polygons(fa, fb) ? way * normal_of(*touch, a, b) : b2Vec2_zero;
   fb.GetShape()->m_radius = radius + way + lift.Length();
-  const b2Transform& at_a = a.GetTransform();
-  b2Transform at_b = b.GetTransform();
+  const b2Position start_a = start_of_step(a), start_b = start_of_step(b);
+  const b2Transform at_a = transform_of(a, start_a);
+  b2Transform at_b = transform_of(b, start_b);
   at_b.p += slide + lift;
   contact.Evaluate(&near.manifold, at_a, at_b);
   fb.GetShape()->m_radius = radius;
@@ -156,8 +196,12 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
 
   b2WorldManifold world;
   world.Initialize(&near.manifold, at_a, fa.GetShape()->m_radius, at_b, radius);
+  const auto at_seam = [&](const b2Vec2& point) {
+    return is_covered(fa, world.normal, point) || is_covered(fb, -world.normal, point);
+  };
+  if (touch == nullptr && std::all_of(world.points, world.points + near.manifold.pointCount, at_seam)) return;
   if (touch == nullptr
-          ? !strikes_within(a, b, world, near.manifold.pointCount, h, driven)
+          ? !strikes_within(a, start_a.c, b, start_b.c, world, near.manifold.pointCount, h, driven)
           : b2Dot(world.normal, normal_of(*touch, a, b)) < (slide == b2Vec2_zero ? same_way : goes_on))
     return;
   VelocityConstraint& v = near.velocity = {};
@@ -170,8 +214,8 @@ void IslandContacts::add_near(b2Contact& contact, const Touch* touch, float h, f
     // Where the corner or circle is now that comes there on the other's face: half way between the two.
     const b2Vec2 there = world.points[k] - 0.5f * lift;
     const b2Vec2 now = near.manifold.type == b2Manifold::e_faceA ? there - slide : there;
-    v.points[v.count].ra = now - a.GetWorldCenter();
-    v.points[v.count].rb = now - b.GetWorldCenter();
+    v.points[v.count].ra = now - start_a.c;
+    v.points[v.count].rb = now - start_b.c;
     const float gap = world.separations[k] - b2Dot(slide + lift, world.normal);
     v.points[v.count].bounce = -(std::max(gap, 0.0f) + b2_linearSlop) / h;
     p.points[v.count] = point.localPoint;

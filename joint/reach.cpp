@@ -23,6 +23,8 @@ bool is_fast(const b2Body& body) {
          std::abs(body.GetAngularVelocity()) > blow_turn;
 }
 
+bool is_ram(const b2Body& body) { return body.GetType() == b2_kinematicBody && is_fast(body); }
+
 /// Calls visit() for the joints that are none of ours and stand in the body's list beside this edge, of one
 /// of ours. So a list is gone through once, however many of ours it has.
 template <class Visit>
@@ -107,7 +109,8 @@ void Island::find_near(float h) {
   };
   const std::size_t touching = contacts_.touches().size();
   for (Component* component : active_) {
-    float driven = goes_on(component) ? static_cast<float>(component->solver.fastest()) : 0;
+    const auto fastest = static_cast<float>(component->solver.fastest());
+    float driven = goes_on(component) ? fastest : 0;
     for (std::size_t k = 0; k < touching; ++k) {
       const Touch& t = contacts_.touches()[k];
       const float closes = Component::closes(t);
@@ -115,18 +118,27 @@ void Island::find_near(float h) {
           (component_of(*t.a()) == component || component_of(*t.b()) == component))
         driven = closes;
     }
-    const auto may_meet = [&](const Mirror& m) { return !m.guest() && (driven > 0 || is_fast(*m.body)); };
+    const auto is_met = [](const Mirror& m) {
+      const b2ContactEdge* e = m.body->GetContactList();
+      while (e != nullptr && !is_ram(*e->other)) e = e->next;
+      return e != nullptr;
+    };
+    const auto may_meet = [&](const Mirror& m) {
+      return !m.guest() && (driven > 0 || is_fast(*m.body) || is_met(m));
+    };
     const std::span<const Mirror> free{component->mirrors.data(), component->solver.free_bodies()};
     if (std::none_of(free.begin(), free.end(), may_meet) || !lasts(component)) continue;
+    const std::size_t first = contacts_.touches().size();
     for (const Mirror& m : free) {
       if (!may_meet(m)) continue;
       for (b2ContactEdge* e = m.body->GetContactList(); e != nullptr; e = e->next) {
-        const bool stands = e->other->GetType() == b2_staticBody;
+        const bool stands = e->other->GetType() != b2_dynamicBody, comes = is_ram(*e->other);
         if (may_be_met(*e->contact) && (stands || meet(*component, *m.body, *e->other)) &&
             !share_a_neighbour(*m.body, *e->other))
-          contacts_.add_near(*e->contact, nullptr, h, stands ? driven : 0);
+          contacts_.add_near(*e->contact, nullptr, h, comes ? fastest : stands ? driven : 0);
       }
     }
+    contacts_.keep_first_ways(first, h);
   }
   const bool any_goes_on = std::any_of(active_.begin(), active_.end(), goes_on);
   for (std::size_t k = 0; k < touching; ++k) {

@@ -21,6 +21,16 @@ bool covers(const b2Fixture& neighbour, const b2Fixture& piece, int32 face, cons
       b2Mul(piece.GetBody()->GetTransform(), from + at * along + skin * shape.m_normals[face]));
 }
 
+/// The face of a polygon that looks the most in a direction of the world.
+int32 face_toward(const b2Fixture& piece, const b2Vec2& direction) {
+  const auto& shape = static_cast<const b2PolygonShape&>(*piece.GetShape());
+  const b2Vec2 out = b2MulT(piece.GetBody()->GetTransform().q, direction);
+  const auto* normal =
+      std::max_element(shape.m_normals, shape.m_normals + shape.m_count,
+                       [&out](const b2Vec2& m, const b2Vec2& n) { return b2Dot(m, out) < b2Dot(n, out); });
+  return static_cast<int32>(normal - shape.m_normals);
+}
+
 /// Whether the contact is at a face of `piece`, one of its fixtures, that `neighbour` covers there, or at a
 /// corner of such a face.
 bool meets_cover(const b2Contact& contact, const b2Fixture& piece, const b2Fixture& neighbour) {
@@ -39,12 +49,9 @@ bool meets_cover(const b2Contact& contact, const b2Fixture& piece, const b2Fixtu
   b2WorldManifold world;
   contact.GetWorldManifold(&world);
   const b2Transform& frame = piece.GetBody()->GetTransform();
-  const b2Vec2 out = b2MulT(frame.q, is_a ? world.normal : -world.normal);
-  const auto* normal =
-      std::max_element(shape.m_normals, shape.m_normals + shape.m_count,
-                       [&out](const b2Vec2& m, const b2Vec2& n) { return b2Dot(m, out) < b2Dot(n, out); });
+  const int32 face = face_toward(piece, is_a ? world.normal : -world.normal);
   return std::all_of(world.points, world.points + manifold.pointCount, [&](const b2Vec2& point) {
-    return covers(neighbour, piece, static_cast<int32>(normal - shape.m_normals), b2MulT(frame, point));
+    return covers(neighbour, piece, face, b2MulT(frame, point));
   });
 }
 
@@ -79,6 +86,19 @@ bool is_carried_beside(const b2Contact& contact, const b2Fixture& piece, const b
 }
 
 }  // namespace
+
+bool is_covered(const b2Fixture& piece, const b2Vec2& direction, const b2Vec2& point) {
+  if (piece.GetType() != b2Shape::e_polygon) return false;
+  const b2Body& body = *piece.GetBody();
+  const int32 face = face_toward(piece, direction);
+  const b2Vec2 at = b2MulT(body.GetTransform(), point);
+  for (const b2JointEdge* j = body.GetJointList(); j != nullptr; j = j->next) {
+    if (ElasticPlasticJoint::cast(j->joint) == nullptr) continue;
+    for (const b2Fixture* f = j->other->GetFixtureList(); f != nullptr; f = f->GetNext())
+      if (covers(*f, piece, face, at)) return true;
+  }
+  return false;
+}
 
 bool is_at_seam(const b2Contact& contact) {
   const b2Fixture &a = *contact.GetFixtureA(), &b = *contact.GetFixtureB();

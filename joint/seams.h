@@ -12,4 +12,7 @@ namespace ductile::dynamics {
 /// structure as a whole.
 bool is_at_seam(const b2Contact& contact);
 
+/// Whether a joined piece covers the face of `piece` that looks in a direction, near a point of the world.
+bool is_covered(const b2Fixture& piece, const b2Vec2& direction, const b2Vec2& point);
+
 }  // namespace ductile::dynamics
