@@ -38,13 +38,16 @@ void move_drive(Joint& j, const JointRecord& r, double h) {
   }
 }
 
+// p and u₋ alike, so that what they part by as they turn is half of their difference (flow.h).
 void correct_rates(Joint& j, const JointRecord& r, const Rows& gap, double h) {
   for (unsigned i = 0; i < 3; ++i) {
     if (!j.is_newmark(i)) continue;
     if (is_slack(j, r, i)) {
       j.rate[i] = 2 * (gap[i] - j.neutral[i]) / h;
+      j.moved[i] = h * j.rate[i];
     } else if (!flows(j.regime, i)) {
       j.rate[i] -= r.drive_rate[i];
+      j.moved[i] -= h * r.drive_rate[i];
     }
   }
 }

@@ -7,7 +7,13 @@
 // rest of h J v.
 //
 // The increment is taken from velocities: what turning bodies part along their tangents must not count as
-// flow, which would strain what is parallel, and be work.
+// flow, which would strain what is parallel, and be work. Nor is it strain: where bodies turn evenly, e of a
+// row of Newmark's holds half of what they part by in a step, T, and u = −T (row.h), of steel dozens of times
+// R/k. With T₋ of the last step and T = ½h (J₊ − J) v of this one,
+//   ê = e − T₋/2        û = u + (T₋ + T)/2        p̂ = p − T₋
+// are what a row is strained by and moves by along its axis in the middle between a step's ends: e₊ = e + u +
+// T. They have the row's law, R = k (ê + (û − p̂)/4 + …) but for (T₋ − T)/8, and the flow is û − (ê' − ê),
+// which leaves ê' within |R|/k at the step's end. After flow p̂ and û₋ are 0: p = T, u₋ = −T.
 #pragma once
 
 #include "step_laws.h"
@@ -20,11 +26,12 @@ struct Motion {
   bool swept = false;  // in the paper's way (sweep.h): of rows that flow, x is but the direction
 };
 
-/// What a row flows by in the step as it was solved, m or rad.
+/// What a row flows by in the step as it was solved, m or rad, with T as it was in the last step.
 double slip_of(const Joint& joint, const JointRecord& record, unsigned row);
 
-/// Books the plastic flow of a joint whose gap is now `gap`.
-void flow(Joint& joint, JointRecord& record, const Rows& gap, const StepLaws& laws, const Motion& motion);
+/// Books the plastic flow of a joint whose gap is now `gap`, and whose rows' T is `parted`, m.
+void flow(Joint& joint, JointRecord& record, const Rows& gap, const Rows& parted, const StepLaws& laws,
+          const Motion& motion);
 
 /// Rows that hold nothing have their neutral position where they are.
 void follow_gap(Joint& joint, const Rows& gap);

@@ -235,8 +235,10 @@ void Solver::advance() {
   for (Joint& j : own_joints()) {
     const Rows v = relative_velocity(j, bodies[z(j.a)].v, bodies[z(j.b)].v);
     const Rows& gap = record(j).gap = dynamics::locate(j, places);
-    if (keeps_ledger || j.regime != 0 || j.has_free_row() || j.special) book(j, gap);
-    carry_over(j, v, relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]));
+    const Rows turned = relative_velocity(j, turned_[z(j.a)], turned_[z(j.b)]);
+    if (keeps_ledger || j.regime != 0 || j.has_free_row() || j.special)
+      book(j, gap, {h / 2 * (turned[0] - v[0]), h / 2 * (turned[1] - v[1]), 0});
+    carry_over(j, v, turned);
     if (j.special) correct_rates(j, record(j), gap, h);
     StepLaws::set_equal_bias(j, gap);
     j.flowed = static_cast<std::uint8_t>(flowing(j.regime));
@@ -264,20 +266,22 @@ void Solver::carry_over(Joint& j, const Rows& v, const Rows& turned) {
     if (j.is_overdamped(i)) {
       j.rate[i] = (j.rate[i] - v[i]) / 2;
     } else if (flows(j.regime, i)) {
-      j.rate[i] -= v[i];  // the spring's own rate is none
-      j.moved[i] = j.mean[i] = 0;
+      // The spring's own rate is none.
+      j.rate[i] = (j.rate[i] - v[i]) / 2;
+      j.moved[i] = -h * j.rate[i];
+      j.mean[i] = 0;
     }
     j.trend[i] = j.is_newmark(i) ? law.trend(i, j.moved[i], j.mean[i], flows(j.regime, i) ? 0 : mean[i]) : 0;
   }
 }
 
 // What a joint's rows do in a step beyond being strained.
-void Solver::book(Joint& j, const Rows& gap) {
+void Solver::book(Joint& j, const Rows& gap, const Rows& parted) {
   JointRecord& r = record(j);
   follow_gap(j, gap);
   const Rows neutral = j.neutral, dissipated = r.dissipated;
   if (r.material.driven != 0) move_drive(j, r, step());
-  if (j.regime != 0) flow(j, r, gap, laws_, motion_);
+  if (j.regime != 0) flow(j, r, gap, parted, laws_, motion_);
   if (!keeps_ledger) return;
   Rows slip, work;
   for (unsigned i = 0; i < 3; ++i) {

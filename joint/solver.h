@@ -159,7 +159,7 @@ class Solver : public System {
   void solve_again(Solution& solution, SolveReport& report);
   void settle_friction(Solution& solution, SolveReport& report);
   void carry_over(Joint& joint, const Rows& rate, const Rows& turned);
-  void book(Joint& joint, const Rows& gap);
+  void book(Joint& joint, const Rows& gap, const Rows& parted);
 
   StepLaws laws_;
   Hessian hessian_;

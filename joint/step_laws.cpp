@@ -46,7 +46,7 @@ bool is_deferred(const Joint& j, const JointRecord& r, unsigned i) {
 Rows parted_by_turn(const Joint& j, double h) {
   Rows parted{};
   for (unsigned i = 0; i < 2; ++i) {
-    const double T = j.is_overdamped(i) ? h * j.rate[i] : (h * j.rate[i] - j.moved[i]) / 2;
+    const double T = j.is_overdamped(i) ? h * j.rate[i] : parting(j, i, h);
     if (std::abs(T) > least_drift) parted[i] = T;
   }
   return parted;

@@ -277,6 +277,9 @@ inline double bias_of_strain(const Joint& j, unsigned i, double e) {
   return j.relaxation[i] * (e + j.trend[i]) - j.carry[i] * j.rate[i];
 }
 
+/// T of a row of Newmark's: what turning bodies parted by in the last step, of h seconds (row.h), m.
+inline double parting(const Joint& j, unsigned i, double h) { return (h * j.rate[i] - j.moved[i]) / 2; }
+
 /// The elastic strain at the end of the last step, m or rad: that of the biases; in implicit rows R/k, beside
 /// heavy dampers no more than R/k. The gap itself may be more there: turning bodies part along their tangents
 /// in a step, by r(ωh)²/2, before the next step closes them.
