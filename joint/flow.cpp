@@ -17,13 +17,21 @@ double parted_before(const Joint& j, const JointRecord& r, unsigned i) {
 
 }  // namespace
 
+RatedLaw rated_law(const Joint& j, const JointRecord& r, unsigned i, double x) {
+  if (!j.is_newmark(i)) return {j.G[i], x};
+  const double h = r.law.h, k = r.law.spring[i], G = h * (h * k + r.law.damping[i]);
+  const double parted = parted_before(j, r, i), e = strain_of_bias(j, i) - parted / 2;
+  return {G, x - j.bias[i] + parted / h + h * k * e / G};
+}
+
 double slip_of(const Joint& j, const JointRecord& r, unsigned i) {
   // What breaks within the step holds at its cap until it does.
   const double h = r.law.h, yield = impulse_at_yield(j, r, i), s = r.held < 1 ? yield : j.impulse[i];
+  if (r.material.rate != nullptr) {
+    const auto [G, x] = rated_law(j, r, i, r.x[i]);
+    return h * (x - yield / G);
+  }
   const double parted = parted_before(j, r, i), e = strain_of_bias(j, i) - parted / 2;
-  // Of a rated row the spring holds its force at the step's end (rate.h).
-  if (r.material.rate != nullptr)
-    return h * (r.x[i] - j.bias[i]) + parted - (yield / (h * r.law.spring[i]) - e);
   const double rate = s / j.G[i] - j.bias[i] + parted / h;
   const double limit = std::abs(yield) / (h * r.law.spring[i]);
   const double share = r.law.delta[i] < 1 ? (1 + r.law.delta[i]) / 2 : 1;

@@ -26,6 +26,15 @@ struct Motion {
   bool swept = false;  // in the paper's way (sweep.h): of rows that flow, x is but the direction
 };
 
+/// The rate of flow of a row with a rate law, x − s/G, in impulses s at its cap (rate.h).
+struct RatedLaw {
+  double G = 0;  // kg or kg m²
+  double x = 0;  // m/s or rad/s
+};
+
+/// At x of the row's own law.
+RatedLaw rated_law(const Joint& joint, const JointRecord& record, unsigned row, double x);
+
 /// What a row flows by in the step as it was solved, m or rad, with T as it was in the last step.
 double slip_of(const Joint& joint, const JointRecord& record, unsigned row);
 

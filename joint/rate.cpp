@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow.h"
+
 namespace ductile::dynamics {
 
 namespace {
@@ -46,14 +48,12 @@ bool raise_caps(System& system) {
       const double x = flows(j.regime, i) ? r.x[i] : j.impulse[i] / j.G[i], raised = r.law.raised[i];
       const double hF = (x > 0 ? r.law.cap : r.law.cap_reverse)[i] - raised;
       if (!(hF > 0) || hF == unlimited) continue;
-      // What the spring may hold at the step's end, and all of it that the row would have to hold.
-      const double h = r.law.h, Euler = h * h * r.law.spring[i];
-      const double all = x - j.bias[i] + strain_of_bias(j, i) / h;
+      const auto [G, all] = rated_law(j, r, i, x);
       double to = 0, after = 0, s = std::min(j.G[i] * std::abs(x), hF);
       if (j.G[i] * std::abs(x) > hF) {
-        const Raised at(hF, Euler, law.doubling[i], law.exponent, x > 0 ? all : -all);
+        const Raised at(hF, G, law.doubling[i], law.exponent, x > 0 ? all : -all);
         s = hF * (1 + at.o);
-        after = std::min(at.tangent / (1 + at.tangent / Euler) / j.G[i], steepest);
+        after = std::min(at.tangent / (1 + at.tangent / G) / j.G[i], steepest);
         to = (s - after * j.G[i] * std::abs(x)) / (1 - after) - hF;
       }
       if (std::abs(std::abs(j.impulse[i]) - s) <= agreement * hF) continue;

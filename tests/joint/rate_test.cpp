@@ -149,6 +149,42 @@ TEST(Rate, ASoftSpringInSeries) {
   }
 }
 
+// A damper c beside a soft spring, both in series with the slider, whose law of q = 1 is a line: beyond M
+// k e + c e' = R = M (1 + (ω − e')/D) by Runge and Kutta, and ½Iω² goes where R ω does.
+TEST(Rate, ADamperBesideASoftSpring) {
+  constexpr double D = 5, k = 2e4, turns = 6, ratio = 0.05;
+  const double c = 2 * ratio * std::sqrt(k * inertia / 4);  // of the bar about its centre
+  struct State {
+    double omega, e, p;
+  };
+  const auto rate = [&](const State& s) {
+    const double held = k * s.e + c * s.omega, over = std::abs(held) - M;
+    const double flow = over > 0 ? std::copysign(over / (M / D + c), held) : 0;
+    return State{-(k * s.e + c * (s.omega - flow)) / inertia, s.omega - flow, flow};
+  };
+  const auto on = [](const State& s, double h, const State& r) {
+    return State{s.omega + h * r.omega, s.e + h * r.e, s.p + h * r.p};
+  };
+  constexpr double h = 1e-5, seconds = 0.7;
+  State s{turns, 0, 0};
+  for (int i = 0; i < std::lround(seconds / h); ++i) {
+    const State a = rate(s), b = rate(on(s, h / 2, a)), d = rate(on(s, h / 2, b)), f = rate(on(s, h, d));
+    s = on(s, h / 6,
+           {a.omega + 2 * (b.omega + d.omega) + f.omega, a.e + 2 * (b.e + d.e) + f.e,
+            a.p + 2 * (b.p + d.p) + f.p});
+  }
+  for (const double dt : {1. / 60, 1. / 240, 1. / 960, 1. / 3840}) {
+    Stopped stopped(of_bending(D, 1), k, turns, dt);
+    stopped.joint->set_stiffness(rotation, k, ratio);
+    stopped.run(seconds);
+    const JointEnergy e = stopped.structure.energy();
+    const double speed = stopped.bar->GetAngularVelocity(), start = inertia * turns * turns / 2;
+    EXPECT_NEAR(stopped.joint->plastic(rotation) / s.p, 1, 5 * dt) << dt;
+    EXPECT_NEAR((inertia * speed * speed / 2 + e.elastic + e.dissipated + e.damping) / start, 1, 2 * dt)
+        << dt;
+  }
+}
+
 TEST(Rate, NoneWhereItIsSlow) {
   Stopped with(of_bending(1e12, 5), rigid, 6, 1. / 60), without({}, rigid, 6, 1. / 60);
   with.run(5);
