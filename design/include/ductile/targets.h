@@ -39,7 +39,9 @@ Answer youngs_modulus_for_rotation_at_yield(const SceneDef& scene, const std::st
                                             const std::string& joint, double rotation);
 
 /// The slowest free vibration of the structure that a body is part of, as long as nothing yields, damped as
-/// the joints are: c = 2ζ√(k m_eff) each.
+/// the elastic rows of its joints are: c = ζk/(πf), N s/m or N m s, each with its own ζ and k and with f the
+/// joint's PlannedJoint::damping_frequency. Where that is the structure's own and all joints have the same ζ,
+/// so has the vibration.
 struct Mode {
   double frequency = 0;      ///< Hz, undamped
   double damping_ratio = 0;  ///< of critical, φᵀCφ / 2ω φᵀMφ: small damping does not change the shape φ
@@ -52,8 +54,9 @@ Mode slowest_mode(const Plan& plan);
 /// E, Pa, of a body, with which its structure's slowest vibration has that frequency, Hz.
 Answer youngs_modulus_for_frequency(const SceneDef& scene, const std::string& body, double frequency);
 
-/// The material's damping ratio of a body's joints, with which its structure's slowest vibration is damped by
-/// that share of critical: joints are stiffer than the structure, so theirs is the larger number.
+/// The material's damping ratio with which the slowest vibration of a body's structure is damped by that
+/// share of critical: the share itself where all that is elastic in the structure is of that body, a larger
+/// number where other bodies' joints store energy and are damped less.
 Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double damping_ratio);
 
 /// The least number of equal pieces of a body with which the displacement at a point under the scene's loads
