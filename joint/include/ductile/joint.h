@@ -246,7 +246,8 @@ struct JointEnergy {
   double clamped = 0;   ///< kinetic energy that Box2D's speed limits took from the pieces since the start
 };
 
-/// What the last b2World::Step cost, over all islands. Structures that touch report their one problem each.
+/// What the steps between two calls of Structure::update() cost, over all islands: counts are sums,
+/// `residual` and `slowed` maxima. Structures that touch report their one problem each.
 struct StepReport {
   int solves = 0;   ///< solutions of the structure's problem
   int resting = 0;  ///< components for which the step was the last one again
