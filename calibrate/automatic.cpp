@@ -504,7 +504,7 @@ class Automatic {
 
   void find_holds(std::span<const Hold> holds) {
     const double extent = line_.back().s;
-    std::vector<std::pair<double, bool>> found;
+    std::vector<Held> found;
     for (const Hold& h : holds) {
       const auto nearest = std::min_element(line_.begin(), line_.end(), [&](const Place& a, const Place& b) {
         return length(a.at - h.at) < length(b.at - h.at);
@@ -520,19 +520,20 @@ class Automatic {
           s = line_[i - 1].s + share * (line_[i].s - line_[i - 1].s);
         }
       }
-      found.emplace_back(s < 0.02 * extent ? 0 : s > 0.98 * extent ? extent : s, h.clamps);
+      found.push_back({s < 0.02 * extent ? 0 : s > 0.98 * extent ? extent : s, h.at, h.clamps});
     }
-    std::sort(found.begin(), found.end());
-    for (const auto& [s, clamps] : found) {
-      // Two that lie as near as a tenth of the length clamp like one.
-      if (!holds_.empty() && s - holds_.back().first < 0.1 * extent)
-        holds_.back().second = true;
+    std::stable_sort(found.begin(), found.end(), [](const Held& a, const Held& b) { return a.s < b.s; });
+    for (const Held& held : found) {
+      // Two that lie as near as a tenth of the length clamp like one, but at one point, where they turn
+      // freely.
+      if (!holds_.empty() && held.s - holds_.back().s < 0.1 * extent)
+        holds_.back().clamps |= held.clamps || length(held.at - holds_.back().at) > 1e-6 * extent;
       else
-        holds_.emplace_back(s, clamps);
+        holds_.push_back(held);
     }
-    if (lines_.size() == 1 && axis_.members[0].closed) holds_ = {{0, true}, {extent, true}};
+    if (lines_.size() == 1 && axis_.members[0].closed) holds_ = {{0, {}, true}, {extent, {}, true}};
     clamped_both_ = holds_.size() > 2;
-    for (const auto& [s, clamps] : holds_) clamped_both_ |= holds_.size() > 1 && clamps;
+    for (const Held& held : holds_) clamped_both_ |= holds_.size() > 1 && held.clamps;
   }
 
   // --- cuts ---
@@ -675,11 +676,11 @@ class Automatic {
       if (last >= first / 2) stretches_.push_back({extent, 0});
       return;
     }
-    const double start = holds_.front().first, end = holds_.back().first;
+    const double start = holds_.front().s, end = holds_.back().s;
     if (start > 0) stretches_.push_back({start, 0});
     if (end < extent) stretches_.push_back({end, extent});
     for (std::size_t i = 1; i < holds_.size(); ++i)
-      stretches_.push_back({holds_[i - 1].first, holds_[i].first, true});
+      stretches_.push_back({holds_[i - 1].s, holds_[i].s, true});
   }
 
   Deviation deviation(Stretch& stretch, const std::vector<Hinge>& joints) const {
@@ -794,7 +795,13 @@ class Automatic {
     double offset;
   };
   std::vector<Step> steps_;
-  std::vector<std::pair<double, bool>> holds_;  // along line_, and whether they clamp
+  // What holds the body along line_.
+  struct Held {
+    double s;  // m along it
+    Point at;
+    bool clamps;
+  };
+  std::vector<Held> holds_;
   bool clamped_both_ = false;
   std::vector<Stretch> stretches_;
 };

@@ -237,6 +237,32 @@ TEST(Automatic, NodesHoldABodyAsWallsDo) {
     }
 }
 
+// A pin beside a pin at the same point turns as freely as one; at a corner each, 1 m apart, they clamp.
+TEST(Automatic, PinsAtOnePointClampNothing) {
+  SceneDef scene = clamped({rectangle(0, -0.5, 20, 0.5), {}}, 0.003);
+  scene.bodies[0].outline = {rectangle(-1, -5, 21, -2), {}};  // no edge of it is near the beam
+  const auto pin = [](Point at) { return JointBetweenDef{.a = "wall", .b = "beam", .at = at}; };
+  const auto split = [&](std::vector<JointBetweenDef> joints, std::vector<SupportDef> supports) {
+    scene.joints = std::move(joints);
+    scene.supports = std::move(supports);
+    return calibrate(scene).split_errors.at(0);
+  };
+  const SplitError once = split({pin({0, 0}), pin({20, 0})}, {});
+  const SplitError twice = split({pin({0, 0}), pin({0, 0}), pin({20, 0})},
+                                 {{.body = "beam", .at = {20, 0}, .fix_x = true, .fix_y = true}});
+  EXPECT_EQ(twice.error, once.error);
+
+  const auto clamp = [&](Point at) {
+    JointBetweenDef def = pin(at);
+    def.overrides.moment = unlimited;
+    return def;
+  };
+  const SplitError apart = split({pin({0, -0.5}), pin({0, 0.5}), pin({20, -0.5}), pin({20, 0.5})}, {});
+  const SplitError stiff = split({clamp({0, 0}), clamp({20, 0})}, {});
+  EXPECT_NE(stiff.error, once.error);
+  EXPECT_EQ(apart.error, stiff.error);
+}
+
 // A rope between centres holds a body as one at its middle does: two cantilevers of 10 m.
 TEST(Automatic, ARopeBetweenCentresHoldsTheMiddle) {
   SceneDef scene = clamped({rectangle(0, -0.5, 20, 0.5), {}}, 0.01);
