@@ -208,14 +208,15 @@ Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, doub
   const auto displacement = [&](int pieces) {
     own.pieces = pieces;
     const Plan plan = calibrate(changed);
-    const Equilibrium statics(plan);
+    Equilibrium statics(plan);
     const int piece = plan.loads.back().piece, c = statics.column[static_cast<std::size_t>(piece)];
     if (c < 0) throw InvalidInput({{"target", "nothing holds '" + body + "'", "join or support it"}});
     const Point arm = at - plan.pieces[static_cast<std::size_t>(piece)].center;
     const auto [sx, sy, turn] = statics.scale(piece);
     Point largest{};
     for (const LoadCase& load_case : statics.cases()) {
-      const Eigen::VectorXd x = statics.motions(statics.balanced(load_case.gravity + load_case.loads));
+      statics.let_slack(load_case);
+      const Eigen::VectorXd x = statics.elastic(load_case).x;
       const Point u = Point{sx * x[c], sy * x[c + 1]} + turn * x[c + 2] * left(arm);
       if (length(u) > length(largest)) largest = u;
     }

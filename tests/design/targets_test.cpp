@@ -214,6 +214,45 @@ TEST(Targets, PiecesForAnError) {
   EXPECT_THROW(pieces_for(scene, "beam", {6, 0.15}, 0), InvalidInput);
 }
 
+// The far end of a weightless bracket goes down by δ with its ground: P = δ/(L³/3EI + L/κGA) bends it, and at
+// a = L/2 it goes down by P (3 L a² − a³)/6EI + P a/κGA.
+TEST(Targets, PiecesWhereTheGroundMoves) {
+  constexpr double L = 6, a = 3, E = 210e9, EI = E * 0.1 * 0.3 * 0.3 * 0.3 / 12, settled = 0.01, error = 0.02;
+  constexpr double kGA = 5.0 / 6 * E / 2.6 * 0.1 * 0.3;
+  constexpr double P = settled / (L * L * L / 3 / EI + L / kGA),
+                   exact = P * (3 * L * a * a - a * a * a) / 6 / EI + P * a / kGA;
+  SceneDef scene = bracket(1);
+  scene.gravity = {};
+  scene.loads.clear();
+  scene.supports = {{.body = "beam", .at = {L, 0.15}, .fix_y = true, .displacement = {0, -settled, 0}}};
+  const Answer answer = pieces_for(scene, "beam", {a, 0.15}, error);
+  for (const int off : {0, -1}) {
+    scene.bodies[1].pieces = static_cast<int>(answer.value) + off;
+    SceneDef marked = scene;
+    marked.loads = {{.body = "beam", .at = {a, 0.15}}};  // finds the piece
+    const Plan plan = calibrate(marked);
+    const auto piece = static_cast<std::size_t>(plan.loads[0].piece);
+    const StaticCheck check = static_check(plan);
+    const double down = -check.displacement[piece].y - check.turn[piece] * (a - plan.pieces[piece].center.x);
+    if (off == 0)
+      EXPECT_LE(std::abs(down / exact - 1), error * 1.01);
+    else
+      EXPECT_GT(std::abs(down / exact - 1), error * 0.99);
+  }
+}
+
+// A rope below the tip is slack while the bracket sags.
+TEST(Targets, PiecesBesideASlackRope) {
+  SceneDef scene = bracket(1);
+  const double without = pieces_for(scene, "beam", {6, 0.15}, 0.02).value;
+  scene.bodies.push_back({.name = "floor",
+                          .type = BodyType::static_body,
+                          .outline = {{{0, -6}, {7, -6}, {7, -5}, {0, -5}}, {}}});
+  scene.joints.push_back(
+      {.a = "floor", .b = "beam", .line = {{Point{6, -5}, Point{6, 0.15}}}, .carries = Carries::tension});
+  EXPECT_EQ(pieces_for(scene, "beam", {6, 0.15}, 0.02).value, without);
+}
+
 TEST(Targets, WhatHasNoAnswerSaysSo) {
   SceneDef scene = bracket(6);
   EXPECT_THROW(youngs_modulus_for_rotation(scene, "beam", "wall-nobody", 0.01), InvalidInput);
