@@ -2,8 +2,9 @@
 // worlds.
 //
 // A SceneDef is what a user draws and writes (docs/scene.schema.json describes the same as a file);
-// calibrate() turns it into a Plan, which knows no engine; build() turns a Plan into bodies, fixtures and
-// joints of a b2World. SI units, y up.
+// calibrate() turns it into a Plan, numbers that any engine could use; build() turns a Plan into bodies,
+// fixtures and joints of a b2World (ductile/box2d.h), which this header names in Plan::make alone. SI units,
+// y up.
 #pragma once
 
 #include <array>
@@ -13,10 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "ductile/joint.h"
+#include "ductile/joint_law.h"
 #include "ductile/section.h"
 
+class b2World;
+
 namespace ductile {
+
+class Structure;
 
 enum class BodyType { static_body, dynamic_body, kinematic_body };
 
@@ -282,7 +287,7 @@ struct LeftOut {
 
 struct Built;
 
-/// Calibrated pieces and joints, engine-free.
+/// Calibrated pieces and joints.
 struct Plan {
   Point gravity;
   double gravity_ramp = 0;
