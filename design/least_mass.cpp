@@ -49,13 +49,8 @@ std::vector<int> groups_of(const SceneDef& scene, const std::vector<std::vector<
 }
 
 void strengthen(BodyDef& body) {
-  const auto stronger = [](Material& m) {
-    for (double* stress :
-         {&m.yield_stress, &m.yield_stress_compression, &m.shear_yield_stress, &m.ultimate_stress})
-      *stress *= strong;
-  };
-  if (body.material) stronger(*body.material);
-  for (Region& region : body.profile) stronger(region.material);
+  if (body.material) scale_strength(*body.material, strong);
+  for (Region& region : body.profile) scale_strength(region.material, strong);
 }
 
 // What the joints' rows bear, both senses, by section of one group alone, at its drawn depth times `depth`;

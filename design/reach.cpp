@@ -62,10 +62,7 @@ void require_positive(double target) {
 void scale(Material& m, Property property, double factor) {
   if (property == Property::youngs_modulus) m.youngs_modulus *= factor;
   if (property == Property::damping_ratio) m.damping_ratio *= factor;
-  if (property != Property::yield_stress) return;
-  for (double* stress :
-       {&m.yield_stress, &m.yield_stress_compression, &m.shear_yield_stress, &m.ultimate_stress})
-    *stress *= factor;
+  if (property == Property::yield_stress) scale_strength(m, factor);
 }
 
 void scale(BodyDef& body, Property property, double factor) {

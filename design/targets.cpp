@@ -103,10 +103,7 @@ Answer yield_stress_for(const SceneDef& scene, const std::string& body, double r
   SceneDef own = scene;
   const double before = material_of(own, body).yield_stress;
   Answer answer = for_reserve(scene, reserve, [&](SceneDef& changed, double factor) {
-    Material& m = material_of(changed, body);
-    for (double* stress :
-         {&m.yield_stress, &m.yield_stress_compression, &m.shear_yield_stress, &m.ultimate_stress})
-      *stress *= factor;
+    scale_strength(material_of(changed, body), factor);
   });
   answer.value *= before;
   return answer;

@@ -42,6 +42,14 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
+/// f_t, f_c, τ_y and f_u in proportion.
+constexpr void scale_strength(Material& material, double factor) {
+  material.yield_stress *= factor;
+  material.yield_stress_compression *= factor;
+  material.shear_yield_stress *= factor;
+  material.ultimate_stress *= factor;
+}
+
 /// A material with the name that scene and section files use for it.
 struct NamedMaterial {
   std::string_view name;  ///< "S355"
