@@ -631,7 +631,7 @@ class Planner {
                            "draw the body thicker there or nearer to the origin, or cut it elsewhere"});
       return;
     }
-    const bool inside = plan_.pieces[a].body == plan_.pieces[b].body;
+    const bool inside = plan_.is_inside(joint);
     std::array<Side, 2> sides{side(a, joint, -joint.axis, inside), side(b, joint, joint.axis, inside)};
     const double known = touches.front().reach;  // along an axis that may bend
     if (!(known > 0) && sharing.intervals == 1)
@@ -1112,8 +1112,7 @@ std::optional<Section> section_at(const Plan& plan, const PlannedJoint& joint, i
   const BodyDef& body = plan.bodies[plan.pieces[piece].body];
   const Strip strip(body);
   if (!strip.has_material()) return std::nullopt;
-  const bool inside = joint.a >= 0 && plan.pieces[joint.a].body == plan.pieces[joint.b].body;
-  return strip.section(joint, !inside && dot(joint.axis, strip_direction(body)) < 0);
+  return strip.section(joint, !plan.is_inside(joint) && dot(joint.axis, strip_direction(body)) < 0);
 }
 
 }  // namespace ductile

@@ -268,8 +268,7 @@ std::vector<AxialMoment> interaction_of(const Plan& plan, const PlannedJoint& j,
     if (cap == 0 || cap == unlimited) return result;
   constexpr Point d{0, -1};
   Capacities caps{.N = unlimited, .Nc = unlimited, .M = unlimited, .M_reverse = unlimited};
-  const bool inside = j.a >= 0 && plan.pieces[j.a].body == plan.pieces[j.b].body;
-  for (const int piece : {j.b, inside ? -1 : j.a}) {
+  for (const int piece : {j.b, plan.is_inside(j) ? -1 : j.a}) {
     const std::optional<Section> section = section_at(plan, j, piece);
     if (!section) continue;
     Capacities own = section->capacities(d);

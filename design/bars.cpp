@@ -52,11 +52,6 @@ double compliance(const std::array<Arm, 2>& arms) {
 // rad per N m, of a support's own spring, which is in line with the bar to it.
 double support_gives(double k, double bar) { return std::max(1 / k - bar, 0.); }
 
-bool is_inside(const Plan& plan, const PlannedJoint& joint) {
-  return joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
-                             plan.pieces[static_cast<std::size_t>(joint.b)].body;
-}
-
 bool stands_for(const PlannedJoint& joint, const std::array<Arm, 2>& arms) {
   return std::abs(compliance(arms) * joint.stiffness.M - 1) < same;
 }
@@ -64,7 +59,7 @@ bool stands_for(const PlannedJoint& joint, const std::array<Arm, 2>& arms) {
 // Whether a body of several pieces ends with this one.
 bool ends(const Plan& plan, int piece) {
   return std::count_if(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& joint) {
-           return is_inside(plan, joint) && (joint.a == piece || joint.b == piece);
+           return plan.is_inside(joint) && (joint.a == piece || joint.b == piece);
          }) == 1;
 }
 

@@ -268,8 +268,7 @@ std::vector<std::string> clamped_at_cuts(const Plan& plan) {
   std::vector<std::vector<const PlannedJoint*>> inside(plan.bodies.size());
   const auto piece_at = [&](int i) -> const Piece& { return plan.pieces[static_cast<std::size_t>(i)]; };
   for (const PlannedJoint& joint : plan.joints)
-    if (joint.a >= 0 && piece_at(joint.a).body == piece_at(joint.b).body)
-      inside[static_cast<std::size_t>(piece_at(joint.a).body)].push_back(&joint);
+    if (plan.is_inside(joint)) inside[static_cast<std::size_t>(piece_at(joint.a).body)].push_back(&joint);
   std::vector<std::string> names;
   for (const PlannedJoint& node : plan.joints) {
     if (node.node == 0 || !(node.M > 0)) continue;
@@ -300,11 +299,9 @@ double width_beside(const Plan& plan, const PlannedJoint& joint, int index) {
   if (!plan.is_dynamic(index)) return 0;
   const Piece& piece = plan.pieces[static_cast<std::size_t>(index)];
   const Point to_middle = piece.center - joint.anchor;
-  const bool inside = joint.a >= 0 && plan.pieces[static_cast<std::size_t>(joint.a)].body ==
-                                          plan.pieces[static_cast<std::size_t>(joint.b)].body;
   // The less, the more askew. Two bodies that lie on each other are joined along them, which is no cut.
   const double across = std::abs(dot(joint.axis, unit(to_middle)));
-  if (across < (inside ? 0.2 : 0.6) || piece.circle > 0) return 0;
+  if (across < (plan.is_inside(joint) ? 0.2 : 0.6) || piece.circle > 0) return 0;
   const Point direction = left(unit(to_middle));
   const double width = chord(piece.outline.outer, piece.center, direction),
                nearer = chord(piece.outline.outer, joint.anchor + 0.5 * to_middle, direction);

@@ -331,6 +331,11 @@ struct Plan {
     const Piece& p = pieces[static_cast<std::size_t>(piece)];
     return p.part_of < 0 ? p : pieces[static_cast<std::size_t>(p.part_of)];
   }
+  /// Whether a joint is one of a split body's own.
+  bool is_inside(const PlannedJoint& joint) const {
+    return joint.a >= 0 &&
+           pieces[static_cast<std::size_t>(joint.a)].body == pieces[static_cast<std::size_t>(joint.b)].body;
+  }
   bool is_dynamic(int piece) const {
     const Piece& p = pieces[static_cast<std::size_t>(piece)];
     return !p.stands_still && bodies[static_cast<std::size_t>(p.body)].type == BodyType::dynamic_body;
