@@ -89,13 +89,6 @@ std::vector<AxialMoment> clipped(const std::vector<AxialMoment>& polygon, AxialM
   return result;
 }
 
-// c = 2ζk/ω, N s/m or N m s: all rows of a structure in proportion to their stiffness, so that a mode of ω'
-// has ζω'/ω.
-double damping(const PlannedJoint& j, double stiffness) {
-  if (stiffness == unlimited || !(j.damping_frequency > 0)) return 0;
-  return j.damping_ratio * stiffness / (std::numbers::pi * j.damping_frequency);
-}
-
 // The speed of what moves in one step of any length, m/s and rad/s.
 constexpr double at_once = 1e30;
 
@@ -111,6 +104,11 @@ b2DistanceJointDef distance_def(const Plan& plan, const PlannedJoint& j) {
 }
 
 }  // namespace
+
+double PlannedJoint::damping(Row row) const {
+  if (stiffness[row] == unlimited || !(damping_frequency > 0)) return 0;
+  return damping_ratio * stiffness[row] / (std::numbers::pi * damping_frequency);
+}
 
 Drive drive_at(const PlannedJoint& j, double time) {
   const DriveDef& d = *j.drive;
@@ -133,16 +131,16 @@ ElasticPlasticJointDef elastic_plastic_def(const Plan& plan, const PlannedJoint&
   place_anchors(def, plan, j);
   def.axisAngle = static_cast<float>(angle_of(j.axis.x, j.axis.y));
   if (j.a < 0) def.axisFollow = 0;  // a support's axis stays with the ground
-  const auto row = [&](double k, double cap, double reverse) {
-    return RowDef{.stiffness = k,
+  const auto row = [&](Row which, double cap, double reverse) {
+    return RowDef{.stiffness = j.stiffness[which],
                   .damping_ratio = j.damping_frequency > 0 ? 0 : j.damping_ratio,
                   .cap = cap,
                   .cap_reverse = reverse,
-                  .damping = damping(j, k)};
+                  .damping = j.damping(which)};
   };
-  def.rows[axial] = row(j.stiffness.N, j.N, j.Nc);
-  def.rows[shear] = row(j.stiffness.Q, j.Q, j.Q);
-  def.rows[rotation] = row(j.stiffness.M, j.M, j.M_reverse);
+  def.rows[axial] = row(axial, j.N, j.Nc);
+  def.rows[shear] = row(shear, j.Q, j.Q);
+  def.rows[rotation] = row(rotation, j.M, j.M_reverse);
   for (const Row r : {axial, shear, rotation})
     if (const double by = j.displacement[r]; by != 0)
       def.rows[r].drive = Drive{by, j.ramp > 0 ? std::abs(by) / j.ramp : at_once};
@@ -167,7 +165,7 @@ b2WeldJointDef weld_def(const Plan& plan, const PlannedJoint& j) {
   place_anchors(def, plan, j);
   if (j.stiffness.M == unlimited) return def;
   def.stiffness = checked(j.stiffness.M, "joint '" + j.name + "'", "its stiffness");
-  def.damping = checked(damping(j, j.stiffness.M), "joint '" + j.name + "'", "its damping");
+  def.damping = checked(j.damping(rotation), "joint '" + j.name + "'", "its damping");
   return def;
 }
 

@@ -19,10 +19,6 @@ using Eigen::Index;
 using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 
-double stiffness_of(const PlannedJoint& joint, Row row) {
-  return row == axial ? joint.stiffness.N : row == shear ? joint.stiffness.Q : joint.stiffness.M;
-}
-
 // Of a row of B on one piece at `arm` from its centre: what it lengthens by per unit of x, y and θ.
 std::array<double, 3> row_on_piece(Row row, Point axis, Point arm) {
   if (row == rotation) return {0, 0, 1};
@@ -98,7 +94,7 @@ Equilibrium::Equilibrium(const Plan& plan, Between between) : plan_(plan) {
 bool Equilibrium::gives(Index row) const {
   const auto joint = static_cast<std::size_t>(row / 3);
   const bool bends = !arms_.empty() && arms_[joint][0].length + arms_[joint][1].length > 0;
-  return k_[row] > 0 && (bends || stiffness_of(plan_.joints[joint], static_cast<Row>(row % 3)) < unlimited);
+  return k_[row] > 0 && (bends || plan_.joints[joint].stiffness[static_cast<Row>(row % 3)] < unlimited);
 }
 
 std::vector<Root> Equilibrium::roots() const {
@@ -180,7 +176,7 @@ void Equilibrium::set_stiffness() {
     for (std::size_t i = 0; i < plan_.joints.size(); ++i)
       for (const Row row : {axial, shear, rotation}) {
         const Index r = 3 * static_cast<Index>(i) + row;
-        const double k = stiffness_of(plan_.joints[i], row);
+        const double k = plan_.joints[i].stiffness[row];
         if (squares[r] == 0 || elastic != (k < unlimited)) continue;
         if (elastic) fastest = std::max(fastest, k * squares[r]);
         k_[r] = elastic ? k : (fastest > 0 ? 1e6 * fastest : all_rigid) / squares[r];

@@ -88,10 +88,7 @@ Mode slowest(const Plan& plan, const Equilibrium& statics, const Eigen::VectorXd
   double damping = 0;
   for (Eigen::Index row = 0; row < elongation.size(); ++row) {
     const PlannedJoint& j = plan.joints[static_cast<std::size_t>(row / 3)];
-    const double k = row % 3 == 0 ? j.stiffness.N : row % 3 == 1 ? j.stiffness.Q : j.stiffness.M;
-    if (k < unlimited && j.damping_frequency > 0)
-      damping +=
-          j.damping_ratio * k / (std::numbers::pi * j.damping_frequency) * elongation[row] * elongation[row];
+    damping += j.damping(static_cast<Row>(row % 3)) * elongation[row] * elongation[row];
   }
   const double omega = 1 / std::sqrt(vibration.inverse_factor);
   return {omega / (2 * std::numbers::pi), damping / (2 * omega)};

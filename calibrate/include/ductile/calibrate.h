@@ -234,8 +234,9 @@ struct PlannedJoint {
   double N = 0, Nc = 0, Q = 0, M = 0, M_reverse = 0;  ///< caps, N and N m; unlimited, or 0 for a free row
   struct Stiffness {
     double N = 0, Q = 0, M = 0;  ///< N/m, N/m, N m/rad; unlimited: rigid
+    double operator[](Row row) const { return row == axial ? N : row == shear ? Q : M; }
   } stiffness;
-  double damping_ratio = 0;  ///< ζ of a vibration at `damping_frequency`: c = ζ k/(π f) in every elastic row
+  double damping_ratio = 0;  ///< ζ of a vibration at `damping_frequency`
   /// Hz: the lowest natural frequency of the joint's structure, as designed, or the frequency that the user
   /// gave the joint; a vibration of another frequency f' is damped by ζ f'/f. 0: of each row by itself.
   double damping_frequency = 0;
@@ -268,6 +269,10 @@ struct PlannedJoint {
   Point far_anchor() const { return end.value_or(anchor); }
   /// Whether it is a support whose ground moves.
   bool ground_moves() const { return displacement != std::array<double, 3>{}; }
+  /// c = 2ζk/ω = ζk/(πf) of an elastic row, N s/m or N m s, f the `damping_frequency`: all rows of a
+  /// structure in proportion to their stiffness, so that a mode of ω' has ζω'/ω. 0 where the row is rigid or
+  /// f is 0.
+  double damping(Row row) const;
 };
 
 /// What an automatic split came to.
