@@ -32,7 +32,6 @@ using namespace calibration;
 
 namespace {
 
-constexpr int most_pieces = 100'000;
 // Of a section, against its coordinates: doubles then know its height within 1e-6.
 constexpr double thinnest_section = 3e-10;
 
@@ -247,9 +246,9 @@ class Check {
     }
     if ((b.pieces != 1) + !b.cuts.empty() + b.automatic > 1)
       add(place, "is split in more than one way", "give one of pieces, cuts and auto");
-    if (b.pieces < 1 || b.pieces > most_pieces)
+    if (b.pieces < 1 || b.pieces > BodyDef::most_pieces)
       add(place, "cannot be split into " + std::to_string(b.pieces) + " pieces",
-          "give 1 to " + std::to_string(most_pieces));
+          "give 1 to " + std::to_string(BodyDef::most_pieces));
     finite(b.along[0], place, "along");
     finite(b.along[1], place, "along");
     for (std::size_t i = 0; i < b.cuts.size(); ++i) {

@@ -193,7 +193,6 @@ Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double 
 Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, double error) {
   if (!(error > 0 && error < 1))
     throw InvalidInput({{"target", "the error is " + to_string(error), "give a share between 0 and 1"}});
-  constexpr int most = 128;
   SceneDef changed = scene;
   changed.loads.push_back({.body = body, .at = at});  // finds the piece
   BodyDef& own = body_of(changed, body);
@@ -216,13 +215,15 @@ Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, doub
     }
     return largest;
   };
-  const Point fine = displacement(most), exact = fine + (1.0 / 3) * (fine - displacement(most / 2));
+  const Point fine = displacement(most_pieces_tried),
+              exact = fine + (1.0 / 3) * (fine - displacement(most_pieces_tried / 2));
   if (!(length(exact) > 0))
     throw InvalidInput({{"target", "the point does not move under the loads", "load the body"}});
-  for (int n = 1; n <= most; ++n)
+  for (int n = 1; n <= most_pieces_tried; ++n)
     if (length(displacement(n) - exact) <= error * length(exact))
       return {static_cast<double>(n), "displacement of " + body + " at " + to_string(at)};
-  throw InvalidInput({{"target", "128 pieces are not enough for it", "give a larger error"}});
+  throw InvalidInput({{"target", std::to_string(most_pieces_tried) + " pieces are not enough for it",
+                       "give a larger error"}});
 }
 
 }  // namespace ductile

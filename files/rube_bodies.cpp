@@ -18,8 +18,6 @@
 namespace ductile::rube {
 namespace {
 
-constexpr int most_pieces = 10'000;
-
 /// A text that holds JSON: an outline, a section, loads.
 std::optional<Json> embedded(const Item& item, const std::string& name, Problems& problems) {
   const auto value = item.custom(name, {"string"});
@@ -172,7 +170,7 @@ void Reader::describe(const Body& body, std::vector<BodyDef>& parts) {
     else if (pieces->json().is_string())
       wrong_choice(*pieces, {"auto"});
     else
-      common.pieces = pieces->integer(1, most_pieces).value_or(1);
+      common.pieces = pieces->integer(1, BodyDef::most_pieces).value_or(1);
     if (parts.size() != 1)
       body.value.wrong(parts.empty() ? "has nothing that could be split" : "is in several parts already",
                        "draw it as one polygon, or give its outline as \"ductile.outline\"");

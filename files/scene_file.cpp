@@ -17,8 +17,6 @@ namespace ductile {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int most_pieces = 10'000;
-
 /// Reads one scene; keeps what several bodies may name.
 class SceneReader {
  public:
@@ -106,7 +104,7 @@ void read_split(const Value& value, BodyDef& def) {
     }
     if (value.json().size() > 1) value.wrong("has more than \"cuts\"", R"(give either "cuts" or "pieces")");
   } else if (const auto pieces = object.require("pieces")) {
-    def.pieces = pieces->integer(1, most_pieces).value_or(1);
+    def.pieces = pieces->integer(1, BodyDef::most_pieces).value_or(1);
   }
   if (const auto along = object.find("along")) {
     def.along = read_segment(*along).value_or(def.along);

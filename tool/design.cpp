@@ -40,8 +40,6 @@ constexpr Number numbers[] = {{"depth", Property::depth, " m"},
                               {"E", Property::youngs_modulus, " Pa"},
                               {"damping_ratio", Property::damping_ratio, ""}};
 
-constexpr int most_pieces = 128;
-
 [[noreturn]] void refuse(const std::string& option, const std::string& what, const std::string& remedy) {
   throw InvalidInput({{"command line:" + option, what, remedy}});
 }
@@ -107,7 +105,7 @@ std::vector<std::string> list_of(const Options& options) {
   }
   if (options.by == "pieces") {
     std::vector<std::string> all = options.among;
-    for (int n = 1; n <= most_pieces && options.among.empty(); ++n) all.push_back(std::to_string(n));
+    for (int n = 1; n <= most_pieces_tried && options.among.empty(); ++n) all.push_back(std::to_string(n));
     return all;
   }
   std::vector<std::string> all = options.among;

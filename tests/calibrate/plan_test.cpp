@@ -668,6 +668,10 @@ TEST(Calibrate, AllProblemsAtOnce) {
   EXPECT_NE(text.find("load 0: there is no body 'nobody'"), std::string::npos) << text;
 }
 
+TEST(Calibrate, RefusesMorePiecesThanFilesMayHave) {
+  EXPECT_THROW(calibrate(cantilever(10'001)), InvalidInput);
+}
+
 TEST(Calibrate, LevelLoadCall) {
   const Outline girder{{{0, 0}, {20, 0}, {20, 1}, {0, 1}}, {}};
   const Plan plan = calibrate({.outline = girder, .material = materials::S355, .depth = 0.3, .pieces = 8});

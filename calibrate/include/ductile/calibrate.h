@@ -87,7 +87,8 @@ struct BodyDef {
   /// What `profile` is called in rolled.h, if it has a name: its A_v is that of EN 1993-1-1, not of its
   /// outline.
   std::string profile_name{};
-  int pieces = 1;                ///< equal parts along `along`; 1: not split
+  int pieces = 1;  ///< equal parts along `along`, at most `most_pieces`; 1: not split
+  static constexpr int most_pieces = 10'000;
   std::array<Point, 2> along{};  ///< the line that `pieces` divides; both equal: the outline's long axis. As
                                  ///< `cuts`, in the outline's own coordinates
   /// Explicit cuts instead: segments that leave the outline at both ends.

@@ -59,8 +59,12 @@ Answer youngs_modulus_for_frequency(const SceneDef& scene, const std::string& bo
 /// number where other bodies' joints store energy and are damped less.
 Answer damping_ratio_for(const SceneDef& scene, const std::string& body, double damping_ratio);
 
+/// The largest number of pieces that questions of how many try.
+inline constexpr int most_pieces_tried = 128;
+
 /// The least number of equal pieces of a body with which the displacement at a point under the scene's loads
-/// is within that relative error of what it is without pieces (Richardson's extrapolation from 64 and 128).
+/// is within that relative error of what it is without pieces (Richardson's extrapolation from half and all
+/// of `most_pieces_tried`).
 Answer pieces_for(const SceneDef& scene, const std::string& body, Point at, double error);
 
 /// What a scene as a whole shows, of first order, or where that makes a difference of second.
