@@ -162,7 +162,7 @@ struct JointBetweenDef {
 /// rows may have their ground moved, as where a footing settles or a jack pushes.
 struct SupportDef {
   std::string body{};
-  Point at{};
+  Point at{};  ///< m, world axes at t = 0
   bool fix_x = false, fix_y = false, fix_angle = false;
   double stiffness_x = 0, stiffness_y = 0, stiffness_angle = 0;  ///< N/m, N m/rad: of a spring; 0: none
   std::array<double, 3> displacement{};  ///< x, y, angle, m and rad: how far the ground moves; 0 in free rows
@@ -172,7 +172,7 @@ struct SupportDef {
 /// A force and moment that ride with the piece under a point, in world axes.
 struct LoadDef {
   std::string body{};
-  Point at{};
+  Point at{};                                 ///< m, world axes at t = 0
   Point force{};                              ///< N
   double moment = 0;                          ///< N m
   double from = 0, ramp = 0, to = unlimited;  ///< s: grows linearly over `ramp` after `from`, zero after `to`
@@ -181,15 +181,16 @@ struct LoadDef {
 /// A stock b2WheelJoint: a wheel body carried by a chassis body at a point, sprung along an axis of the
 /// chassis.
 struct WheelDef {
-  std::string chassis{}, wheel{};  ///< names of bodies
-  Point at{}, axis{0, 1};
+  std::string chassis{}, wheel{};             ///< names of bodies
+  Point at{};                                 ///< m, world axes at t = 0
+  Point axis{0, 1};                           ///< of any length above 0, world axes at t = 0
   double frequency = 4, damping_ratio = 0.7;  ///< of the spring, Hz
   double motor_speed = 0;                     ///< rad/s
   double motor_torque = 0;                    ///< N m
 };
 
 struct SceneDef {
-  Point gravity{0, -9.81};
+  Point gravity{0, -9.81};  ///< m/s²
   double gravity_ramp = 0;  ///< s over which gravity grows linearly
   bool sleep = false;       ///< may Box2D put bodies to sleep
   /// N–M–Q yield surface instead of independent caps: safer, and dearer where joints flow.

@@ -224,7 +224,7 @@ struct JointEvent {
 struct StructureDef {
   SolverKind solver = SolverKind::direct;
   /// JointEvent::flow comes each time a joint has used up so much more of its limit; of a joint without one,
-  /// each time its plastic work has doubled.
+  /// each time its plastic work has doubled. > 0.
   double flow_share = 0.1;
   bool keep_ledger = false;  ///< energy(): costs a pass over the joints per step; direct solver only
   /// Structures of a world that have the same solver share the memory of the first.
