@@ -5,18 +5,13 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <span>
-#include <string_view>
-#include <tuple>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
 #include "areas.h"
 #include "automatic.h"
 #include "caps.h"
-#include "ductile/fields.h"
 #include "ductile/moments.h"
 #include "ductile/plane.h"
 #include "ductile/strip_line.h"
@@ -26,6 +21,7 @@
 #include "split.h"
 #include "strip.h"
 #include "touching.h"
+#include "wrong.h"
 
 namespace ductile {
 using namespace calibration;
@@ -34,8 +30,6 @@ namespace {
 
 // Of a section, against its coordinates: doubles then know its height within 1e-6.
 constexpr double thinnest_section = 3e-10;
-
-std::string body_place(const BodyDef& body) { return "body '" + body.name + "'"; }
 
 Frame frame_of(const BodyDef& body) { return {body.at, body.angle}; }
 
@@ -50,229 +44,12 @@ Point strip_direction(const BodyDef& body) {
   return frame_of(body).rotation * (to - from);
 }
 
-// --- what is wrong with a scene ---
-
-class Check {
- public:
-  std::vector<Problem> problems;
-
-  void scene(const SceneDef& s) {
-    check(fields::scene, s, "scene");
-    overrides(s.joint, "scene");
-    if (!(s.target_error > 0 && s.target_error < 1))
-      add("scene", "the target error is " + to_string(s.target_error), "give a share between 0 and 1");
-    std::set<std::string_view> names;
-    for (const BodyDef& b : s.bodies) {
-      if (!names.insert(b.name).second)
-        add(body_place(b), "the name is taken", "give every body its own name");
-      body(b);
-    }
-    const auto known = [&](const std::string& name, const std::string& place) {
-      if (!names.contains(name))
-        add(place, "there is no body '" + name + "'", "name one of the scene's bodies");
-    };
-    std::set<std::pair<std::string_view, std::string_view>> pairs;
-    for (std::size_t i = 0; i < s.joints.size(); ++i) {
-      const JointBetweenDef& j = s.joints[i];
-      const std::string place = "joint " + std::to_string(i);
-      const std::vector<std::string> all = j.bodies();
-      for (const std::string& name : all) known(name, place);
-      for (std::size_t k = 1; k < all.size(); ++k)
-        if (std::find(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k), all[k]) - all.begin() <
-            static_cast<std::ptrdiff_t>(k))
-          add(place, "joins '" + all[k] + "' to itself", "name each body once");
-      if (j.at) finite(*j.at, place, "at");
-      if (!j.at && !j.is_line() && !j.others.empty())
-        add(place, "joins " + std::to_string(all.size()) + " bodies where edges overlap",
-            "give the node's point, `at`");
-      if (j.at && (j.gap > 0 || j.overrides.elastic || j.overrides.hinge_length || j.overrides.shear_span))
-        add(place, "has `gap`, `elastic` or a hinge's length beside `at`",
-            "leave them out: a node is rigid, and has no section");
-      if (j.welded && !j.at)
-        add(place, "is `welded` and no node",
-            "leave it out: where edges touch, joints have their section's strength; or give a point, `at`");
-      if (j.across) {
-        finite((*j.across)[0], place, "across");
-        finite((*j.across)[1], place, "across");
-        if ((*j.across)[0] == (*j.across)[1]) add(place, "is across no length", "give two different points");
-        if (j.at) add(place, "has both `at` and `across`", "give one of them: a node has no section");
-      } else if (!j.at && !j.is_line() && !pairs.insert(std::minmax<std::string_view>(j.a, j.b)).second)
-        add(place, "'" + j.a + "' and '" + j.b + "' are joined already", "leave one of the two out");
-      if (j.line) {
-        finite((*j.line)[0], place, "at");
-        finite((*j.line)[1], place, "at");
-      }
-      check(fields::joint, j, place);
-      if (j.drive) check(fields::drive, *j.drive, place + ".drive");
-      overrides(j.overrides, place);
-      check_line(j, place, problems);
-    }
-    for (std::size_t i = 0; i < s.supports.size(); ++i) {
-      const std::string place = "support " + std::to_string(i);
-      known(s.supports[i].body, place);
-      check(fields::support, s.supports[i], place);
-      check(fields::springs, s.supports[i], place);
-      const SupportDef& d = s.supports[i];
-      if ((d.fix_x && d.stiffness_x > 0) || (d.fix_y && d.stiffness_y > 0) ||
-          (d.fix_angle && d.stiffness_angle > 0))
-        add(place, "has a spring in a row that it fixes", "leave one of them out");
-      displacement(d, place);
-    }
-    for (std::size_t i = 0; i < s.loads.size(); ++i) {
-      const LoadDef& l = s.loads[i];
-      const std::string place = "load " + std::to_string(i);
-      known(l.body, place);
-      check(fields::load, l, place);
-      if (!(l.to >= l.from)) add(place, "ends before it starts", "let `to` be after `from`");
-    }
-    for (std::size_t i = 0; i < s.wheels.size(); ++i) {
-      const WheelDef& w = s.wheels[i];
-      const std::string place = "wheel " + std::to_string(i);
-      known(w.chassis, place);
-      known(w.wheel, place);
-      if (w.chassis == w.wheel) add(place, "carries itself", "name two bodies");
-      check(fields::wheel, w, place);
-      if (w.axis == Point{}) add(place, "the axis has no direction", "give it a length above 0");
-    }
-  }
-
- private:
-  void add(const std::string& place, std::string what, std::string remedy) {
-    problems.push_back({place, std::move(what), std::move(remedy)});
-  }
-  // Nothing that is multiplied later may overflow or vanish; no number of a scene comes near these.
-  static constexpr double most = 1e30, least = 1e-30;
-
-  void finite(Point p, const std::string& place, const char* name) {
-    if (!(std::abs(p.x) <= most && std::abs(p.y) <= most))
-      add(place, std::string(name) + " is not finite", "give a finite number");
-  }
-  void number(double value, const fields::Range& range, const std::string& place, const char* name) {
-    const bool vanishes = range.low == 0 && value > 0 && value < least;
-    if (value != range.null && !(range.contains(value) && std::abs(value) <= most && !vanishes))
-      add(place, std::string(name) + " is " + to_string(value),
-          vanishes ? "give at least 1e-30"
-                   : std::string("give ") + range.words + (range.null == unlimited ? ", or unlimited" : ""));
-  }
-
-  // The fields of a table. A default is right where files may leave the field out: 0 for what is derived
-  // then.
-  template <class Owner, class... Fields>
-  void check(const std::tuple<Fields...>& table, const Owner& owner, const std::string& place) {
-    const Owner standard;
-    fields::for_each(table, [&](const auto& field) {
-      const auto& value = owner.*field.member;
-      using T = std::remove_cvref_t<decltype(value)>;
-      if constexpr (std::is_same_v<T, Point>) finite(value, place, field.key);
-      if constexpr (std::is_same_v<T, double>)
-        if (field.required || value != standard.*field.member) number(value, field.range, place, field.key);
-      if constexpr (std::is_same_v<T, std::optional<double>>)
-        if (value) number(*value, field.range, place, field.key);
-    });
-  }
-
-  void displacement(const SupportDef& s, const std::string& place) {
-    const bool held[] = {s.fix_x || s.stiffness_x > 0, s.fix_y || s.stiffness_y > 0,
-                         s.fix_angle || s.stiffness_angle > 0};
-    bool moves = false;
-    for (std::size_t row = 0; row < 3; ++row) {
-      number(s.displacement[row], fields::any_number, place, "displacement");
-      if (s.displacement[row] == 0) continue;
-      moves = true;
-      if (!held[row])
-        add(place,
-            std::string("its ground moves in the free row \"") +
-                (row == 0   ? "x"
-                 : row == 1 ? "y"
-                            : "angle") +
-                '"',
-            "fix that row, give it a spring, or make the displacement 0 there");
-    }
-    if (!moves && s.ramp > 0) add(place, "has a ramp, and its ground does not move", "give a displacement");
-  }
-
-  void overrides(const JointOverrides& o, const std::string& place) {
-    check(fields::overrides, o, place);
-    if (o.hinge_length) number(*o.hinge_length, fields::positive, place, "hinge_length");
-    if (o.shear_span) number(*o.shear_span, fields::positive, place, "shear_span");
-    check(fields::elastic, o, place);
-    if (o.elastic == Elasticity::frequency) number(o.frequency, fields::positive, place, "frequency");
-    if (o.elastic == Elasticity::elastic_rotation)
-      number(o.elastic_rotation, fields::positive, place, "elastic_rotation");
-  }
-
-  void body(const BodyDef& b) {
-    const std::string place = body_place(b);
-    if (b.name.empty() || b.name == "ground" || b.name.find_first_of("/#-") != std::string::npos)
-      add(place, "is not a name that a body can have", "use one without / # -, that is not 'ground'");
-    check(fields::body, b, place);
-    for (const Point v : b.velocities) finite(v, place, "velocities");
-    if (!b.velocities.empty() && (b.velocity != Point{} || b.angular_velocity != 0))
-      add(place, "has both velocities of its pieces and one of its own", "leave one of them out");
-    overrides(b.joint, place);
-
-    const bool dynamic = b.type == BodyType::dynamic_body;
-    if (b.material) {
-      check(fields::strength, *b.material, place);
-      check(fields::substance, *b.material, place);
-      const double fy = b.material->yield_stress, fu = b.material->ultimate_stress;
-      if (fu > 0 && fu < fy)
-        add(place, "fu is " + to_string(fu) + ", below fy, " + to_string(fy),
-            "give an ultimate stress of at least the yield stress, or leave it out");
-      if (dynamic && b.profile.empty() && b.material->density == 0)
-        number(b.material->density, fields::positive, place, "density");
-    } else if (dynamic) {
-      add(place, "has no material", "give it one, or make it static");
-    }
-    if (!b.profile.empty()) {
-      for (Problem& p : validate(b.profile)) add(place + ", profile " + p.place, p.what, p.remedy);
-      for (const Region& region : b.profile)
-        if (dynamic && !(region.material.density > 0) && !(b.material && b.material->density > 0))
-          add(place, "its profile has no density", "give the body a material");
-    }
-
-    const bool is_split = b.pieces != 1 || !b.cuts.empty() || b.automatic;
-    if (b.circle != 0) {
-      number(b.circle, fields::positive, place, "circle");
-      if (!b.outline.outer.empty()) add(place, "has both an outline and a circle", "leave one of them out");
-      if (is_split) add(place, "is a circle and cannot be split", "give it an outline of vertices");
-    } else {
-      for (Problem& p : validate(b.outline, place)) problems.push_back(std::move(p));
-      for (const Point& p : b.outline.outer)
-        if (!(std::max(std::abs(p.x), std::abs(p.y)) < 1e12)) {
-          add(place, "reaches out to " + to_string(p), "keep the outline within 1e12 m of its origin");
-          break;
-        }
-    }
-    if ((b.pieces != 1) + !b.cuts.empty() + b.automatic > 1)
-      add(place, "is split in more than one way", "give one of pieces, cuts and auto");
-    if (b.pieces < 1 || b.pieces > BodyDef::most_pieces)
-      add(place, "cannot be split into " + std::to_string(b.pieces) + " pieces",
-          "give 1 to " + std::to_string(BodyDef::most_pieces));
-    finite(b.along[0], place, "along");
-    finite(b.along[1], place, "along");
-    for (std::size_t i = 0; i < b.cuts.size(); ++i) {
-      const std::string at = place + ", cut " + std::to_string(i);
-      finite(b.cuts[i][0], at, "its start");
-      finite(b.cuts[i][1], at, "its end");
-      if (b.cuts[i][0] == b.cuts[i][1]) add(at, "has no length", "give two different points");
-    }
-    if (is_split && b.group > 0)
-      add(place, "has a positive collision group, in which its pieces would collide with each other",
-          "give a split body a negative group or none");
-  }
-};
-
-// --- from a scene to a plan ---
-
 class Planner {
  public:
   explicit Planner(const SceneDef& scene) : scene_(scene) {}
 
   Plan run() {
-    Check check;
-    check.scene(scene_);
-    problems_ = std::move(check.problems);
+    problems_ = wrong_with(scene_);
     refuse_problems();
     plan_.gravity = scene_.gravity;
     plan_.gravity_ramp = scene_.gravity_ramp;

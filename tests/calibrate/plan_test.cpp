@@ -661,11 +661,12 @@ TEST(Calibrate, AllProblemsAtOnce) {
   SceneDef scene = cantilever(3);
   scene.bodies[1].material->density = -1;
   scene.bodies[0].name = "a/b";
-  scene.loads.push_back({.body = "nobody"});
+  scene.loads.push_back({.body = "nobody", .at = {1e31, 0}});
   const std::string text = problems_of(scene);
   EXPECT_NE(text.find("body 'beam': density is -1"), std::string::npos) << text;
   EXPECT_NE(text.find("body 'a/b'"), std::string::npos) << text;
   EXPECT_NE(text.find("load 0: there is no body 'nobody'"), std::string::npos) << text;
+  EXPECT_NE(text.find("load 0: at is beyond 1e30"), std::string::npos) << text;
 }
 
 TEST(Calibrate, RefusesMorePiecesThanFilesMayHave) {
