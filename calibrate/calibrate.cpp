@@ -250,7 +250,7 @@ class Planner {
       for (Ring& hole : outline.holes) hole = placed(frame, std::move(hole));
       piece.outline = std::move(outline);
     }
-    add_joints(index, parts.intervals, lengths, rank, first, frame);
+    join_pieces_of(index, parts.intervals, lengths, rank, first, frame);
   }
 
   // Pieces by their projection on the line of the split, then across it; where the split has no line, by
@@ -276,8 +276,8 @@ class Planner {
 
   // --- joints ---
 
-  void add_joints(int index, std::vector<Interval>& intervals, std::span<const double> lengths,
-                  const std::vector<int>& rank, int first, const Frame& frame) {
+  void join_pieces_of(int index, std::vector<Interval>& intervals, std::span<const double> lengths,
+                      const std::vector<int>& rank, int first, const Frame& frame) {
     const BodyDef& body = plan_.bodies[index];
     if (body.automatic) {  // where nobody drew the cuts, pieces that meet in a corner are not joined there
       const double corner = 1e-9 * bounds_of(body.outline.outer).diagonal();
@@ -305,7 +305,7 @@ class Planner {
                          lengths.empty() ? 0 : lengths[static_cast<std::size_t>(i.cut)]});
       if (k + 1 < intervals.size() && intervals[k + 1].left == i.left && intervals[k + 1].right == i.right)
         continue;
-      add_joints(first + i.left, first + i.right, touches, overriding);
+      join_across(first + i.left, first + i.right, touches, overriding);
       touches.clear();
     }
   }
@@ -343,7 +343,7 @@ class Planner {
   // All intervals of two pieces. Both are rigid, so that plane sections across several in line stay plane: as
   // one joint they are exact. As one each they may break one by one, but each has its own caps, which
   // together bear more moment than the section.
-  void add_joints(int a, int b, std::span<Touch> touches, std::span<const Overriding> overriding) {
+  void join_across(int a, int b, std::span<Touch> touches, std::span<const Overriding> overriding) {
     if (touches.size() == 1) return add_joint(a, b, touches, 0, overriding, {});
     bool profile = false, combine = false;
     for (const int piece : {a, b}) profile |= !plan_.bodies[plan_.pieces[piece].body].profile.empty();
@@ -596,12 +596,20 @@ class Planner {
     return length(across) > alike ? unit(across) : two.outward;
   }
 
+  // What the hub of a node bends at its end, `gives` rad per N m, all others turn by. No joint of theirs can
+  // stand for it, but the hub's own next one can, in line with it: 1/k = 1/k' + gives.
+  void soften_next_to_end(int hub, Point at, double gives) {
+    double& stiffness = next_to_end(hub, at)->stiffness.M;
+    stiffness = 1 / (1 / stiffness + gives);
+  }
+
   // The first body's piece is the hub.
-  void join_at(const JointBetweenDef& def, int node) {
+  void join_at(const JointBetweenDef& def) {
+    const int index = static_cast<int>(&def - scene_.joints.data());
     std::vector<int> pieces;
     for (const std::string& name : def.bodies()) {
       const int piece = pieces.emplace_back(nearest_piece(name, *def.at));
-      require_near(piece, *def.at, node - 1);
+      require_near(piece, *def.at, index);
     }
     const JointOverrides& own = def.overrides;
     const bool bends =
@@ -612,10 +620,7 @@ class Planner {
                      [&](int piece) { return end_gives(piece, *def.at); });
     }
     if (pieces.size() > 2 && gives[0] > 0) {
-      // What the hub's end bends all others turn by. No joint of theirs can stand for it, but the hub's next
-      // can.
-      double& next = next_to_end(pieces[0], *def.at)->stiffness.M;
-      next = 1 / (1 / next + gives[0]);
+      soften_next_to_end(pieces[0], *def.at, gives[0]);
       gives[0] = 0;
     }
     for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -644,7 +649,7 @@ class Planner {
       joint.max_slip = own.max_slip.value_or(unlimited);
       joint.hold = own.hold.value_or(false);
       joint.rate = weld.rate;
-      joint.node = node;
+      joint.node = index + 1;
       joint.governed_by = caps_.reason("node; what its overrides do not set: unlimited, M: " +
                                        (!weld.by.empty() ? "as " + weld.by
                                         : sprung > 0     ? "unlimited"
@@ -661,7 +666,7 @@ class Planner {
 
   void join_where_it_says(const JointBetweenDef& def) {
     if (def.is_line()) return join_by_line(def);
-    if (def.at) return join_at(def, static_cast<int>(&def - scene_.joints.data()) + 1);
+    if (def.at) return join_at(def);
     const std::array overriding{Overriding{"joint", &def.overrides}, Overriding{"scene", &scene_.joint}};
     const std::vector<Contact>& contacts = contacts_[static_cast<std::size_t>(&def - scene_.joints.data())];
     if (def.across) {
@@ -677,7 +682,7 @@ class Planner {
       const Contact& c = contacts[k];
       touches.push_back({c.from, c.to});
       if (k + 1 < contacts.size() && contacts[k + 1].a == c.a && contacts[k + 1].b == c.b) continue;
-      add_joints(c.a, c.b, touches, overriding);
+      join_across(c.a, c.b, touches, overriding);
       touches.clear();
     }
     if (contacts.empty())
