@@ -183,80 +183,86 @@ std::vector<std::string> remarks(const Subject& subject, const Section& section,
   return result;
 }
 
-std::string run(const Options& options) {
-  const Outputs outputs{{"--picture", options.pictures}};
-  keep_apart(outputs);
-  keep_inputs({options.file}, outputs);
-  const Subject subject = read(options);
-  const Section section = in_file(options.file, [&] { return Section(subject.regions); });
-  const Point d = direction(options.angle);
-  const Point centroid = section.centroid();
-  const Capacities c = section.capacities(d);
-  const Elastic e = section.elastic(d);
-  const bool elastic = e.EA > 0;
-  const auto where_known = [&](double value) { return elastic ? value : unknown; };
-  const auto curve = section.interaction(d, centroid.x * d.x + centroid.y * d.y);
-  const ShearArea shear = shear_area(subject, section, d);
-  const Principal axes = principal(section);
-  const std::array radii{std::sqrt(axes.I_max / section.area()), std::sqrt(axes.I_min / section.area())};
-  std::optional<Classes> classes;
-  std::optional<int> bending_class;
-  if (subject.profile && is_steel(subject.regions[0].material)) {
-    classes = section_class(*subject.profile, subject.regions[0].material.yield_stress);
-    if (d.x == 0) bending_class = classes->bending_y;
-    if (d.y == 0) bending_class = classes->bending_z;
-  }
+/// All that is told of a section about one direction.
+struct Results {
+  Point d;
+  Capacities c;
+  Elastic e;
+  std::vector<Interaction> curve;
+  ShearArea shear;
+  Principal axes;
+  std::array<double, 2> radii;       // m, of gyration, of I_max and I_min
+  std::optional<Classes> classes;    // of a profile in steel
+  std::optional<int> bending_class;  // about d, where it is one of the profile's axes
+  double A_eff = unknown;            // m²
   std::optional<Utilisation> used;
-  const double A_eff =
-      classes ? effective_area(*subject.profile, subject.regions[0].material.yield_stress) : unknown;
-  if (options.N || options.Q || options.M) used = utilisation(options, section, d, c, e, shear.Q);
-  const auto notes = remarks(subject, section, d, axes, bending_class, A_eff, options.N.value_or(0));
+  std::vector<std::string> remarks;
 
-  if (!options.pictures.empty()) {
-    NewFiles files(outputs);
-    files.write_pictures(options.pictures, section_svg(section, d, title_of(options.file)));
-    files.keep();
-  }
-  if (options.json) {
-    Json interaction = Json::array();
-    for (const Interaction& point : curve) interaction.push_back({{"N", point.N}, {"M", point.M}});
-    Json result{
-        {"area", section.area()},
-        {"centroid", {centroid.x, centroid.y}},
-        {"N", number(c.N)},
-        {"Nc", number(c.Nc)},
-        {"Q", number(shear.Q)},
-        {"M", number(c.M)},
-        {"M_reverse", number(c.M_reverse)},
-        {"pna", number(c.pna)},
-        {"EA", number(where_known(e.EA))},
-        {"EI", number(where_known(e.EI))},
-        {"elastic_centroid", {e.centroid.x, e.centroid.y}},
-        {"I", number(e.I)},
-        {"W_elastic", number(e.W_elastic)},
-        {"W_plastic", number(e.W_plastic)},
-        {"shape_factor", number(e.shape_factor)},
-        {"yield_moment", number(e.yield_moment)},
-        {"interaction", interaction},
-        {"principal", {{"angle", axes.angle}, {"I_max", number(axes.I_max)}, {"I_min", number(axes.I_min)}}},
-        {"I_yz", number(axes.I_yz)},
-        {"radii_of_gyration", {number(radii[0]), number(radii[1])}},
-        {"A_v", number(shear.A_v)},
-        {"A_v_by", shear.source},
-        {"remarks", notes}};
-    if (classes)
-      result["class"] = {{"compression", classes->compression},
-                         {"bending", bending_class ? Json(*bending_class) : Json(nullptr)}};
-    if (classes) result["A_eff"] = number(A_eff);
-    if (used)
-      result["utilisation"] = {{"N", number(used->N)},
-                               {"Q", number(used->Q)},
-                               {"M", number(used->M)},
-                               {"together", number(used->together)},
-                               {"first_fibre", number(used->elastic)}};
-    return result.dump() + "\n";
-  }
+  double where_known(double value) const { return e.EA > 0 ? value : unknown; }
+};
 
+Results results(const Options& options, const Subject& subject, const Section& section) {
+  const Point d = direction(options.angle), centroid = section.centroid();
+  const Principal axes = principal(section);
+  Results r{.d = d,
+            .c = section.capacities(d),
+            .e = section.elastic(d),
+            .curve = section.interaction(d, centroid.x * d.x + centroid.y * d.y),
+            .shear = shear_area(subject, section, d),
+            .axes = axes,
+            .radii = {std::sqrt(axes.I_max / section.area()), std::sqrt(axes.I_min / section.area())}};
+  if (const Material& material = subject.regions[0].material; subject.profile && is_steel(material)) {
+    r.classes = section_class(*subject.profile, material.yield_stress);
+    if (d.x == 0) r.bending_class = r.classes->bending_y;
+    if (d.y == 0) r.bending_class = r.classes->bending_z;
+    r.A_eff = effective_area(*subject.profile, material.yield_stress);
+  }
+  if (options.N || options.Q || options.M) r.used = utilisation(options, section, d, r.c, r.e, r.shear.Q);
+  r.remarks = remarks(subject, section, d, axes, r.bending_class, r.A_eff, options.N.value_or(0));
+  return r;
+}
+
+Json json(const Section& section, const Results& r) {
+  Json interaction = Json::array();
+  for (const Interaction& point : r.curve) interaction.push_back({{"N", point.N}, {"M", point.M}});
+  Json result{{"area", section.area()},
+              {"centroid", {section.centroid().x, section.centroid().y}},
+              {"N", number(r.c.N)},
+              {"Nc", number(r.c.Nc)},
+              {"Q", number(r.shear.Q)},
+              {"M", number(r.c.M)},
+              {"M_reverse", number(r.c.M_reverse)},
+              {"pna", number(r.c.pna)},
+              {"EA", number(r.where_known(r.e.EA))},
+              {"EI", number(r.where_known(r.e.EI))},
+              {"elastic_centroid", {r.e.centroid.x, r.e.centroid.y}},
+              {"I", number(r.e.I)},
+              {"W_elastic", number(r.e.W_elastic)},
+              {"W_plastic", number(r.e.W_plastic)},
+              {"shape_factor", number(r.e.shape_factor)},
+              {"yield_moment", number(r.e.yield_moment)},
+              {"interaction", interaction},
+              {"principal",
+               {{"angle", r.axes.angle}, {"I_max", number(r.axes.I_max)}, {"I_min", number(r.axes.I_min)}}},
+              {"I_yz", number(r.axes.I_yz)},
+              {"radii_of_gyration", {number(r.radii[0]), number(r.radii[1])}},
+              {"A_v", number(r.shear.A_v)},
+              {"A_v_by", r.shear.source},
+              {"remarks", r.remarks}};
+  if (r.classes)
+    result["class"] = {{"compression", r.classes->compression},
+                       {"bending", r.bending_class ? Json(*r.bending_class) : Json(nullptr)}};
+  if (r.classes) result["A_eff"] = number(r.A_eff);
+  if (r.used)
+    result["utilisation"] = {{"N", number(r.used->N)},
+                             {"Q", number(r.used->Q)},
+                             {"M", number(r.used->M)},
+                             {"together", number(r.used->together)},
+                             {"first_fibre", number(r.used->elastic)}};
+  return result;
+}
+
+std::string table(const Options& options, const Subject& subject, const Section& section, const Results& r) {
   std::string table = fmt::format("{}, bending direction {:g} degrees\n", subject.name, options.angle);
   const auto row = [&](const char* name, double value, const char* unit, const char* meaning = "") {
     table += fmt::format("{:<13} {:>14}", name, shown(value));
@@ -264,47 +270,62 @@ std::string run(const Options& options) {
     while (table.back() == ' ') table.pop_back();
     table += '\n';
   };
-  const auto [low, high] = section.extent(d);
+  const auto [low, high] = section.extent(r.d);
   const auto place = [size = high - low](double x) {
     return std::abs(x) < 1e-12 * size ? 0 : x;
   };  // rounding
   row("area", section.area(), "m2");
-  row("centroid x", place(centroid.x), "m");
-  row("centroid y", place(centroid.y), "m");
-  row("N", c.N, "N", "full tension");
-  row("Nc", c.Nc, "N", "full compression");
-  row("Q", shear.Q, "N", "full shear, A_v tau_y");
-  row("A_v", shear.A_v, "m2", shear.source);
-  row("M", c.M, "N m", "fully plastic, the side toward the direction in tension");
-  row("M_reverse", c.M_reverse, "N m", "fully plastic, the other side in tension");
-  row("pna", place(c.pna), "m", "plastic neutral axis of M, along the direction");
-  row("EA", where_known(e.EA), "N");
-  row("EI", where_known(e.EI), "N m2");
-  row("I", e.I, "m4");
-  row("W_elastic", e.W_elastic, "m3");
-  row("W_plastic", e.W_plastic, "m3");
-  row("shape_factor", e.shape_factor, "", "M / yield moment");
-  row("yield_moment", e.yield_moment, "N m", "first fibre yields");
-  row("principal", axes.angle, "deg", "direction of I_max");
-  row("I_max", axes.I_max, "m4");
-  row("I_min", axes.I_min, "m4");
-  row("I_yz", axes.I_yz, "m4", "of the drawn axes through the centroid");
-  row("i_max", radii[0], "m", "radius of gyration of I_max");
-  row("i_min", radii[1], "m");
-  if (classes) {
-    row("class", classes->compression, "", "in compression, EN 1993-1-1 Table 5.2");
-    if (bending_class) row("", *bending_class, "", "in bending");
-    if (classes->compression == 4) row("A_eff", A_eff, "m2", "in compression, EN 1993-1-5 4.4");
+  row("centroid x", place(section.centroid().x), "m");
+  row("centroid y", place(section.centroid().y), "m");
+  row("N", r.c.N, "N", "full tension");
+  row("Nc", r.c.Nc, "N", "full compression");
+  row("Q", r.shear.Q, "N", "full shear, A_v tau_y");
+  row("A_v", r.shear.A_v, "m2", r.shear.source);
+  row("M", r.c.M, "N m", "fully plastic, the side toward the direction in tension");
+  row("M_reverse", r.c.M_reverse, "N m", "fully plastic, the other side in tension");
+  row("pna", place(r.c.pna), "m", "plastic neutral axis of M, along the direction");
+  row("EA", r.where_known(r.e.EA), "N");
+  row("EI", r.where_known(r.e.EI), "N m2");
+  row("I", r.e.I, "m4");
+  row("W_elastic", r.e.W_elastic, "m3");
+  row("W_plastic", r.e.W_plastic, "m3");
+  row("shape_factor", r.e.shape_factor, "", "M / yield moment");
+  row("yield_moment", r.e.yield_moment, "N m", "first fibre yields");
+  row("principal", r.axes.angle, "deg", "direction of I_max");
+  row("I_max", r.axes.I_max, "m4");
+  row("I_min", r.axes.I_min, "m4");
+  row("I_yz", r.axes.I_yz, "m4", "of the drawn axes through the centroid");
+  row("i_max", r.radii[0], "m", "radius of gyration of I_max");
+  row("i_min", r.radii[1], "m");
+  if (r.classes) {
+    row("class", r.classes->compression, "", "in compression, EN 1993-1-1 Table 5.2");
+    if (r.bending_class) row("", *r.bending_class, "", "in bending");
+    if (r.classes->compression == 4) row("A_eff", r.A_eff, "m2", "in compression, EN 1993-1-5 4.4");
   }
-  if (used) {
-    row("N used", used->N, "");
-    row("Q used", used->Q, "");
-    row("M used", used->M, "");
-    row("all used", used->together, "", "N, Q and M together, plastic");
-    row("first fibre", used->elastic, "", "N and M together, elastic");
+  if (r.used) {
+    row("N used", r.used->N, "");
+    row("Q used", r.used->Q, "");
+    row("M used", r.used->M, "");
+    row("all used", r.used->together, "", "N, Q and M together, plastic");
+    row("first fibre", r.used->elastic, "", "N and M together, elastic");
   }
-  for (const std::string& note : notes) table += note + "\n";
+  for (const std::string& note : r.remarks) table += note + "\n";
   return table;
+}
+
+std::string run(const Options& options) {
+  const Outputs outputs{{"--picture", options.pictures}};
+  keep_apart(outputs);
+  keep_inputs({options.file}, outputs);
+  const Subject subject = read(options);
+  const Section section = in_file(options.file, [&] { return Section(subject.regions); });
+  const Results r = results(options, subject, section);
+  if (!options.pictures.empty()) {
+    NewFiles files(outputs);
+    files.write_pictures(options.pictures, section_svg(section, r.d, title_of(options.file)));
+    files.keep();
+  }
+  return options.json ? json(section, r).dump() + "\n" : table(options, subject, section, r);
 }
 
 }  // namespace
