@@ -227,6 +227,7 @@ std::string run(const Options& options) {
   if (options.by == "profile") keep_inputs(options.among, outputs);
   const SceneDef scene = scene_of(options.scene, text, outputs);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
+  NewFiles files(outputs);
   const Found answer =
       options.each ? of_least_mass(scene, bodies, target, options) : found(scene, bodies, target, options);
   const Plan plan = calibrate(answer.reach.scene);
@@ -235,9 +236,10 @@ std::string run(const Options& options) {
   const bool all_counts = target.measure == Measure::mass;  // what is loose weighs, and does nothing else
   const double critical = has_order ? critical_load(plan).factor : unlimited;
   if (!options.out.empty()) {
-    const std::filesystem::path out = options.out;
-    write_text(out, edited_scene(text, answer.reach.scene, out.parent_path()));
+    const std::filesystem::path folder = std::filesystem::path(options.out).parent_path();
+    files.write(options.out, edited_scene(text, answer.reach.scene, folder));
   }
+  files.keep();
   if (options.json) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
     if (has_order) result["critical_load_factor"] = number(critical);

@@ -118,6 +118,13 @@ TEST_F(DesignCommand, BadInput) {
   EXPECT_EQ(run("design --help").out.find("R.U.B.E."), std::string::npos);
 }
 
+// A search that finds nothing is not begun where its answer could not be written.
+TEST_F(DesignCommand, AnUnwritableFileIsToldBeforeTheSearch) {
+  const std::string search = "--for reserve=1.5 --by material --among oak";
+  EXPECT_EQ(design(search).exit, 2);
+  EXPECT_EQ(design(search + " --out /nowhere/out.scene.json").exit, 1);
+}
+
 // Thin enough, a mast bears its loads as drawn and buckles before that: it is told, and --second-order asks
 // for more. By hand, π² EI/4L² = P of a square of 1 m.
 TEST_F(DesignCommand, SaysWhenItBucklesAndAsksForTheDeformedState) {
