@@ -1,3 +1,4 @@
+// A plan as JSON: its bodies, and of each joint the stock definition that stands for it, in Box2D 2.4 and 3.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

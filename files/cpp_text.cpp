@@ -1,3 +1,4 @@
+// A plan as C++: the source of one function that makes its bodies and ductile joints in a world.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

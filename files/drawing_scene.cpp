@@ -1,3 +1,4 @@
+// A first scene of a drawing: which shapes stand on the floor, which bend, and which lie over one another.
 #include <algorithm>
 #include <array>
 #include <boost/geometry/geometries/box.hpp>

@@ -1,3 +1,4 @@
+// A plan as a R.U.B.E. scene whose joints are stock joints, with what ductile knows of them besides.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

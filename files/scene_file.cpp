@@ -1,3 +1,4 @@
+// Scene files, read strictly: every key is known, every number in its range, every name of something.
 #include <algorithm>
 #include <array>
 #include <filesystem>

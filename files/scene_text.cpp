@@ -1,3 +1,4 @@
+// A scene as the text of a scene file, in which what has its default is left out.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>

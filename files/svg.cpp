@@ -1,3 +1,4 @@
+// Outlines out of a drawing: of one element by its name, or of all that the page shows.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

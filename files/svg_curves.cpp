@@ -1,3 +1,4 @@
+// Bézier curves and arcs of a path: the box around them, and chords within a tolerance.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// Whole files: read at once, unpacked where gzip packed them, and written so that none is ever half there.
 #include <signal.h>
 #include <unistd.h>
 #include <zlib.h>

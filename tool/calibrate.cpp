@@ -1,3 +1,4 @@
+// ductile calibrate: a scene's pieces and calibrated joints as a table, JSON, C++, level or scene file.
 #include "ductile/calibrate.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// ductile check: what every joint carries under the scene's loads, and what yields first.
 #include <fmt/format.h>
 
 #include <algorithm>

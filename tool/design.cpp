@@ -1,3 +1,4 @@
+// ductile design: the number or the member of a list with which a scene reaches a target.
 #include <fmt/format.h>
 
 #include <algorithm>

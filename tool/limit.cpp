@@ -1,3 +1,4 @@
+// ductile limit: the factor on the loads at which a scene collapses, and the hinges of its mechanism.
 #include <fmt/format.h>
 
 #include <array>

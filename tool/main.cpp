@@ -1,3 +1,4 @@
+// The ductile command: its subcommands, what becomes of their output, and exit codes.
 #include <cstdio>
 #include <exception>
 #include <iostream>

@@ -1,3 +1,4 @@
+// ductile materials: the built-in materials, and where their numbers are from.
 #include <fmt/format.h>
 
 #include <algorithm>

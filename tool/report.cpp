@@ -1,3 +1,4 @@
+// ductile report: makes the page of errors and run times.
 #include "ductile/report.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// ductile section: what a cross-section can carry about one direction.
 #include <fmt/format.h>
 
 #include <algorithm>

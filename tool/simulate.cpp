@@ -1,3 +1,4 @@
+// ductile simulate: runs a scene without a window, and tells of forces, usage, damage and energy.
 #include "ductile/simulation.h"
 
 #include <fmt/format.h>

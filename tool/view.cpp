@@ -1,3 +1,4 @@
+// ductile view: opens the window.
 #include "ductile/view.h"
 
 #include <filesystem>
