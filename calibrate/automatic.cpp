@@ -6,17 +6,18 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <span>
 #include <utility>
 
 #include "axis.h"
+#include "beam.h"
 #include "convex.h"
 #include "ductile/box2d.h"
 #include "ductile/moments.h"
 #include "ductile/plane.h"
+#include "holes.h"
 
 namespace ductile::calibration {
 namespace {
@@ -25,272 +26,19 @@ namespace {
 constexpr double thinnest = 0.02;
 // m, between two cuts and across them: a piece with corners this far apart is thick enough.
 constexpr double least_side = 1.25 * thinnest;
-// Of the longest way through a body (an error of 1e-6 in a cantilever); of all ways, twice as many.
+// Of the longest way through a body (an error of 1e-6 in a cantilever); of all members, twice as many.
 constexpr double most_parts = 1000;
 // Of a piece's length: two cuts are this far apart on both sides.
 constexpr double least_share = 0.2;
 // The estimate is for the axis as a beam; what it leaves out (shear, the chord for the arc) is small.
 constexpr double margin = 0.95;
 
-// A place on the centreline, and the section there: per metre of depth and of what holes leave.
-struct Place {
-  double s = 0;  // m along it
-  Point at;
-  double width = 0;  // m, with the holes
-  double area = 0;   // m
-  double depth = 0;  // m, of a rectangle of the same moment of inertia: I = depth³/12
-};
-
-Place between(const Place& a, const Place& b, double s) {
-  const double share = b.s > a.s ? (s - a.s) / (b.s - a.s) : 0;
-  return {s, a.at + share * (b.at - a.at), a.width + share * (b.width - a.width),
-          a.area + share * (b.area - a.area), a.depth + share * (b.depth - a.depth)};
-}
-
-// An outline's holes by what is around them: a tree of boxes, in which a chord finds those that it may cross.
-class Holes {
- public:
-  explicit Holes(const Outline& outline) : holes_(outline.holes) {
-    std::vector<Bounds> around;
-    around.reserve(holes_.size());
-    for (const Ring& hole : holes_) around.push_back(bounds_of(hole));
-    std::size_t leaves = 1;
-    while (leaves < holes_.size()) leaves *= 2;
-    boxes_.resize(2 * leaves);
-    order_.resize(holes_.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    if (!order_.empty()) build(around, 1, order_);
-  }
-
-  // As the outline has them, so that sums over them are the same whatever the tree.
-  std::vector<std::size_t> crossed_by(const Chord& chord) const {
-    Bounds box;
-    box.add(chord.left);
-    box.add(chord.right);
-    const double rounding = 1e-9 * (width(chord) + length(chord.left));
-    std::vector<std::size_t> found, todo;
-    if (!order_.empty()) todo.push_back(1);
-    while (!todo.empty()) {
-      const Box& at = boxes_[todo.back()];
-      const std::size_t child = 2 * todo.back();
-      todo.pop_back();
-      if (!at.around.meets(box, rounding)) continue;
-      if (at.holes.size() == 1)
-        found.push_back(at.holes[0]);
-      else
-        todo.insert(todo.end(), {child, child + 1});
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-  bool empty() const { return holes_.empty(); }
-  const Ring& operator[](std::size_t hole) const { return holes_[hole]; }
-
- private:
-  struct Box {
-    Bounds around;
-    std::span<std::size_t> holes;
-  };
-
-  void build(const std::vector<Bounds>& around, std::size_t at, std::span<std::size_t> holes) {
-    Bounds all;
-    for (const std::size_t hole : holes) {
-      all.add(around[hole].low);
-      all.add(around[hole].high);
-    }
-    boxes_[at] = {all, holes};
-    if (holes.size() == 1) return;
-    const bool wide = all.size().x > all.size().y;
-    const auto place = [&](std::size_t hole) {
-      return wide ? around[hole].middle().x : around[hole].middle().y;
-    };
-    const std::size_t half = holes.size() / 2;
-    std::nth_element(holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(half), holes.end(),
-                     [&](std::size_t i, std::size_t k) { return place(i) < place(k); });
-    build(around, 2 * at, holes.first(half));
-    build(around, 2 * at + 1, holes.subspan(half));
-  }
-
-  const std::vector<Ring>& holes_;
-  std::vector<std::size_t> order_;
-  std::vector<Box> boxes_;  // 1: all; 2i and 2i + 1: halves of i
-};
-
-Place place_at(double s, const Chord& chord, const Holes& holes) {
-  const double w = width(chord);
-  Place place{s, middle(chord), w, w, w};
-  if (holes.empty() || !(w > 0)) return place;
-  // Even crossings with a hole's edges are pairs: between them there is nothing.
-  const Point u = (1 / w) * (chord.right - chord.left);
-  double moment = w * w / 2, second = w * w * w / 3;  // about the left end
-  std::vector<double> crossings;
-  for (const std::size_t index : holes.crossed_by(chord)) {
-    const Ring& hole = holes[index];
-    crossings.clear();
-    for (std::size_t i = 0; i < hole.size(); ++i) {
-      const Point p = hole[i] - chord.left, q = hole[(i + 1) % hole.size()] - chord.left;
-      const double a = cross(u, p), b = cross(u, q);
-      if ((a > 0) == (b > 0)) continue;
-      crossings.push_back(std::clamp(dot(u, p) + a / (a - b) * dot(u, q - p), 0.0, w));
-    }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const double from = crossings[i], to = crossings[i + 1];
-      place.area -= to - from;
-      moment -= (to * to - from * from) / 2;
-      second -= (to * to * to - from * from * from) / 3;
-    }
-  }
-  const double inertia = place.area > 0 ? second - moment * moment / place.area : 0;
-  place.depth = std::cbrt(std::max(0.0, 12 * inertia));
-  return place;
-}
-
-Place on(const std::vector<Place>& line, double s) {
-  const auto after = std::lower_bound(line.begin() + 1, line.end() - 1, s,
-                                      [](const Place& p, double value) { return p.s < value; });
-  return between(*(after - 1), *after, s);
-}
-
 struct PlacedCut {
-  int way;
+  int member;  // of the axis
   double s;
   Chord chord;
   double length = 0;  // ℓ
 };
-
-// --- the error of a chain of rigid pieces ---
-
-// A place at which a line bends: rotation = length · curvature.
-struct Hinge {
-  Place place;
-  double length;  // ℓ
-};
-
-// A stretch of the line, s from 0 where it is held on, as a beam: hinges so close that they are one. What it
-// weighs beyond its parts, and where: weight and first moment.
-struct Beam {
-  std::vector<Hinge> parts;
-  std::vector<double> weight;
-  std::vector<Point> first;
-
-  // In n equal parts from a to b, backwards where b < a; `straight`: as if it ran along x.
-  Beam(const std::vector<Place>& line, double a, double b, std::size_t n, bool straight)
-      : weight(n + 1), first(n + 1) {
-    const double ds = std::abs(b - a) / static_cast<double>(n);
-    parts.reserve(n);
-    std::size_t after = 1;  // of the line's places
-    for (std::size_t i = 0; i < n; ++i) {
-      const double s = std::min(a, b) + (static_cast<double>(i) + 0.5) * ds;
-      while (after + 1 < line.size() && line[after].s < s) ++after;
-      Place p = between(line[after - 1], line[after], s);
-      p.s = std::abs(s - a);
-      if (straight) p.at = {p.s, 0};
-      parts.push_back({p, ds});
-    }
-    if (b < a) std::reverse(parts.begin(), parts.end());
-    for (std::size_t i = n; i-- > 0;) {
-      const double w = parts[i].place.area * ds;
-      weight[i] = weight[i + 1] + w;
-      first[i] = first[i + 1] + w * parts[i].place.at;
-    }
-  }
-
-  double extent() const { return static_cast<double>(parts.size()) * parts.front().length; }
-
-  // The moments about a place of what weighs beyond it along x and along y.
-  Point moments(const Place& p) const {
-    const double x = std::clamp(p.s / parts.front().length, 0.0, static_cast<double>(parts.size()));
-    const std::size_t i = std::min(static_cast<std::size_t>(x), parts.size() - 1);
-    const double share = x - static_cast<double>(i);
-    const double w = weight[i] + share * (weight[i + 1] - weight[i]);
-    return left(first[i] + share * (first[i + 1] - first[i]) - w * p.at);
-  }
-};
-
-double compliance(const Hinge& h) {  // but for the material's E and the depth
-  const double d = h.place.depth;
-  return d > 0 ? h.length / (d * d * d) : 0;
-}
-
-// Of a beam's parts, but for a quarter turn, under weight along x and along y.
-struct Displacement {
-  Point x, y;
-};
-
-// Clamped at the start, free at its end, bending at `hinges`: u(s) = Σ_{s_i < s} θ_i · (r(s) − r_i).
-std::vector<Displacement> cantilever(const Beam& beam, const std::vector<Hinge>& hinges) {
-  std::vector<Displacement> result(beam.parts.size());
-  Point turn{};  // Σ θ, under weight along x and along y
-  Displacement moment{};
-  auto hinge = hinges.begin();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const Place& part = beam.parts[i].place;
-    for (; hinge != hinges.end() && hinge->place.s <= part.s; ++hinge) {
-      const Point rotation = compliance(*hinge) * beam.moments(hinge->place);
-      turn = turn + rotation;
-      moment = {moment.x + rotation.x * hinge->place.at, moment.y + rotation.y * hinge->place.at};
-    }
-    result[i] = {turn.x * part.at - moment.x, turn.y * part.at - moment.y};
-  }
-  return result;
-}
-
-// Held at both ends of a straight beam, clamped or not, under weight across it.
-std::vector<Displacement> held_at_both_ends(const Beam& beam, const std::vector<Hinge>& hinges,
-                                            bool clamped) {
-  // M = M_cantilever + X1 + X2 (extent − s), with ∫ κ ds = 0 and ∫ κ s ds = 0, or with no moment at the ends.
-  const double extent = beam.extent();
-  double a = 0, b = 0, c = 0, p = 0, q = 0;
-  std::vector<double> moments, rotations;
-  for (const Hinge& h : hinges) {
-    const double k = compliance(h), x = extent - h.place.s, m = beam.moments(h.place).y;
-    moments.push_back(m);
-    a += k, b += k * x, c += k * x * x;
-    p -= k * m, q -= k * x * m;
-  }
-  double x1 = 0, x2 = -beam.moments({}).y / extent;
-  if (const double det = a * c - b * b; clamped && det > 0) {
-    x1 = (p * c - q * b) / det;
-    x2 = (a * q - b * p) / det;
-  }
-  double end = 0;  // of a beam that is clamped at its start only
-  for (std::size_t i = 0; i < hinges.size(); ++i) {
-    const double x = extent - hinges[i].place.s;
-    rotations.push_back(compliance(hinges[i]) * (moments[i] + x1 + x2 * x));
-    end += rotations[i] * x;
-  }
-  const double turned = clamped ? 0 : end / extent;  // so that the far end stays
-  std::vector<Displacement> result(beam.parts.size());
-  double turn = 0, moment = 0;
-  for (std::size_t i = 0, hinge = 0; i < result.size(); ++i) {
-    const double s = beam.parts[i].place.s;
-    for (; hinge < hinges.size() && hinges[hinge].place.s <= s; ++hinge) {
-      turn += rotations[hinge];
-      moment += rotations[hinge] * hinges[hinge].place.s;
-    }
-    result[i].y.x = (turn - turned) * s - moment;
-  }
-  return result;
-}
-
-struct Deviation {
-  double most = 0, error = 0;  // displacement, and how far the chain's is from it
-};
-
-// Under weight along x or y, whichever is worse, unless that hardly bends it.
-Deviation compare(const std::vector<Displacement>& beam, const std::vector<Displacement>& chain) {
-  Deviation x, y;
-  for (std::size_t i = 0; i < beam.size(); ++i) {
-    const Point dx = beam[i].x - chain[i].x, dy = beam[i].y - chain[i].y;
-    x = {std::max(x.most, dot(beam[i].x, beam[i].x)), std::max(x.error, dot(dx, dx))};
-    y = {std::max(y.most, dot(beam[i].y, beam[i].y)), std::max(y.error, dot(dy, dy))};
-  }
-  for (Deviation* d : {&x, &y}) *d = {std::sqrt(d->most), std::sqrt(d->error)};
-  return y.most > 5 * x.most || (y.most > x.most / 5 && y.error * x.most > x.error * y.most) ? y : x;
-}
-
-// --- the whole body ---
 
 class Automatic {
  public:
@@ -298,7 +46,7 @@ class Automatic {
   Automatic(const Outline& outline, double target, std::span<const Hold> holds, bool straight)
       : outline_(outline), holes_(outline), target_(target), faces_(faces_of(holds)), axis_(outline, faces_) {
     if (straight || !is_strip()) make_straight();
-    for (int w = 0; w < std::ssize(axis_.members); ++w) lines_.push_back(line_of(w));
+    for (int member = 0; member < std::ssize(axis_.members); ++member) lines_.push_back(line_of(member));
     find_longest_path();
     find_holds(holds);
     find_stretches();
@@ -389,16 +137,16 @@ class Automatic {
     for (const double s : {0.0, high - low}) axis_.members[0].stations.push_back(at(0, s));
   }
 
-  Member::Station at(int way, double s) const {
-    const Member& m = axis_.members[way];
+  Member::Station at(int member, double s) const {
+    const Member& m = axis_.members[member];
     if (reach_ == 0) return axis_.at(m, s);
     const Point u = unit(m.end - m.start), p = m.start + s * u;
     return {s, {p + reach_ * left(u), p - reach_ * left(u)}};
   }
 
   // A member's line from end to end; where there are holes, with four places to a station.
-  std::vector<Place> line_of(int way) const {
-    const Member& m = axis_.members[way];
+  std::vector<Place> line_of(int member) const {
+    const Member& m = axis_.members[member];
     std::vector<Place> line;
     line.reserve(m.stations.size() + 2);
     const auto add = [&](const Member::Station& station) {
@@ -410,7 +158,8 @@ class Automatic {
     for (std::size_t i = 0; i < m.stations.size(); ++i) {
       if (i > 0 && m.stations[i].follows && !outline_.holes.empty())
         for (const double share : {0.25, 0.5, 0.75})
-          if (const Member::Station found = at(way, std::lerp(m.stations[i - 1].s, m.stations[i].s, share));
+          if (const Member::Station found =
+                  at(member, std::lerp(m.stations[i - 1].s, m.stations[i].s, share));
               found.s > line.back().s)
             add(found);
       add(m.stations[i]);
@@ -437,7 +186,7 @@ class Automatic {
                          [](const Member& a, const Member& b) { return a.length < b.length; });
     const int far = farthest(ends(static_cast<int>(longest - axis_.members.begin())).first).first;
     const auto [end, from] = farthest(far);
-    std::vector<int> path;  // ways, from the end back
+    std::vector<int> path;  // members, from the end back
     for (int v = end; from[v] >= 0;) {
       path.push_back(from[v]);
       const auto [a, b] = ends(from[v]);
@@ -446,13 +195,13 @@ class Automatic {
     int v = end;
     node_[0] = end < std::ssize(axis_.nodes);
     node_[1] = far < std::ssize(axis_.nodes);
-    for (const int way : path) {
-      const auto [a, b] = ends(way);
+    for (const int member : path) {
+      const auto [a, b] = ends(member);
       const bool backwards = b == v && a != v;
       v = backwards ? a : b;
-      const double offset = line_.empty() ? 0 : line_.back().s, extent = axis_.members[way].length;
-      steps_.push_back({way, backwards, offset});
-      std::vector<Place> line = lines_[way];
+      const double offset = line_.empty() ? 0 : line_.back().s, extent = axis_.members[member].length;
+      steps_.push_back({member, backwards, offset});
+      std::vector<Place> line = lines_[member];
       if (backwards) {
         std::reverse(line.begin(), line.end());
         for (Place& p : line) p.s = extent - p.s;
@@ -464,10 +213,10 @@ class Automatic {
     }
   }
 
-  // The graph's vertices: nodes, then two for every way's free ends.
-  std::pair<int, int> ends(int way) const {
-    const Member& m = axis_.members[way];
-    const int own = static_cast<int>(axis_.nodes.size()) + 2 * way;
+  // The graph's vertices: nodes, then two for every member's free ends.
+  std::pair<int, int> ends(int member) const {
+    const Member& m = axis_.members[member];
+    const int own = static_cast<int>(axis_.nodes.size()) + 2 * member;
     return {m.from >= 0 ? m.from : own, m.to >= 0 ? m.to : own + 1};
   }
 
@@ -475,9 +224,9 @@ class Automatic {
   std::pair<int, std::vector<int>> farthest(int start) const {
     const std::size_t n = axis_.nodes.size() + 2 * lines_.size();
     std::vector<std::vector<int>> leaving(n);
-    for (int w = 0; w < std::ssize(lines_); ++w) {
-      leaving[ends(w).first].push_back(w);
-      leaving[ends(w).second].push_back(w);
+    for (int member = 0; member < std::ssize(lines_); ++member) {
+      leaving[ends(member).first].push_back(member);
+      leaving[ends(member).second].push_back(member);
     }
     std::vector<double> distance(n, std::numeric_limits<double>::infinity());
     std::vector<int> from(n, -1);
@@ -490,11 +239,11 @@ class Automatic {
       queue.pop();
       if (-d > distance[v]) continue;
       far = v;
-      for (const int w : leaving[v]) {
-        const int other = ends(w).first == v ? ends(w).second : ends(w).first;
-        if (const double there = -d + axis_.members[w].length; there < distance[other]) {
+      for (const int member : leaving[v]) {
+        const int other = ends(member).first == v ? ends(member).second : ends(member).first;
+        if (const double there = -d + axis_.members[member].length; there < distance[other]) {
           distance[other] = there;
-          from[other] = w;
+          from[other] = member;
           queue.emplace(-there, other);
         }
       }
@@ -540,9 +289,9 @@ class Automatic {
 
   std::vector<PlacedCut> place_cuts(double h) const {
     std::vector<PlacedCut> cuts;
-    for (int w = 0; w < std::ssize(lines_); ++w) {
+    for (int member = 0; member < std::ssize(lines_); ++member) {
       if (static_cast<double>(cuts.size()) > 2 * most_parts) return cuts;
-      const Member& m = axis_.members[w];
+      const Member& m = axis_.members[member];
       const bool node_from = m.from >= 0, node_to = m.to >= 0;
       const double begin = node_from ? m.stations.front().s : 0,
                    end = node_to ? m.stations.back().s : m.length;
@@ -553,10 +302,10 @@ class Automatic {
       if (extent < h / 2 && node_from != node_to) {
         continue;  // a short arm of a node
       } else if (extent < h / 2 && node_from) {
-        add(cuts, w, begin + extent / 2, h);
+        add(cuts, member, begin + extent / 2, h);
       } else {
         for (int k = node_from || m.closed ? 0 : 1; k < n + (node_to ? 1 : 0); ++k)
-          add(cuts, w, begin + extent * k / n, h);
+          add(cuts, member, begin + extent * k / n, h);
       }
       set_lengths(std::span(cuts).subspan(before), m);
     }
@@ -579,12 +328,12 @@ class Automatic {
     return true;
   }
 
-  void add(std::vector<PlacedCut>& cuts, int w, double s, double h) const {
-    const Member& m = axis_.members[w];
-    Member::Station station = at(w, s);
+  void add(std::vector<PlacedCut>& cuts, int member, double s, double h) const {
+    const Member& m = axis_.members[member];
+    Member::Station station = at(member, s);
     if (!outline_.holes.empty() && !clear_of_holes(station.chord, h))
       for (const double shift : {0.1, -0.1, 0.2, -0.2, 0.3, -0.3, 0.4, -0.4})
-        if (const Member::Station other = at(w, s + shift * h); clear_of_holes(other.chord, h)) {
+        if (const Member::Station other = at(member, s + shift * h); clear_of_holes(other.chord, h)) {
           station = other;
           break;
         }
@@ -593,7 +342,7 @@ class Automatic {
     if (width(chord) < least_side) return;
     if (m.to < 0 && !m.closed && m.length - station.s < apart) return;
     if (m.from < 0 && !m.closed && station.s < apart) return;
-    if (!cuts.empty() && cuts.back().way == w) {
+    if (!cuts.empty() && cuts.back().member == member) {
       const PlacedCut& last = cuts.back();
       if (station.s <= last.s || length(chord.left - last.chord.left) < apart ||
           length(chord.right - last.chord.right) < apart)
@@ -601,7 +350,7 @@ class Automatic {
     }
     for (const PlacedCut& other : cuts)
       if (cross_each_other(other.chord, chord)) return;
-    cuts.push_back({w, station.s, chord});
+    cuts.push_back({member, station.s, chord});
   }
 
   // Pieces between cuts that cross are no chain. Cuts that start from one corner do not cross.
@@ -615,7 +364,7 @@ class Automatic {
     return parts(a, b) && parts(b, a);
   }
 
-  // ℓ of the cuts of one way.
+  // ℓ of the cuts of one member.
   void set_lengths(std::span<PlacedCut> cuts, const Member& m) const {
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const double s = cuts[k].s, extent = m.length;
@@ -629,11 +378,12 @@ class Automatic {
     }
   }
 
-  // Those of one way; they lie together.
+  // Those of one member; they lie together.
   template <class Cuts>
-  static auto cuts_of(Cuts& cuts, int way) {
-    const auto first = std::partition_point(cuts.begin(), cuts.end(), [&](auto& c) { return c.way < way; });
-    const auto last = std::partition_point(first, cuts.end(), [&](auto& c) { return c.way == way; });
+  static auto cuts_of(Cuts& cuts, int member) {
+    const auto first =
+        std::partition_point(cuts.begin(), cuts.end(), [&](auto& c) { return c.member < member; });
+    const auto last = std::partition_point(first, cuts.end(), [&](auto& c) { return c.member == member; });
     return std::span(cuts).subspan(static_cast<std::size_t>(first - cuts.begin()),
                                    static_cast<std::size_t>(last - first));
   }
@@ -643,9 +393,9 @@ class Automatic {
   double error_of(const std::vector<PlacedCut>& cuts) {
     std::vector<Hinge> joints;
     joints.reserve(cuts.size());
-    for (const auto& [way, backwards, offset] : steps_)
-      for (const PlacedCut& c : cuts_of(cuts, way)) {
-        const double s = offset + (backwards ? axis_.members[way].length - c.s : c.s);
+    for (const auto& [member, backwards, offset] : steps_)
+      for (const PlacedCut& c : cuts_of(cuts, member)) {
+        const double s = offset + (backwards ? axis_.members[member].length - c.s : c.s);
         joints.push_back({place_at(s, c.chord, holes_), c.length});
       }
     std::sort(joints.begin(), joints.end(),
@@ -711,7 +461,7 @@ class Automatic {
     if (result.empty()) return result;
     const auto add_end = [&](auto where, double at, double s, double length) {
       if ((at > 0 || node_[0]) && (at < line_.back().s || node_[1])) return;
-      Place p = on(line_, at);
+      Place p = place_on(line_, at);
       p.s = s;
       result.insert(where, {p, length});
     };
@@ -767,10 +517,11 @@ class Automatic {
     return false;
   }
 
-  void add_ends(std::vector<AutomaticSplit::End>& ends, int w, const std::vector<PlacedCut>& cuts) const {
-    const Member& m = axis_.members[w];
+  void add_ends(std::vector<AutomaticSplit::End>& ends, int member,
+                const std::vector<PlacedCut>& cuts) const {
+    const Member& m = axis_.members[member];
     if (m.closed) return;
-    const std::span own = cuts_of(cuts, w);
+    const std::span own = cuts_of(cuts, member);
     const auto ahead = [](const Chord& c) { return unit(right(c.left - c.right)); };
     if (m.from < 0)
       ends.push_back(
@@ -790,7 +541,7 @@ class Automatic {
   std::vector<Place> line_;                // the longest way through the body
   std::array<bool, 2> node_{};             // does it end in a node?
   struct Step {
-    int way;
+    int member;
     bool backwards;
     double offset;
   };
@@ -821,10 +572,11 @@ AutomaticSplit Automatic::divide(Splitter& splitter, std::vector<PlacedCut> cuts
     for (int i = 0; i < std::ssize(cuts); ++i)
       if (std::find(useless.begin(), useless.end(), i) == useless.end()) kept.push_back(cuts[i]);
     cuts = std::move(kept);
-    for (int w = 0; w < std::ssize(lines_); ++w) set_lengths(cuts_of(cuts, w), axis_.members[w]);
+    for (int member = 0; member < std::ssize(lines_); ++member)
+      set_lengths(cuts_of(cuts, member), axis_.members[member]);
   }
   for (const PlacedCut& c : cuts) result.lengths.push_back(c.length);
-  for (int w = 0; w < std::ssize(lines_); ++w) add_ends(result.ends, w, cuts);
+  for (int member = 0; member < std::ssize(lines_); ++member) add_ends(result.ends, member, cuts);
   result.error = cuts.size() == before ? error : error_of(cuts);
   return result;
 }
