@@ -16,9 +16,10 @@ ElasticPath::ElasticPath(const Plan& plan, const Equilibrium& statics, const Loa
   growth_ = {Eigen::VectorXd::Zero(f.size()), f, load_case.elongation, load_case.time};
   const Eigen::VectorXd first = statics.elastic(load_case).forces;
   first_ = {1, {}, first, first};
-  const Buckle buckle =
-      buckling(statics, geometric_stiffness(plan, statics, growth_, first_), any_motion(statics));
+  const GeometricStiffness K_g = geometric_stiffness(plan, statics, growth_, first_);
+  const Buckle buckle = buckling(statics, K_g, any_motion(statics));
   mode_ = buckle.mode;
+  free_ = K_g.pushed.size() > 0 ? K_g.pushed : K_g.adrift;
   if (buckle.inverse_factor > 1e-12) critical_ = 1 / buckle.inverse_factor;
 }
 

@@ -18,6 +18,8 @@ class ElasticPath {
   double critical() const { return critical_; }
   /// The motion in which it buckles; empty: none.
   const Eigen::VectorXd& mode() const { return mode_; }
+  /// A motion without strain that the loads do not hold; empty: none.
+  const Eigen::VectorXd& free_motion() const { return free_; }
   /// The state at a factor; none from the critical one on.
   std::optional<Deformed> at(double factor) const;
 
@@ -34,7 +36,7 @@ class ElasticPath {
   Growth growth_;
   Deformed first_;  // forces of first order at the factor 1
   double critical_ = unlimited;
-  Eigen::VectorXd mode_;
+  Eigen::VectorXd mode_, free_;
 };
 
 }  // namespace ductile

@@ -309,6 +309,23 @@ void Equilibrium::let_slack(const LoadCase& load_case) {
 
 Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }
 
+// With R = [Lᵀ S] the rows of A P that are not 0: of (y, z) = Pᵀ x, y = −L⁻ᵀ S z.
+Eigen::MatrixXd Equilibrium::free_motions() const {
+  const auto& [qr, L] = *factors_;
+  const Index free = freedoms();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(B.cols(), free);
+  if (free == 0) return basis;
+  const SparseMatrix<double> R = qr.matrixR();
+  const Eigen::MatrixXd S = R.topRightCorner(L.cols(), free);
+  basis.topRows(L.cols()) = -L.transpose().triangularView<Eigen::Upper>().solve(S);
+  basis.bottomRows(free).setIdentity();
+  basis = (qr.colsPermutation() * basis).eval();
+  for (Index i = 0; i < free; ++i)
+    basis.col(i) -= motions(B.transpose() * resist(basis.col(i)));  // rounding of y
+  const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(basis);
+  return orthonormal.householderQ() * Eigen::MatrixXd::Identity(B.cols(), free);
+}
+
 // With A = √k B and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q L⁻¹ Pᵀ f.
 VectorXd Equilibrium::least_energy(const VectorXd& f) const {
   VectorXd y = VectorXd::Zero(B.rows());

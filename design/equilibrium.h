@@ -6,6 +6,7 @@
 // rows stand at 3·joint; a free row and those of loose structures are empty.
 #pragma once
 
+#include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <array>
 #include <memory>
@@ -69,6 +70,8 @@ class Equilibrium {
   /// Motions that no joint resists.
   Eigen::Index freedoms() const;
   bool is_mechanism() const { return freedoms() > 0; }
+  /// A basis of them, orthonormal in B's columns.
+  Eigen::MatrixXd free_motions() const;
 
   /// By joints, of a and b; empty where pieces are rigid.
   const std::vector<std::array<Arm, 2>>& arms() const { return arms_; }

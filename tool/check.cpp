@@ -54,7 +54,7 @@ Json json(const Plan& plan, const Found& found) {
           {"first_fibre", json(plan, found.fibre)},
           {"first_hinge", json(plan, found.hinge)},
           {"profiles", profiles_json(plan)},
-          {"remarks", remarks(plan)},
+          {"remarks", remarks(plan, found.critical)},
           {"time", check.time},
           {"loose", loose_names(plan)}};
 }
@@ -88,7 +88,7 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
                         percent(j.usage.N), percent(j.usage.Q), percent(j.usage.M),
                         shown(found.fibre.joints[i]), shown(j.yields_at));
   }
-  if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
+  if (const std::string notes = profile_lines(plan) + lines(remarks(plan, found.critical)); !notes.empty())
     text += '\n' + notes;
   if (check.time > 0) text += fmt::format("\nthe loads are those from {:g} s on\n", check.time);
   const std::string loose = loose_line(plan);

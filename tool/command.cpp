@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "ductile/design.h"
 #include "ductile/files.h"
 #include "ductile/level.h"
 #include "ductile/moments.h"
@@ -197,7 +196,8 @@ Json profiles_json(const Plan& plan) {
 
 std::string buckling_line(bool second_order, double critical_load_factor) {
   return std::string(second_order ? "second order" : "first order") +
-         (critical_load_factor < unlimited
+         (critical_load_factor == 0 ? "; unstable under any multiple of the loads"
+          : critical_load_factor < unlimited
               ? fmt::format("; buckles at {:.6g} times the loads", critical_load_factor)
               : "; does not buckle");
 }
@@ -214,15 +214,14 @@ double ductility(const Material& material) {
              : std::numeric_limits<double>::infinity();
 }
 
-namespace {
-
-/// Names in the order in which they came, the first few of them.
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 5;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
   return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
+
+namespace {
 
 /// Of a body's section; without one, as of bodies without material, infinite.
 double least_ductile(const BodyDef& body) {
@@ -427,9 +426,9 @@ std::string loose_line(const Plan& plan) {
   return names.empty() ? "" : "loose, and not looked at: " + list_of(names) + '\n';
 }
 
-std::string remark_lines(const Plan& plan) {
+std::string lines(const std::vector<std::string>& remarks) {
   std::string text;
-  for (const std::string& remark : remarks(plan)) text += remark + '\n';
+  for (const std::string& remark : remarks) text += remark + '\n';
   return text;
 }
 

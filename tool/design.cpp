@@ -235,15 +235,15 @@ std::string run(const Options& options) {
   warn_of_splits(plan, options.scene);
   const double mass = measured(plan, Measure::mass);
   const bool all_counts = target.measure == Measure::mass;  // what is loose weighs, and does nothing else
-  const double critical = has_order ? critical_load(plan).factor : unlimited;
+  const CriticalLoad critical = has_order ? critical_load(plan) : CriticalLoad{};
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     write_text(out, edited_scene(text, answer.reach.scene, out.parent_path()));
   }
   if (options.json) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
-    if (has_order) result["critical_load_factor"] = number(critical);
-    result["remarks"] = remarks(plan);
+    if (has_order) result["critical_load_factor"] = number(critical.factor);
+    result["remarks"] = remarks(plan, critical);
     result["loose"] = all_counts ? std::vector<std::string>{} : loose_names(plan);
     return result.dump() + "\n";
   }
@@ -253,8 +253,8 @@ std::string run(const Options& options) {
   return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n{}{}", options.scene.name, options.by, answer.shown, of,
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
-                     has_order ? buckling_line(options.second_order, critical) + '\n' : "",
-                     remark_lines(plan) + (all_counts ? "" : loose_line(plan)));
+                     has_order ? buckling_line(options.second_order, critical.factor) + '\n' : "",
+                     lines(remarks(plan, critical)) + (all_counts ? "" : loose_line(plan)));
 }
 
 }  // namespace

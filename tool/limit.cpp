@@ -48,7 +48,7 @@ Json json(const Plan& plan, const Found& found, const Options& options) {
               {"hinges", std::move(hinges)},
               {"time", found.limit.time},
               {"critical_load_factor", number(found.critical.factor)},
-              {"remarks", remarks(plan)},
+              {"remarks", remarks(plan, found.critical)},
               {"loose", loose_names(plan)}};
   if (options.second_order) {
     result["second_order_load_factor"] = number(found.pushover.load_factor);
@@ -92,7 +92,7 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
                           shown(N), shown(Q), shown(M));
     }
   }
-  text += remark_lines(plan) + loose_line(plan);
+  text += lines(remarks(plan, found.critical)) + loose_line(plan);
   if (found.limit.time > 0) text += fmt::format("the loads are those from {:g} s on\n", found.limit.time);
   return text;
 }

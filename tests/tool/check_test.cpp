@@ -36,6 +36,38 @@ TEST(CheckCommand, ACantileverWithALoadAtItsTip) {
       << table.out;
 }
 
+// A mast on a pin, pressed down: any load pushes it over, which every command says that looks at stability.
+TEST(CheckCommand, AMechanismIsNotCalledStable) {
+  const Folder folder;
+  const auto scene = [&](const std::string& support) {
+    return folder.write("scene.json",
+                        R"({"gravity": [0,0], "bodies": [{"name": "mast",
+      "outline": [[-0.05,0],[0.05,0],[0.05,6],[-0.05,6]], "depth": 0.1, "material": "S355", "split": {"pieces": 4}}],
+      "supports": [{"body": "mast", "at": [0,0], "fix": ["x","y"]})" +
+                            support + R"(], "loads": [{"body": "mast", "at": [0,6], "force": [0,-1e4]}]})");
+  };
+  const std::string file = scene("");
+  const std::string remark =
+      "mast: can move without strain, a mechanism that these loads push over, however small they are; brace "
+      "it, "
+      "support it, or weld a joint that turns freely";
+  for (const std::string command :
+       {"check", "check --second-order", "limit", "limit --second-order", "design --for reserve=2 --by fy"}) {
+    const Ran ran = run(command + " " + file + " --json");
+    ASSERT_EQ(ran.exit, 0) << command << ran.err;
+    EXPECT_EQ(ran.json()["critical_load_factor"], 0) << command;
+    EXPECT_EQ(ran.json()["remarks"], json{remark}) << command;
+    const std::string text = run(command + " " + file).out;
+    EXPECT_NE(text.find("unstable under any multiple of the loads"), std::string::npos) << text;
+    EXPECT_NE(text.find(remark), std::string::npos) << text;
+  }
+  EXPECT_EQ(run("limit --second-order " + file + " --json").json()["second_order_load_factor"], 0);
+  expect_bad_input(run("design --second-order --for collapse=2 --by fy " + file));
+  const json rolls = run("check --json " + scene(R"(, {"body": "mast", "at": [0,6], "fix": ["x"]})")).json();
+  EXPECT_GT(rolls["critical_load_factor"], 1);
+  EXPECT_EQ(rolls["remarks"], json::array());
+}
+
 // IPE 300 of S355: class 4 in compression (web 248.6/7.1 = 35.0 > 34.2), 1 in bending; P L = W_el f_y and
 // W_pl f_y.
 TEST(CheckCommand, ProfilesHaveTheirClassAndJointsTheirFirstFibre) {

@@ -68,13 +68,16 @@ StaticCheck static_check(const Plan& plan, Order order = Order::first);
 
 /// Elastic buckling.
 struct CriticalLoad {
-  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle
+  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle; 0: the loads
+                              ///< push on a motion without strain, however small they are
   std::vector<Motion> mode;   ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
   double time = 0;            ///< s, from when on these loads act (as in StaticCheck)
+  std::vector<Motion> mechanism;  ///< such a motion, or one that loads neither push on nor hold; empty: none
 };
 
 /// The least factor at which the structure, elastic, has a state of equilibrium beside its own: K + α K_g is
-/// singular for the first-order forces of the loads. Bars bend as in static_check() of second order: within
+/// singular for the first-order forces of the loads. What moves without strain is held by loads alone, as a
+/// pendulum is: where these push it on, there is no stable state at any factor. Bars bend as in static_check() of second order: within
 /// 1e-4 of Euler's loads with eight pieces to a half wave. Throws InvalidInput as static_check() does.
 CriticalLoad critical_load(const Plan& plan);
 
