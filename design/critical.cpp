@@ -30,7 +30,6 @@ CriticalLoad critical_load(const Plan& plan) {
   Equilibrium statics(plan, Between::elastic_bars);
   CriticalLoad result;
   for (const LoadCase& load_case : statics.cases()) {
-    statics.let_slack(load_case);
     const ElasticPath path(plan, statics, load_case);
     if (path.critical() < result.factor) {
       result.factor = path.critical();

@@ -56,6 +56,11 @@ std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const Geometri
   return x;
 }
 
+Deformed unloaded(const Equilibrium& statics, const LoadCase& load_case) {
+  const ElasticState state = statics.prestressed(load_case);
+  return {0, state.x, state.forces, state.forces};
+}
+
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor) {
   const double more = factor - from.factor;

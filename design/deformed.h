@@ -42,6 +42,9 @@ Eigen::VectorXd carried(const Plan& plan, const Equilibrium& statics, const Grow
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor);
 
+/// The state without loads, to start from: what prestress brings, of first order.
+Deformed unloaded(const Equilibrium& statics, const LoadCase& load_case);
+
 /// x with (K + K_g) x = f by conjugate gradients; none where some direction has no positive stiffness.
 std::optional<Eigen::VectorXd> solve_tangent(const Equilibrium& statics, const GeometricStiffness& K_g,
                                              const Eigen::VectorXd& f);

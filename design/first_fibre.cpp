@@ -85,18 +85,12 @@ FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order) 
   FirstFibre least{{}, std::vector(fibres.size(), unlimited)};
   for (const LoadCase& load_case : statics.cases()) {
     if (load_case.time != check.time) continue;
-    statics.let_slack(load_case);
-    const auto usage = [&](std::size_t i, const Eigen::Vector3d& R) {
-      return statics.held[i] ? fibres[i].usage(R) : 0;
+    const Usage usage = [&](std::size_t i, const Deformed& state) {
+      return statics.held[i] ? fibres[i].usage(state.forces.segment<3>(3 * static_cast<Eigen::Index>(i))) : 0;
     };
-    std::vector<double> reached;
-    if (order == Order::second) {
-      reached = ElasticPath(plan, statics, load_case).reached(usage);
-    } else {
-      const Eigen::VectorXd forces = statics.elastic(load_case).forces;
-      for (std::size_t i = 0; i < fibres.size(); ++i)
-        reached.push_back(1 / usage(i, forces.segment<3>(3 * static_cast<Eigen::Index>(i))));
-    }
+    const std::vector<double> reached =
+        order == Order::second ? ElasticPath(plan, statics, load_case).reached(fibres.size(), usage)
+                               : ductile::reached(stretches(plan, statics, load_case), fibres.size(), usage);
     for (std::size_t i = 0; i < reached.size(); ++i) {
       least.joints[i] = std::min(least.joints[i], reached[i]);
       if (reached[i] < least.factor) {

@@ -234,8 +234,15 @@ Pushover second_order_limit(const Plan& plan, bool fixed_gravity) {
     if (growing.isZero(0) && load_case.elongation.isZero(0)) continue;
     loaded = true;
     Pushing pushing(plan, yields);
+    const VectorXd still = VectorXd::Zero(statics.B.rows());
+    if (!load_case.prestress.isZero(0)) {
+      if (!pushing.push({none, none, load_case.prestress, load_case.time, false}, 1))
+        throw InvalidInput({{"joints", "the lengths of its lines bring the structure down before any load",
+                             "give them lengths nearer to those that they are drawn with"}});
+      for (Reached& hinge : pushing.hinges) hinge.factor = 0;
+    }
     if (fixed_gravity) {
-      if (!pushing.push({none, gravity, VectorXd::Zero(statics.B.rows()), load_case.time, false}, 1))
+      if (!pushing.push({none, gravity, still, load_case.time, false}, 1))
         throw InvalidInput(
             {{"loads", "cannot be carried, even times 0: gravity alone brings the structure down",
               "let gravity grow with the loads (without --fixed-gravity), or strengthen it"}});

@@ -26,12 +26,14 @@ struct StaticJoint {
   double N = 0, Q = 0, M = 0;  ///< N, N, N m; NaN in a loose structure
   JointReading::Usage usage;   ///< |value| / cap of its sign; NaN where unlimited, 0 where the row is free
   /// The factor on all loads and gravity at which the joint yields: 1 / its largest usage, or with
-  /// Plan::interaction where the ray from the origin leaves the yield surface. Unlimited where it never does.
+  /// Plan::interaction where the ray from the origin leaves the yield surface; from prestress on, where lines
+  /// are not as long as they are drawn. Unlimited where it never does.
   double yields_at = unlimited;
 };
 
 /// Elastic forces under the plan's loads, gravity and prescribed displacements of supports (settlement), each
-/// at its full value whatever its ramp; factors are on all of them. Where loads
+/// at its full value whatever its ramp; factors are on all of them. What lines strain that are not as long as
+/// they are drawn is there at the factor 0 and stays, while they go slack and taut as they must. Where loads
 /// start and end, those that act at one time are taken together, and the time of least reserve is reported.
 struct StaticCheck {
   double time = 0;                  ///< s
@@ -68,17 +70,18 @@ StaticCheck static_check(const Plan& plan, Order order = Order::first);
 
 /// Elastic buckling.
 struct CriticalLoad {
-  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle; 0: the loads
-                              ///< push on a motion without strain, however small they are
-  std::vector<Motion> mode;   ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
-  double time = 0;            ///< s, from when on these loads act (as in StaticCheck)
+  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle; 0: the
+                              ///< loads push on a motion without strain, however small they are
+  std::vector<Motion> mode;       ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
+  double time = 0;                ///< s, from when on these loads act (as in StaticCheck)
   std::vector<Motion> mechanism;  ///< such a motion, or one that loads neither push on nor hold; empty: none
 };
 
 /// The least factor at which the structure, elastic, has a state of equilibrium beside its own: K + α K_g is
 /// singular for the first-order forces of the loads. What moves without strain is held by loads alone, as a
-/// pendulum is: where these push it on, there is no stable state at any factor. Bars bend as in static_check() of second order: within
-/// 1e-4 of Euler's loads with eight pieces to a half wave. Throws InvalidInput as static_check() does.
+/// pendulum is: where these push it on, there is no stable state at any factor. Bars bend as in
+/// static_check() of second order: within 1e-4 of Euler's loads with eight pieces to a half wave. Throws
+/// InvalidInput as static_check() does.
 CriticalLoad critical_load(const Plan& plan);
 
 /// A joint, and the factor on all loads that brings it there.
