@@ -388,8 +388,7 @@ std::vector<std::string> remarks(const Plan& plan) {
     result.push_back(
         list_of(clamped) +
         ": a node holds it at one of its cuts, and the piece on one side takes the whole moment: "
-        "elastic forces and displacements are off, the less the shorter its pieces are; put a "
-        "piece's middle there, as an odd number of pieces does in the middle of a bar");
+        "elastic forces and displacements are off, the less the shorter its pieces are; split it into more");
   if (const Askew askew = cuts_askew(plan); !askew.names.empty()) {
     const double longer = askew.height / askew.width;
     result.push_back(fmt::format(

@@ -123,7 +123,8 @@ std::string list_of(const std::vector<std::string>& names);
 /// whether a drawing seems to be in millimetres, for two. As lines of a table and for --json.
 std::vector<std::string> remarks(const Plan& plan);
 /// And of what may become of it under its loads.
-std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical);
+std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical,
+                                 const std::vector<MissedMoment>& missed);
 std::string lines(const std::vector<std::string>& remarks);
 /// What no joint holds, by name: statics leaves it out with its weight. And as a line of a table, where there
 /// is something.

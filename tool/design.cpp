@@ -236,6 +236,9 @@ std::string run(const Options& options) {
   const double mass = measured(plan, Measure::mass);
   const bool all_counts = target.measure == Measure::mass;  // what is loose weighs, and does nothing else
   const CriticalLoad critical = has_order ? critical_load(plan) : CriticalLoad{};
+  const bool yields = target.measure == Measure::reserve || target.measure == Measure::collapse;
+  const std::vector<std::string> notes = remarks(
+      plan, critical, yields ? missed_moments(plan, static_check(plan)) : std::vector<MissedMoment>{});
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     write_text(out, edited_scene(text, answer.reach.scene, out.parent_path()));
@@ -243,7 +246,7 @@ std::string run(const Options& options) {
   if (options.json) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
     if (has_order) result["critical_load_factor"] = number(critical.factor);
-    result["remarks"] = remarks(plan, critical);
+    result["remarks"] = notes;
     result["loose"] = all_counts ? std::vector<std::string>{} : loose_names(plan);
     return result.dump() + "\n";
   }
@@ -254,7 +257,7 @@ std::string run(const Options& options) {
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
                      has_order ? buckling_line(options.second_order, critical.factor) + '\n' : "",
-                     lines(remarks(plan, critical)) + (all_counts ? "" : loose_line(plan)));
+                     lines(notes) + (all_counts ? "" : loose_line(plan)));
 }
 
 }  // namespace

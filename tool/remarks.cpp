@@ -1,4 +1,6 @@
 // What one has to know of a plan under its loads.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
@@ -23,8 +25,20 @@ std::vector<std::string> moved(const Plan& plan, const std::vector<Motion>& moti
 
 }  // namespace
 
-std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical) {
+std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical,
+                                 const std::vector<MissedMoment>& missed) {
   std::vector<std::string> all = remarks(plan);
+  if (!missed.empty()) {
+    std::vector<std::string> names;
+    for (const MissedMoment& each : missed) names.push_back(piece_name(plan, each.piece));
+    const double most = missed.front().factor;
+    all.push_back(fmt::format(
+        "{}: the moment inside is {}{} times what {} see, so it yields at less than is told; split into more "
+        "pieces, or cut where the load, support or node is",
+        list_of(names), missed.size() > 1 ? "up to " : "",
+        most < 1000 ? fmt::format("{:.3g}", most) : "> 1000",
+        missed.size() > 1 ? "their joints" : "its joints"));
+  }
   if (!critical.mechanism.empty())
     all.push_back(
         list_of(moved(plan, critical.mechanism)) + ": can move without strain, a mechanism that " +

@@ -68,6 +68,28 @@ TEST(CheckCommand, AMechanismIsNotCalledStable) {
   EXPECT_EQ(rolls["remarks"], json::array());
 }
 
+// P in the middle of seven pieces: P L/4, of which the joints at 3 L/7 see 6/7.
+TEST(CheckCommand, TellsOfMomentsWithinAPiece) {
+  const Folder folder;
+  const auto beam = [&](int pieces) {
+    return folder.write("scene.json", R"({"gravity": [0,0], "bodies": [{"name": "b",
+      "outline": [[0,-0.15],[8,-0.15],[8,0.15],[0,0.15]], "depth": 0.1, "material": "S355", "split": {"pieces": )" +
+                                          std::to_string(pieces) + R"(}}],
+      "supports": [{"body": "b", "at": [0,0], "fix": ["x","y"]}, {"body": "b", "at": [8,0], "fix": ["y"]}],
+      "loads": [{"body": "b", "at": [4,0], "force": [0,-1e5]}]})");
+  };
+  const std::string said = "b/3: the moment inside is 1.17 times what its joints see";
+  for (const std::string command : {"check", "limit", "design --for collapse=1.5 --by depth"}) {
+    EXPECT_NE(run(command + " " + beam(7)).out.find(said), std::string::npos) << command;
+    EXPECT_NE(run(command + " --json " + beam(7)).json()["remarks"].dump().find(said), std::string::npos);
+    EXPECT_EQ(run(command + " --json " + beam(8)).json()["remarks"], json::array()) << command;
+  }
+  const json fibre = run("check --json " + beam(7)).json()["first_fibre"];
+  EXPECT_EQ(fibre["piece"], "b/3");
+  EXPECT_EQ(fibre["joint"], nullptr);
+  EXPECT_NEAR(fibre["factor"].get<double>(), 0.1 * 0.09 / 6 * 355e6 / 2e5, 1e-9);
+}
+
 // IPE 300 of S355: class 4 in compression (web 248.6/7.1 = 35.0 > 34.2), 1 in bending; P L = W_el f_y and
 // W_pl f_y.
 TEST(CheckCommand, ProfilesHaveTheirClassAndJointsTheirFirstFibre) {
