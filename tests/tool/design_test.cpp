@@ -58,6 +58,21 @@ TEST_F(DesignCommand, PiecesAndNumbers) {
   EXPECT_NE(design("--for frequency=5 --by E").out.find("frequency of 5 Hz"), std::string::npos);
 }
 
+// A single piece is rigid and never yields. Of two, the joint under the load is at 4 M_p/L.
+TEST_F(DesignCommand, NumbersOfPiecesThatCannotYieldArePassedOver) {
+  const std::string beam = folder.write("beam.scene.json", R"({"gravity": [0,0],
+  "bodies": [{"name": "b", "outline": [[0,-0.15],[8,-0.15],[8,0.15],[0,0.15]], "depth": 0.1, "material": "S355"}],
+  "supports": [{"body": "b", "at": [0,0], "fix": ["x","y"]}, {"body": "b", "at": [8,0], "fix": ["y"]}],
+  "loads": [{"body": "b", "at": [4,0], "force": [0,-100e3]}]})");
+  const double M_p = 0.1 * 0.3 * 0.3 / 4 * 355e6;
+  for (const std::string target : {"reserve", "collapse"}) {
+    const json found = run("design " + beam + " --for " + target + "=1.5 --by pieces --json").json();
+    EXPECT_EQ(found["value"], 2) << target;
+    EXPECT_NEAR(found["reached"].get<double>(), 4 * M_p / 8 / 100e3, 1e-7) << target;
+  }
+  expect_bad_input(run("design " + beam + " --for reserve=1.5 --by pieces --among 1"), "yield");
+}
+
 // Where bars are welded, one of them needs a joint of its own that the weld is as strong as.
 TEST_F(DesignCommand, NumbersOfPiecesThatASceneCannotHaveArePassedOver) {
   const std::string portal = folder.write("portal.scene.json", R"({"gravity": [0,0],
