@@ -240,12 +240,12 @@ bool bends_sideways(const BodyDef& body) {
   return (I_max - I_min) * std::abs(axes.strong.x * axes.strong.y) > 1e-6 * I_max;
 }
 
-/// Bars of one piece that joints hold in several places: such a piece is rigid.
+/// Bars of one piece that joints hold in several places or against turning: such a piece is rigid.
 std::vector<std::string> rigid_bars(const Plan& plan) {
   std::vector<int> joints(plan.pieces.size()), pieces(plan.bodies.size());
   for (const PlannedJoint& joint : plan.joints)
     for (const int piece : {joint.a, joint.b})
-      if (piece >= 0) ++joints[static_cast<std::size_t>(piece)];
+      if (piece >= 0) joints[static_cast<std::size_t>(piece)] += joint.M > 0 || joint.M_reverse > 0 ? 2 : 1;
   for (const Piece& piece : plan.pieces) ++pieces[static_cast<std::size_t>(piece.body)];
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
@@ -382,7 +382,7 @@ std::vector<std::string> remarks(const Plan& plan) {
   }
   if (const std::vector<std::string> rigid = rigid_bars(plan); !rigid.empty())
     result.push_back(list_of(rigid) +
-                     ": one piece is rigid: between its joints it neither bends nor yields nor buckles; "
+                     ": one piece is rigid: beyond its joints it neither bends nor yields nor buckles; "
                      "split it into several");
   if (const std::vector<std::string> clamped = clamped_at_cuts(plan); !clamped.empty())
     result.push_back(

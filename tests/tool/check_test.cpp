@@ -235,6 +235,24 @@ TEST(CheckCommand, TellsOfBarsThatAreRigid) {
   EXPECT_EQ(remarks(0.6, 1), json::array());
 }
 
+// Its joints alone give: a column of one piece is told to bear more than Euler has it, or never to buckle.
+TEST(CheckCommand, TellsOfAClampedBarOfOnePiece) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& holds) {
+    return run("check --json " + folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "c", "outline": [[0,-0.1],[4,-0.1],[4,0.1],[0,0.1]], "depth": 0.1, "material": "S355"}],
+      "loads": [{"body": "c", "at": [4,0], "force": [-1e5,-1e3]}], )" +
+                                                                holds + "}"))
+        .json()["remarks"];
+  };
+  const std::string said = "c: one piece is rigid";
+  EXPECT_NE(remarks(R"("joints": [{"between": ["wall","c"]}])").dump().find(said), std::string::npos);
+  EXPECT_NE(
+      remarks(R"("supports": [{"body": "c", "at": [0,0], "fix": ["x","y","angle"]}])").dump().find(said),
+      std::string::npos);
+}
+
 // A beam clamped at both ends, with a moment of 20 kN m in its middle: a quarter of it at either end, by
 // symmetry. Over a cut the piece on one side takes it all.
 TEST(CheckCommand, TellsOfNodesAtCuts) {
