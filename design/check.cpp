@@ -51,7 +51,7 @@ StaticJoint joint_under(const Yield& yield, const std::array<double, 3>& force) 
           .Q = Q,
           .M = M,
           .usage = {yield.usage(axial, N), yield.usage(shear, Q), yield.usage(rotation, M)},
-          .yields_at = used > 0 ? 1 / used : unlimited};
+          .yields_at = used > least_usage ? 1 / used : unlimited};
 }
 
 // What the joints carry in a state; yields_at for forces that grow in proportion to the loads.

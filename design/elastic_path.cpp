@@ -43,7 +43,7 @@ std::vector<double> reached(const std::vector<Stretch>& stretches, std::size_t i
     double largest = 0;
     for (std::size_t i = 0; i < items; ++i) {
       const double used = usage(i, state);
-      result[i] = used > 0 ? 1 / used : unlimited;
+      result[i] = used > least_usage ? 1 / used : unlimited;
       largest = std::max(largest, used);
     }
     for (double& factor : result)
@@ -60,7 +60,7 @@ std::vector<double> reached(const std::vector<Stretch>& stretches, std::size_t i
         break;
       }
       if (high == unlimited)
-        for (high = std::max(1., 2 * low); uses(high) < 1 && high < 1e11;) low = high, high *= 2;
+        for (high = std::max(1., 2 * low); uses(high) < 1 && high < 1 / least_usage;) low = high, high *= 2;
       if (uses(high) < 1) continue;
       while (high - low > 1e-14 * high) (uses((low + high) / 2) < 1 ? low : high) = (low + high) / 2;
       result[i] = high;

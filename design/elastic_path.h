@@ -9,6 +9,10 @@
 
 namespace ductile {
 
+/// Less is what rigid rows, a million times as stiff as others, let through of a load that goes right into a
+/// support.
+inline constexpr double least_usage = 1e-10;
+
 /// How much of something a joint, or another of so many items, uses in a state; it is used up at 1. Convex in
 /// the forces, and 0 without any.
 using Usage = std::function<double(std::size_t item, const Deformed& state)>;

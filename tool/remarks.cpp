@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,29 @@ std::vector<std::string> moved(const Plan& plan, const std::vector<Motion>& moti
   return names;
 }
 
+/// Bodies that stand still, with a load or a support on them.
+std::set<std::string> idle_bodies(const Plan& plan) {
+  std::set<std::string> names;
+  const auto look = [&](int piece) {
+    if (piece >= 0 && !plan.is_dynamic(piece))
+      names.insert(
+          plan.bodies[static_cast<std::size_t>(plan.pieces[static_cast<std::size_t>(piece)].body)].name);
+  };
+  for (const Plan::Load& load : plan.loads) look(load.piece);
+  for (const PlannedJoint& joint : plan.joints)
+    if (joint.a < 0) look(joint.b);
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical,
                                  const std::vector<MissedMoment>& missed) {
   std::vector<std::string> all = remarks(plan);
+  const std::set<std::string> idle = idle_bodies(plan);
+  if (!idle.empty())
+    all.push_back(list_of({idle.begin(), idle.end()}) +
+                  ": does not move, so a load or a support on it does nothing; give it to a body that does");
   if (!missed.empty()) {
     std::vector<std::string> names;
     for (const MissedMoment& each : missed) names.push_back(piece_name(plan, each.piece));

@@ -292,6 +292,30 @@ TEST(CheckCommand, TellsOfNodesAtCuts) {
   EXPECT_EQ(run("calibrate " + beam(20, "[4.01,0], \"moment\": 0")).out.find(said), std::string::npos);
 }
 
+// What stands still feels nothing, and a load right over a support goes into it.
+TEST(CheckCommand, LoadsThatDoNothing) {
+  const Folder folder;
+  const auto check = [&](const std::string& rest) {
+    return run("check --json " + folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "beam", "outline": [[0,-0.1],[6,-0.1],[6,0.1],[0,0.1]], "depth": 0.1, "material": "S355",
+       "split": {"pieces": 6}}], "joints": [{"between": ["wall","beam"]}], )" +
+                                                                rest + "}"))
+        .json();
+  };
+  const json idle{
+      "wall: does not move, so a load or a support on it does nothing; give it to a body that does"};
+  EXPECT_EQ(check(R"("loads": [{"body": "wall", "at": [-0.5,0], "force": [0,-1e4]}])")["remarks"], idle);
+  EXPECT_EQ(check(R"("loads": [{"body": "beam", "at": [6,0], "force": [0,-1e4]}],
+                     "supports": [{"body": "wall", "at": [-0.5,0], "fix": ["x"]}])")["remarks"],
+            idle);
+  const json over = check(R"("loads": [{"body": "beam", "at": [6,0], "force": [0,-1e4]}],
+    "supports": [{"body": "beam", "at": [6,0], "fix": ["y"]}, {"body": "beam", "at": [6,0], "fix": ["y"]}])");
+  EXPECT_EQ(over["first_hinge"]["joint"], nullptr);
+  EXPECT_EQ(over["first_fibre"]["joint"], nullptr);
+  EXPECT_EQ(over["remarks"], json::array());
+}
+
 TEST(CheckCommand, TellsOfADrawingInMillimetres) {
   const Folder folder;
   const auto remarks = [&](double unit) {
