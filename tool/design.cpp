@@ -225,7 +225,7 @@ std::string run(const Options& options) {
         {{options.scene.name + ":file", "is a level of R.U.B.E.",
           "design works on scene files and drawings; give the scene that the level was made of"}});
   const Outputs outputs{{"--out", {options.out}}};
-  if (is_drawing(text)) keep_inputs({options.scene.name}, outputs);
+  keep_inputs({options.scene.name}, outputs);
   if (options.by == "profile") keep_inputs(options.among, outputs);
   const SceneDef scene = scene_of(options.scene, text, outputs);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);

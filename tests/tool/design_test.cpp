@@ -114,6 +114,19 @@ TEST_F(DesignCommand, AMemberOfAListThatIsJustEnough) {
   expect_bad_input(design("--for damping=0.10000001 --by material --among oak"), "the best comes to 0.1");
 }
 
+// As every command refuses to.
+TEST_F(DesignCommand, DoesNotWriteOverItsScene) {
+  const std::string before = slurp(scene);
+  expect_bad_input(design("--for reserve=1.5 --by depth --out " + scene), "is the file that is read");
+  EXPECT_EQ(slurp(scene), before);
+}
+
+// Of a bar of one depth its own mass and stiffness both are, and its frequency is not.
+TEST_F(DesignCommand, SaysWhereANumberChangesNothing) {
+  expect_bad_input(design("--for frequency=50 --by depth"), "the same whatever that number is");
+  expect_bad_input(design("--for frequency=50 --by fy"), "the same whatever that number is");
+}
+
 TEST_F(DesignCommand, BadInput) {
   for (const char* wrong :
        {"--for reserve --by depth", "--for reserve=-1 --by depth", "--for reserve=nan --by depth",
