@@ -172,9 +172,8 @@ std::vector<BentBars> bent_bars(const Plan& plan, const Equilibrium& statics, co
 // With δ = x_b + θ_b J r_b − x_a − θ_a J r_a between the anchors (J turns left), φ the turn of the axis e:
 //   u = e·δ + φ Je·δ + ½ e·(θ_a² r_a − θ_b² r_b) + …      v = Je·δ − φ e·δ + ½ Je·(θ_a² r_a − θ_b² r_b) + …
 // and a point at r from the centre comes back by ½ θ² r.
-Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const VectorXd& forces,
-                                                const std::function<double(const Plan::Load&)>& dead) {
+GeometricStiffness geometric_stiffness(const Plan& plan, const Equilibrium& statics, const VectorXd& forces,
+                                       const std::function<double(const Plan::Load&)>& dead) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto both = [&](Index row, Index column, double value) {
     entries.emplace_back(row, column, value);
@@ -217,10 +216,43 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibr
   }
   Eigen::SparseMatrix<double> K_g(statics.B.cols(), statics.B.cols());
   K_g.setFromTriplets(entries.begin(), entries.end());
-  return K_g;
+  return {std::move(K_g), statics.free_motions()};
 }
 
-Buckle buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g, const VectorXd& start) {
+// Of Zᵀ K_g Z's eigenvectors, one that the loads push on or hold does more work than rounding, which is of
+// the size of the work of all of its parts, and of K_g.
+GeometricStiffness::GeometricStiffness(Eigen::SparseMatrix<double> K_g, const Eigen::MatrixXd& Z)
+    : K_g_(std::move(K_g)) {
+  if (Z.cols() == 0) return;
+  constexpr double rounding = 1e-9, of_all = 1e-14;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(Z.transpose() * (K_g_ * Z));
+  const Eigen::MatrixXd motions = Z * modes.eigenvectors();
+  const Eigen::SparseMatrix<double> sizes = K_g_.cwiseAbs();
+  const double largest = sizes.nonZeros() > 0 ? sizes.coeffs().maxCoeff() : 0;
+  std::vector<Index> held;
+  for (Index i = 0; i < Z.cols(); ++i) {  // the eigenvalues ascend
+    const VectorXd size = motions.col(i).cwiseAbs();
+    const double work = modes.eigenvalues()[i],
+                 none = std::max(rounding * size.dot(sizes * size), of_all * largest);
+    if (work > none) {
+      held.push_back(i);
+    } else if (work < -none) {
+      if (pushed.size() == 0) pushed = motions.col(i);
+    } else {
+      if (adrift.size() == 0) adrift = VectorXd::Zero(Z.rows());
+      adrift += std::cos(static_cast<double>(i)) * motions.col(i);
+    }
+  }
+  held_ = motions(Eigen::all, held) * modes.eigenvalues()(held).cwiseSqrt().cwiseInverse().asDiagonal();
+  pulled_ = K_g_ * held_;
+}
+
+VectorXd GeometricStiffness::settled(const VectorXd& x) const {
+  return held_.cols() == 0 ? x : VectorXd(x - held_ * (pulled_.transpose() * x));
+}
+
+Buckle buckling(const Equilibrium& statics, const GeometricStiffness& K_g, const VectorXd& start) {
+  if (K_g.pushed.size() > 0) return {unlimited, K_g.pushed};
   constexpr int most = 400;
   std::vector<VectorXd> basis, images;  // orthonormal in K, and K times them
   std::vector<double> diagonal, beside;

@@ -23,22 +23,44 @@ struct BentBars {
 std::vector<BentBars> bent_bars(const Plan& plan, const Equilibrium& statics, const Eigen::VectorXd& forces,
                                 const std::function<double(const Plan::Load&)>& dead);
 
+/// K_g beside the motions Z that strain nothing. Those that the loads hold in place, as they hold a pendulum,
+/// follow all others at once: K_g − K_g Z (Zᵀ K_g Z)⁻¹ Zᵀ K_g.
+class GeometricStiffness {
+ public:
+  GeometricStiffness(Eigen::SparseMatrix<double> K_g) : K_g_(std::move(K_g)) {}  // every motion strains
+  GeometricStiffness(Eigen::SparseMatrix<double> K_g, const Eigen::MatrixXd& Z);
+
+  /// x with the motions in it to which the loads bring what is free to follow.
+  Eigen::VectorXd settled(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return K_g_ * settled(x); }
+
+  /// A motion without strain that the loads push on, however small they are; empty: none.
+  Eigen::VectorXd pushed;
+  /// One that they neither push on nor hold, with a part in all such motions; empty: none.
+  Eigen::VectorXd adrift;
+
+ private:
+  Eigen::SparseMatrix<double> K_g_;
+  Eigen::MatrixXd held_, pulled_;  // of Z what the loads hold, to Zᵀ K_g Z = 1; and K_g times it
+};
+
 /// K_g, as B's columns: the second derivatives of the joints' elongations times their forces, and of the
 /// places where loads act times the loads, all of the plan's together with `dead` times as much. With the
 /// bars' own where they give.
-Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const Eigen::VectorXd& forces,
-                                                const std::function<double(const Plan::Load&)>& dead);
+GeometricStiffness geometric_stiffness(const Plan& plan, const Equilibrium& statics,
+                                       const Eigen::VectorXd& forces,
+                                       const std::function<double(const Plan::Load&)>& dead);
 
 struct Buckle {
-  double inverse_factor = 0;  ///< μ = max −xᵀK_g x / xᵀK x, 0 where that is negative: 1 / the buckling load
-  Eigen::VectorXd mode;       ///< x; empty where there is none
+  /// μ = max −xᵀK_g x / xᵀK x, 0 where that is negative: 1 / the buckling load. Unlimited where the loads
+  /// push on a motion without strain.
+  double inverse_factor = 0;
+  Eigen::VectorXd mode;  ///< x; empty where there is none
 };
 
 /// Over the structures that have a part in `start`, which is best a little of every mode. By Lanczos' method
 /// in the metric of K.
-Buckle buckling(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g,
-                const Eigen::VectorXd& start);
+Buckle buckling(const Equilibrium& statics, const GeometricStiffness& K_g, const Eigen::VectorXd& start);
 
 /// A start that has some of every mode.
 Eigen::VectorXd any_motion(const Equilibrium& statics);

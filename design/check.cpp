@@ -51,10 +51,10 @@ StaticJoint joint_under(const Yield& yield, const std::array<double, 3>& force) 
           .Q = Q,
           .M = M,
           .usage = {yield.usage(axial, N), yield.usage(shear, Q), yield.usage(rotation, M)},
-          .yields_at = used > 0 ? 1 / used : unlimited};
+          .yields_at = used > least_usage ? 1 / used : unlimited};
 }
 
-// What the joints carry in a state; yields_at for forces that grow with the loads.
+// What the joints carry in a state; yields_at for forces that grow in proportion to the loads.
 StaticCheck check_state(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
                         double time, Eigen::VectorXd forces, const Eigen::VectorXd& x) {
   if (forces.size() > 0) drop_rounding(forces, extent(plan));
@@ -83,25 +83,41 @@ StaticCheck without_state(const Plan& plan, const Equilibrium& statics, double t
           .loose = statics.loose};
 }
 
-StaticCheck check_case(const Plan& plan, const Equilibrium& statics, const std::vector<Yield>& yields,
+void yield_at(StaticCheck& check, const std::vector<double>& factors) {
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    check.joints[i].yields_at = factors[i];
+    check.reserve = std::min(check.reserve, factors[i]);
+  }
+}
+
+StaticCheck check_case(const Plan& plan, Equilibrium& statics, const std::vector<Yield>& yields,
                        const LoadCase& load_case, Order order) {
+  const Usage usage = [&](std::size_t i, const Deformed& state) {
+    if (!statics.held[i]) return 0.;
+    const Eigen::Index r = 3 * static_cast<Eigen::Index>(i);
+    double N = state.forces[r];  // a line that is just going slack carries nothing but rounding
+    if (plan.joints[i].carries == Carries::tension) N = std::max(0., N);
+    if (plan.joints[i].carries == Carries::compression) N = std::min(0., N);
+    return yields[i].usage({N, state.forces[r + 1], state.forces[r + 2]});
+  };
   if (order == Order::first) {
-    const ElasticState state = statics.elastic(load_case);
-    return check_state(plan, statics, yields, load_case.time, state.forces, state.x);
+    const std::vector<Stretch> path = stretches(plan, statics, load_case);
+    const Stretch& now =
+        *std::find_if(path.begin(), path.end(), [](const Stretch& stretch) { return stretch.to > 1; });
+    const Deformed state = now.at(1);
+    StaticCheck result = check_state(plan, statics, yields, load_case.time, state.forces, state.x);
+    if (load_case.prestress.isZero(0)) return result;
+    result.reserve = unlimited;
+    yield_at(result, reached(path, plan.joints.size(), usage));
+    return result;
   }
 
   const ElasticPath path(plan, statics, load_case);
   const std::optional<Deformed> now = path.at(1);
   StaticCheck result = now ? check_state(plan, statics, yields, load_case.time, now->forces, now->x)
                            : without_state(plan, statics, load_case.time);
-  const std::vector<double> reached = path.reached([&](std::size_t i, const Eigen::Vector3d& R) {
-    return statics.held[i] ? yields[i].usage({R[0], R[1], R[2]}) : 0;
-  });
   result.reserve = path.critical();
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    result.joints[i].yields_at = reached[i];
-    result.reserve = std::min(result.reserve, reached[i]);
-  }
+  yield_at(result, path.reached(plan.joints.size(), usage));
   return result;
 }
 
@@ -114,7 +130,6 @@ StaticCheck static_check(const Plan& plan, Order order) {
   StaticCheck worst;
   bool first = true;
   for (const LoadCase& load_case : statics.cases()) {
-    statics.let_slack(load_case);
     StaticCheck now = check_case(plan, statics, yields, load_case, order);
     if (first || now.reserve < worst.reserve) worst = std::move(now);
     first = false;

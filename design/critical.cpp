@@ -30,10 +30,14 @@ CriticalLoad critical_load(const Plan& plan) {
   Equilibrium statics(plan, Between::elastic_bars);
   CriticalLoad result;
   for (const LoadCase& load_case : statics.cases()) {
-    statics.let_slack(load_case);
     const ElasticPath path(plan, statics, load_case);
-    if (path.critical() < result.factor)
-      result = {path.critical(), shape_of(plan, statics, path.mode()), load_case.time};
+    if (path.critical() < result.factor) {
+      result.factor = path.critical();
+      result.mode = shape_of(plan, statics, path.mode());
+      result.time = load_case.time;
+    }
+    if (path.free_motion().size() > 0 && (result.mechanism.empty() || path.critical() == 0))
+      result.mechanism = shape_of(plan, statics, path.free_motion());
   }
   return result;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "buckling.h"
-
 namespace ductile {
 
 using Eigen::VectorXd;
@@ -20,8 +18,8 @@ std::function<double(const Plan::Load&)> dead(const Growth& growth, const Deform
 
 }  // namespace
 
-Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const Growth& growth, const Deformed& state) {
+GeometricStiffness geometric_stiffness(const Plan& plan, const Equilibrium& statics, const Growth& growth,
+                                       const Deformed& state) {
   return geometric_stiffness(plan, statics, state.primary, dead(growth, state));
 }
 
@@ -37,7 +35,7 @@ VectorXd carried(const Plan& plan, const Equilibrium& statics, const Growth& gro
 
 // With y = K x, (1 + K_g K⁻¹) y = f, symmetric in the metric of K⁻¹: K itself, whose rigid rows would drown
 // the others in rounding, is never applied. It has as many eigenvalues away from 1 as K_g has to say.
-std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const Eigen::SparseMatrix<double>& K_g,
+std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const GeometricStiffness& K_g,
                                       const VectorXd& f) {
   VectorXd x = VectorXd::Zero(f.size()), r = f, z = statics.motions(r), p = r, w = z;  // w = K⁻¹ p
   double rz = r.dot(z);
@@ -58,20 +56,26 @@ std::optional<VectorXd> solve_tangent(const Equilibrium& statics, const Eigen::S
   return x;
 }
 
+Deformed unloaded(const Equilibrium& statics, const LoadCase& load_case) {
+  const ElasticState state = statics.prestressed(load_case);
+  return {0, state.x, state.forces, state.forces};
+}
+
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor) {
   const double more = factor - from.factor;
   const ElasticState bent = statics.imposed(more * growth.elongation);
   Deformed now{factor, from.x + bent.x, from.forces + bent.forces,
                from.primary + statics.forces(more * growth.growing) + bent.forces};
-  const Eigen::SparseMatrix<double> K_g = geometric_stiffness(plan, statics, growth, now);
+  const GeometricStiffness K_g = geometric_stiffness(plan, statics, growth, now);
+  if (K_g.pushed.size() > 0) return std::nullopt;
   VectorXd rest = growth.at(factor) - statics.B.transpose() * from.forces - K_g * now.x;
   for (const BentBars& bars : bent_bars(plan, statics, now.primary, dead(growth, now)))
     for (const auto& [column, share] : bars.columns)
       rest[column] -= share.dot(bars.form * (factor * bars.ground));  // which moves with the loads
   const std::optional<VectorXd> step = solve_tangent(statics, K_g, rest);
   if (!step) return std::nullopt;
-  now.x += *step;
+  now.x = K_g.settled(now.x + *step);
   now.forces += statics.forces(rest - K_g * *step);
   return now;
 }

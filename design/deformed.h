@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "buckling.h"
 #include "ductile/design.h"
 #include "equilibrium.h"
 
@@ -28,8 +29,8 @@ struct Deformed {
 };
 
 /// K_g of a state.
-Eigen::SparseMatrix<double> geometric_stiffness(const Plan& plan, const Equilibrium& statics,
-                                                const Growth& growth, const Deformed& state);
+GeometricStiffness geometric_stiffness(const Plan& plan, const Equilibrium& statics, const Growth& growth,
+                                       const Deformed& state);
 
 /// What the joints carry, (N, Q, M), along axes that turn with their bodies (a support's do not): the state's
 /// forces, and those that axial forces of bent bars have across them.
@@ -41,9 +42,11 @@ Eigen::VectorXd carried(const Plan& plan, const Equilibrium& statics, const Grow
 std::optional<Deformed> deformed(const Plan& plan, const Equilibrium& statics, const Growth& growth,
                                  const Deformed& from, double factor);
 
+/// The state without loads, to start from: what prestress brings, of first order.
+Deformed unloaded(const Equilibrium& statics, const LoadCase& load_case);
+
 /// x with (K + K_g) x = f by conjugate gradients; none where some direction has no positive stiffness.
-std::optional<Eigen::VectorXd> solve_tangent(const Equilibrium& statics,
-                                             const Eigen::SparseMatrix<double>& K_g,
+std::optional<Eigen::VectorXd> solve_tangent(const Equilibrium& statics, const GeometricStiffness& K_g,
                                              const Eigen::VectorXd& f);
 
 /// Motions of the pieces, to the scale at which the largest displacement is 1 m.

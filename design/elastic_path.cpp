@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "buckling.h"
 
@@ -10,48 +11,145 @@ namespace ductile {
 
 using Eigen::Index;
 
-ElasticPath::ElasticPath(const Plan& plan, const Equilibrium& statics, const LoadCase& load_case)
-    : plan_(plan), statics_(statics) {
+std::vector<Stretch> stretches(const Plan& plan, Equilibrium& statics, const LoadCase& load_case) {
+  const auto stretch = [&](double from, double to) {
+    return Stretch{from, to, statics.prestressed(load_case), statics.elastic(load_case)};
+  };
+  if (load_case.prestress.isZero(0)) {  // what is slack at one factor is so at all
+    statics.let_slack(load_case);
+    return {stretch(0, unlimited)};
+  }
+  constexpr double beyond = 1e-9;  // of a change, on its far side
+  std::vector<Stretch> all;
+  double from = 0;
+  for (std::size_t most = 10 * plan.joints.size() + 10; from < unlimited; --most) {
+    if (most == 0)
+      throw InvalidInput({{"joints", "ropes or struts go slack and taut again without end as the loads grow",
+                           "check their lengths, or what they hold"}});
+    const double to = std::max(statics.let_slack(load_case, from + beyond * std::max(1., from)),
+                               from + 2 * beyond * std::max(1., from));
+    // Where no line has caught yet what the loads move, some do before the loads are worth mentioning.
+    if (to == unlimited || statics.bears(load_case.gravity + load_case.loads))
+      all.push_back(stretch(all.empty() ? 0 : from, to));
+    from = to;
+  }
+  return all;
+}
+
+std::vector<double> reached(const std::vector<Stretch>& stretches, std::size_t items, const Usage& usage) {
+  std::vector<double> result(items, unlimited);
+  if (stretches.size() == 1 && stretches[0].fixed.forces.isZero(0)) {  // in proportion to the loads
+    const Deformed state = stretches[0].at(1);
+    double largest = 0;
+    for (std::size_t i = 0; i < items; ++i) {
+      const double used = usage(i, state);
+      result[i] = used > least_usage ? 1 / used : unlimited;
+      largest = std::max(largest, used);
+    }
+    for (double& factor : result)
+      if (factor * largest > 1e11) factor = unlimited;  // rounding of what is used most
+    return result;
+  }
+  // A convex function that starts below 1 rises through it once.
+  for (std::size_t i = 0; i < items; ++i)
+    for (const Stretch& stretch : stretches) {
+      const auto uses = [&](double factor) { return usage(i, stretch.at(factor)); };
+      double low = stretch.from, high = stretch.to;
+      if (!(uses(low) < 1)) {
+        result[i] = low;
+        break;
+      }
+      if (high == unlimited)
+        for (high = std::max(1., 2 * low); uses(high) < 1 && high < 1 / least_usage;) low = high, high *= 2;
+      if (uses(high) < 1) continue;
+      while (high - low > 1e-14 * high) (uses((low + high) / 2) < 1 ? low : high) = (low + high) / 2;
+      result[i] = high;
+      break;
+    }
+  return result;
+}
+
+// Below the critical load μ < 1 (buckling.h), convex in the factor, so a stretch that is stable at both of
+// its ends is stable.
+ElasticPath::ElasticPath(const Plan& plan, Equilibrium& statics, const LoadCase& load_case)
+    : plan_(plan), statics_(statics), load_case_(load_case) {
   const Eigen::VectorXd f = statics.balanced(load_case.gravity + load_case.loads);
   growth_ = {Eigen::VectorXd::Zero(f.size()), f, load_case.elongation, load_case.time};
-  const Eigen::VectorXd first = statics.elastic(load_case).forces;
-  first_ = {1, {}, first, first};
-  const Buckle buckle =
-      buckling(statics, geometric_stiffness(plan, statics, growth_, first_), any_motion(statics));
-  mode_ = buckle.mode;
-  if (buckle.inverse_factor > 1e-12) critical_ = 1 / buckle.inverse_factor;
+  first_order_ = stretches(plan, statics, load_case);
+  for (std::size_t i = 0; i < first_order_.size() && critical_ == unlimited; ++i)
+    find_critical(first_order_[i]);
+}
+
+void ElasticPath::find_critical(const Stretch& stretch) {
+  const auto& [from, to, fixed, growing] = stretch;
+  if (first_order_.size() > 1)
+    statics_.let_slack(load_case_, to < unlimited ? (from + to) / 2 : 2 * from + 1);
+  struct Look {
+    GeometricStiffness K_g;
+    Buckle buckle;
+  };
+  const auto look = [&](const Deformed& state) {
+    GeometricStiffness K_g = geometric_stiffness(plan_, statics_, growth_, state);
+    Buckle buckle = buckling(statics_, K_g, any_motion(statics_));
+    return Look{std::move(K_g), std::move(buckle)};
+  };
+  const auto buckles_at = [&](double factor, const Look& there) {
+    critical_ = factor;
+    mode_ = there.buckle.mode;
+    free_ = factor == 0 && there.K_g.pushed.size() > 0 ? there.K_g.pushed : there.K_g.adrift;
+  };
+  const auto mu = [&](const Deformed& state) { return look(state).buckle.inverse_factor; };
+  const Deformed loads{1, growing.x, growing.forces, growing.forces};
+  if (fixed.forces.isZero(0)) {
+    const Look there = look(loads);
+    const double of_loads = there.buckle.inverse_factor, factor = of_loads > 1e-12 ? 1 / of_loads : unlimited;
+    return buckles_at(factor <= to ? std::max(from, factor) : unlimited, there);
+  }
+  double low = from, high = to, mu_low = mu(stretch.at(low)), mu_high = 0;
+  if (mu_low >= 1) return buckles_at(low, look(stretch.at(low)));
+  if (high == unlimited) {
+    const double of_loads = mu(loads);
+    if (!(of_loads > 1e-12)) return buckles_at(unlimited, look(stretch.at(low)));
+    for (high = std::max(2 * low, of_loads < unlimited ? 1 / of_loads : 1);
+         (mu_high = mu(stretch.at(high))) < 1; high *= 2)
+      low = high, mu_low = mu_high;
+  } else if ((mu_high = mu(stretch.at(high))) < 1) {
+    return buckles_at(unlimited, look(stretch.at(low)));
+  }
+  const double least = 1e-9 * high;  // what presses on a mechanism does at once
+  for (bool halve = false; high - low > 1e-10 * high && high > least; halve = !halve) {
+    // The chord lies above what is convex and meets 1 below the root; halving closes in from the other side.
+    const double chord = low + (1 - mu_low) / (mu_high - mu_low) * (high - low);
+    const double factor = halve || !(chord > low && chord < high) ? low + (high - low) / 2 : chord;
+    const double now = mu(stretch.at(factor));
+    (now < 1 ? low : high) = factor;
+    (now < 1 ? mu_low : mu_high) = now;
+  }
+  buckles_at(high > least ? high : 0, look(stretch.at(high)));
 }
 
 std::optional<Deformed> ElasticPath::at(double factor) const {
   if (factor >= critical_) return std::nullopt;
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(statics_.B.rows());
-  const Deformed unloaded{0, Eigen::VectorXd::Zero(statics_.B.cols()), none, none};
-  std::optional<Deformed> state = deformed(plan_, statics_, growth_, unloaded, factor);
+  if (first_order_.size() > 1) statics_.let_slack(load_case_, factor);
+  std::optional<Deformed> state = deformed(plan_, statics_, growth_, unloaded(statics_, load_case_), factor);
   if (state) state->forces = carried(plan_, statics_, growth_, *state);
   return state;
 }
 
-std::vector<double> ElasticPath::reached(const Usage& usage) const {
-  std::vector<double> first_order;
-  double largest = 0;
-  for (Index i = 0; 3 * i < first_.forces.size(); ++i) {
-    const double used = usage(static_cast<std::size_t>(i), first_.forces.segment<3>(3 * i));
-    first_order.push_back(used > 0 ? 1 / used : unlimited);
-    largest = std::max(largest, used);
+std::vector<double> ElasticPath::reached(std::size_t items, const Usage& usage) const {
+  std::vector<double> result(items, unlimited);
+  const std::optional<Deformed> none = at(0);
+  if (!none) return result;
+  const std::vector<double> first_order = ductile::reached(first_order_, items, usage);
+  std::vector<double> at_rest;  // what prestress uses
+  for (std::size_t i = 0; i < items; ++i) {
+    at_rest.push_back(usage(i, *none));
+    if (at_rest[i] >= 1) result[i] = 0;
   }
-  for (double& factor : first_order)
-    if (factor * largest > 1e11) factor = unlimited;  // rounding of what is used most
-  std::vector<double> result(first_order.size(), unlimited);
   const double first = *std::min_element(first_order.begin(), first_order.end());
-  if (first == unlimited) return result;
+  if (first == unlimited || first == 0) return result;
 
-  const auto uses = [&](const Deformed& state) {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < result.size(); ++i)
-      all.push_back(usage(i, state.forces.segment<3>(3 * static_cast<Index>(i))));
-    return all;
-  };
-  // Of each joint, factor / usage there and where it was looked at before.
+  // Of each item, factor / (what it uses beyond prestress / what that leaves), and where it was looked at.
   struct Sample {
     double factor;
     std::vector<double> capacity;
@@ -60,8 +158,11 @@ std::vector<double> ElasticPath::reached(const Usage& usage) const {
   const auto sample = [&](double factor) -> std::optional<Sample> {
     const std::optional<Deformed> state = at(factor);
     if (!state) return std::nullopt;
-    Sample now{factor, uses(*state)};
-    for (double& used : now.capacity) used = used > 0 ? factor / used : unlimited;
+    Sample now{factor, {}};
+    for (std::size_t i = 0; i < items; ++i) {
+      const double more = usage(i, *state) - at_rest[i];
+      now.capacity.push_back(more > 0 ? factor * (1 - at_rest[i]) / more : unlimited);
+    }
     return now;
   };
   const auto pass = [&](const Sample& now) {

@@ -243,8 +243,8 @@ std::vector<LoadCase> Equilibrium::cases() const {
     if (load.def.to > 0) starts.insert(std::max(0., load.def.from));
   std::vector<LoadCase> result;
   for (const double time : starts) {
-    LoadCase& now =
-        result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols()), VectorXd::Zero(B.rows())});
+    const VectorXd none = VectorXd::Zero(B.rows());
+    LoadCase& now = result.emplace_back(LoadCase{time, gravity(), VectorXd::Zero(B.cols()), none, none});
     for (const Plan::Load& each : plan_.loads)
       if (each.def.from <= time && each.def.to > time) {
         now.loads += load(each);
@@ -253,9 +253,12 @@ std::vector<LoadCase> Equilibrium::cases() const {
     for (std::size_t i = 0; i < plan_.joints.size(); ++i)
       for (const Row row : {axial, shear, rotation})
         if (held[i]) now.elongation[3 * static_cast<Index>(i) + row] -= plan_.joints[i].displacement[row];
-    for (std::size_t i = 0; i < plan_.joints.size(); ++i)
-      if (const PlannedJoint& j = plan_.joints[i]; held[i] && j.end)  // drawn longer than without force
-        now.elongation[3 * static_cast<Index>(i)] += length(*j.end - j.anchor) - j.length;
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+      const PlannedJoint& j = plan_.joints[i];
+      if (!held[i] || !j.end) continue;
+      const double drawn = length(*j.end - j.anchor), longer = drawn - j.length;  // than without force
+      if (std::abs(longer) > 1e-12 * drawn) now.prestress[3 * static_cast<Index>(i)] = longer;
+    }
   }
   return result;
 }
@@ -268,12 +271,13 @@ ElasticState Equilibrium::elastic(const LoadCase& load_case) const {
 
 // The forces' energy is convex, so the set of taut lines is one: those that pull the wrong way are let go and
 // those that parted too far taken back until nothing changes. A slack line keeps a trace of its stiffness
-// meanwhile, or what hangs on it alone would have no place.
-void Equilibrium::let_slack(const LoadCase& load_case) {
+// meanwhile, or what hangs on it alone would have no place; the force in it says how near it is to being
+// taut.
+double Equilibrium::let_slack(const LoadCase& load_case, double factor) {
   std::vector<std::size_t> lines;
   for (std::size_t i = 0; i < plan_.joints.size(); ++i)
     if (held[i] && plan_.joints[i].carries != Carries::both) lines.push_back(i);
-  if (lines.empty()) return;
+  if (lines.empty()) return unlimited;
   constexpr double trace = 1e-8;
   const std::vector<Root> whole = roots();
   std::vector<bool> slack(plan_.joints.size(), false);
@@ -283,27 +287,50 @@ void Equilibrium::let_slack(const LoadCase& load_case) {
       if (slack[i]) now[i] *= std::sqrt(of_slack);
     stiffen(now);
   };
+  double last = unlimited;
   for (std::size_t round = 0, changes = 1; changes > 0; ++round) {
     if (round > 20 + 2 * lines.size())
       throw InvalidInput({{"joints", "no set of taut ropes and struts balances the loads",
                            "check their lengths, or what they hold"}});
     set(trace);
-    const ElasticState state = elastic(load_case);
-    const double rounding = 1e-10 * state.forces.cwiseAbs().maxCoeff();
+    const VectorXd fixed = prestressed(load_case).forces, growing = elastic(load_case).forces;
+    const double rounding = 1e-10 * (fixed + factor * growing).cwiseAbs().maxCoeff();
     changes = 0;
+    last = unlimited;
     for (const std::size_t i : lines) {
-      const double N = state.forces[3 * static_cast<Index>(i)];
-      const double against = plan_.joints[i].carries == Carries::tension ? -N : N;
+      const double sense = plan_.joints[i].carries == Carries::tension ? -1 : 1;
+      const Index row = 3 * static_cast<Index>(i);
+      const double against = sense * (fixed[row] + factor * growing[row]);
       if (slack[i] ? against < 0 : against > rounding) {
         slack[i] = !slack[i];
         if (++changes == 1 && round > 20) break;  // one by one, should they take turns
       }
+      const double turns = -fixed[row] / growing[row];
+      if (fixed[row] != 0 && turns > factor) last = std::min(last, turns);
     }
   }
   set(0);
+  return last;
 }
 
 Index Equilibrium::freedoms() const { return B.cols() - factors_->L.cols(); }
+
+// With R = [Lᵀ S] the rows of A P that are not 0: of (y, z) = Pᵀ x, y = −L⁻ᵀ S z.
+Eigen::MatrixXd Equilibrium::free_motions() const {
+  const auto& [qr, L] = *factors_;
+  const Index free = freedoms();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(B.cols(), free);
+  if (free == 0) return basis;
+  const SparseMatrix<double> R = qr.matrixR();
+  const Eigen::MatrixXd S = R.topRightCorner(L.cols(), free);
+  basis.topRows(L.cols()) = -L.transpose().triangularView<Eigen::Upper>().solve(S);
+  basis.bottomRows(free).setIdentity();
+  basis = (qr.colsPermutation() * basis).eval();
+  for (Index i = 0; i < free; ++i)
+    basis.col(i) -= motions(B.transpose() * resist(basis.col(i)));  // rounding of y
+  const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(basis);
+  return orthonormal.householderQ() * Eigen::MatrixXd::Identity(B.cols(), free);
+}
 
 // With A = √k B and Y = R/√k: the least-norm solution of Aᵀ Y = f is Q L⁻¹ Pᵀ f.
 VectorXd Equilibrium::least_energy(const VectorXd& f) const {
@@ -348,11 +375,19 @@ double Equilibrium::flexibility(const Eigen::SparseVector<double>& c) const {
   return factors_->forward(c).squaredNorm();
 }
 
+namespace {
+bool is_rounding(const VectorXd& rest, const VectorXd& f) {
+  return rest.cwiseAbs().maxCoeff() <= 1e-6 * f.cwiseAbs().maxCoeff();
+}
+}  // namespace
+
+bool Equilibrium::bears(const VectorXd& f) const { return is_rounding(f - B.transpose() * forces(f), f); }
+
 VectorXd Equilibrium::balanced(const VectorXd& f) const {
   VectorXd kept = B.transpose() * forces(f);
-  Index worst = 0;
-  const double rest = (f - kept).cwiseAbs().maxCoeff(&worst);
-  if (rest > 1e-6 * f.cwiseAbs().maxCoeff()) {
+  if (!is_rounding(f - kept, f)) {
+    Index worst = 0;
+    (f - kept).cwiseAbs().maxCoeff(&worst);
     const auto piece =
         static_cast<std::size_t>(std::find(column.begin(), column.end(), worst / 3 * 3) - column.begin());
     throw InvalidInput({{"piece '" + plan_.pieces[piece].name + "'",

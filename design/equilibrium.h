@@ -6,6 +6,7 @@
 // rows stand at 3·joint; a free row and those of loose structures are empty.
 #pragma once
 
+#include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <array>
 #include <memory>
@@ -20,8 +21,9 @@ struct LoadCase {
   double time = 0;  // s, from when on
   Eigen::VectorXd gravity, loads;
   Eigen::VectorXd elongation;  // by joints' rows, beyond what the pieces' motions make of it: of bars that
-                               // loads bend between pieces (bars.h), of supports whose ground moves, and of
-                               // lines that are not as long as they are drawn
+                               // loads bend between pieces (bars.h) and of supports whose ground moves
+  Eigen::VectorXd prestress;  // the same of lines that are not as long as they are drawn: with the structure,
+                              // not with the loads
 };
 
 /// Motions, and the joints' forces.
@@ -60,15 +62,18 @@ class Equilibrium {
   Eigen::VectorXd gravity() const;
   Eigen::VectorXd load(const Plan::Load& load) const;
   std::vector<LoadCase> cases() const;
-  /// Takes ropes and struts that are slack under these loads, of first order, out of the structure. Throws as
-  /// balanced() does.
-  void let_slack(const LoadCase& load_case);
-  /// Of first order. Throws as balanced() does.
+  /// Takes ropes and struts that are slack under so many times these loads, of first order, out of the
+  /// structure. Returns the factor up to which the same ones are. Throws as balanced() does.
+  double let_slack(const LoadCase& load_case, double factor = 1);
+  /// Of first order, of the loads alone and of prestress alone. Throws as balanced() does.
   ElasticState elastic(const LoadCase& load_case) const;
+  ElasticState prestressed(const LoadCase& load_case) const { return imposed(load_case.prestress); }
 
   /// Motions that no joint resists.
   Eigen::Index freedoms() const;
   bool is_mechanism() const { return freedoms() > 0; }
+  /// A basis of them, orthonormal in B's columns.
+  Eigen::MatrixXd free_motions() const;
 
   /// By joints, of a and b; empty where pieces are rigid.
   const std::vector<std::array<Arm, 2>>& arms() const { return arms_; }
@@ -92,6 +97,8 @@ class Equilibrium {
   ElasticState imposed(const Eigen::VectorXd& elongation) const;
   /// cᵀ x of those motions for f = c: what a functional c of the motion gives way to a unit load on it.
   double flexibility(const Eigen::SparseVector<double>& c) const;
+  /// Whether it does not move a mechanism, but for rounding.
+  bool bears(const Eigen::VectorXd& f) const;
   /// f without what would drive a mechanism. Throws InvalidInput, naming the piece, where that is more than
   /// rounding: 1e-6 of the load on it.
   Eigen::VectorXd balanced(const Eigen::VectorXd& f) const;

@@ -38,6 +38,7 @@ class Pushing {
   /// From the factor 0 as far as `last`; false where the structure goes before.
   bool push(const Growth& growth, double last) {
     state_.factor = 0;
+    if (falls_at_once(growth)) return false;
     const std::size_t most = most_events_per_joint * plan_.joints.size() + 100;
     for (std::size_t event = 0; event < most; ++event) {
       statics_.stiffen(flow_.roots());
@@ -83,6 +84,15 @@ class Pushing {
   std::vector<Motion> mechanism;
 
  private:
+  // Whether the least of these loads pushes on a motion that strains nothing, with nothing there to hold it.
+  bool falls_at_once(const Growth& growth) {
+    if (freedoms_ == 0 || !state_.primary.isZero(0)) return false;
+    const VectorXd forces = statics_.forces(growth.growing) + statics_.imposed(growth.elongation).forces;
+    const auto K_g = geometric_stiffness(plan_, statics_, growth, {1, {}, forces, forces});
+    if (K_g.pushed.size() > 0) mechanism = shape_of(plan_, statics_, K_g.pushed);
+    return K_g.pushed.size() > 0;
+  }
+
   enum class Ends { at_a_hinge, at_the_last, by_buckling };
 
   // Up to the next hinge, to `last`, or to where it buckles. `rates`: of the joints' forces.
@@ -160,7 +170,8 @@ class Pushing {
   Ends buckle(const Growth& growth, double high) {
     double low = state_.factor;
     Deformed last = state_;
-    while (high - low > 1e-7 * high) {
+    const double least = 1e-9 * high;  // a mechanism goes at once
+    while (high - low > 1e-7 * high && high > least) {
       const double middle = (low + high) / 2;
       std::optional<Deformed> there = deformed(plan_, statics_, growth, state_, middle);
       if (there && !buckled(growth, *there)) {
@@ -223,8 +234,15 @@ Pushover second_order_limit(const Plan& plan, bool fixed_gravity) {
     if (growing.isZero(0) && load_case.elongation.isZero(0)) continue;
     loaded = true;
     Pushing pushing(plan, yields);
+    const VectorXd still = VectorXd::Zero(statics.B.rows());
+    if (!load_case.prestress.isZero(0)) {
+      if (!pushing.push({none, none, load_case.prestress, load_case.time, false}, 1))
+        throw InvalidInput({{"joints", "the lengths of its lines bring the structure down before any load",
+                             "give them lengths nearer to those that they are drawn with"}});
+      for (Reached& hinge : pushing.hinges) hinge.factor = 0;
+    }
     if (fixed_gravity) {
-      if (!pushing.push({none, gravity, VectorXd::Zero(statics.B.rows()), load_case.time, false}, 1))
+      if (!pushing.push({none, gravity, still, load_case.time, false}, 1))
         throw InvalidInput(
             {{"loads", "cannot be carried, even times 0: gravity alone brings the structure down",
               "let gravity grow with the loads (without --fixed-gravity), or strengthen it"}});

@@ -137,6 +137,7 @@ Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, d
   require_positive(target);
   constexpr double within = 1e-9;  // of the target, as reach() meets it
   std::optional<double> best;
+  bool yields = true;
   std::vector<Problem> refused;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Plan plan;
@@ -147,10 +148,17 @@ Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, d
       continue;
     }
     const double reached = measured(plan, measure, order);
+    if (reached == unlimited && !is_at_most(measure)) {  // as of a single piece, which is rigid
+      yields = false;
+      continue;
+    }
     if (is_at_most(measure) ? reached <= (1 + within) * target : reached >= (1 - within) * target)
       return {static_cast<double>(i), reached, candidates[i]};
     if (!best || (is_at_most(measure) ? reached < *best : reached > *best)) best = reached;
   }
+  if (!best && !yields)
+    throw InvalidInput({{"target", "no load of this kind makes any of the list yield",
+                         "split what is of one piece, which is rigid, or give loads that bend it"}});
   if (!best && !refused.empty()) throw InvalidInput(std::move(refused));
   throw InvalidInput(
       {{"target", "none of the list reaches it: the best comes to " + to_string(best.value_or(0)),

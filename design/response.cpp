@@ -39,7 +39,7 @@ Response::Response(const Plan& plan, double impact)
 void Response::lean() {
   VectorXd forces = VectorXd::Zero(statics_.B.rows());
   for (const Answer& answer : answers_) forces += answer.forces;
-  const Eigen::SparseMatrix<double> K_g =
+  const GeometricStiffness K_g =
       geometric_stiffness(plan_, statics_, forces, [](const Plan::Load&) { return 1.; });
   for (std::size_t s = 0; s < swing_.size(); ++s) {
     VectorXd start(statics_.B.cols());  // some of every mode

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace ductile {
 
@@ -48,7 +49,11 @@ double factor_for(double target, const std::function<double(double)>& result,
   if (const auto x = factor_along(power, target, result)) return *x;
   const std::string why = why_not();
   if (const auto x = factor_along(-power, target, result)) return *x;
-  throw InvalidInput({{"target", "no number reaches it: " + why, "change what governs, or the target"}});
+  const double now = result(1);
+  const bool changes = std::abs(result(2) - now) > 1e-9 * std::abs(now);
+  throw InvalidInput(
+      {{"target", "no number reaches it: " + why + (changes ? "" : ", and the same whatever that number is"),
+        "change what governs, or the target"}});
 }
 
 }  // namespace ductile

@@ -171,6 +171,12 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
                  "name a section or scene file; a scene takes outlines from \"drawing.svg#id\"");
     problems.check();
   }
+  if (const auto nul = text.find('\0');
+      nul != std::string_view::npos) {  // which the parser takes for its end
+    problems.add(line_and_column(text, nul), "has a NUL byte, of which text has none",
+                 "save it as plain text");
+    problems.check();
+  }
   Builder builder(text, problems);
   constexpr bool strict = true, ignore_comments = true;
   nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, strict,

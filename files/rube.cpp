@@ -150,6 +150,9 @@ std::string Item::text(const char* key) const { return has(key) ? at(key).text()
 int Item::integer(const char* key, int low, int high, int missing) const {
   return has(key) ? at(key).integer(low, high).value_or(missing) : missing;
 }
+std::optional<int> Item::index(const char* key, int most) const {
+  return has(key) ? at(key).integer(0, most) : 0;
+}
 std::vector<Value> Item::list(const char* key) const {
   return has(key) ? at(key).elements() : std::vector<Value>{};
 }

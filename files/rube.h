@@ -37,6 +37,8 @@ class Item {
   bool boolean(const char* key, bool missing = false) const;
   std::string text(const char* key) const;
   int integer(const char* key, int low, int high, int missing = 0) const;
+  /// Of a body, 0 where the key is missing; none where it is no such number, which is told.
+  std::optional<int> index(const char* key, int most) const;
   std::vector<Value> list(const char* key) const;
   /// {"x": […], "y": […]}
   std::vector<Point> vectors(const char* key) const;

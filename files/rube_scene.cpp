@@ -112,7 +112,9 @@ void Reader::joint(int index, const Value& value) {
   if (!value.json().is_object()) return value.wrong("is " + value.shown(), "write an object, {...}");
   const int most = static_cast<int>(bodies_.size()) - 1;
   if (most < 0) return value.wrong("joins bodies where there are none", "give the scene bodies");
-  const int a = item.integer("bodyA", 0, most), b = item.integer("bodyB", 0, most);
+  const std::optional<int> of_a = item.index("bodyA", most), of_b = item.index("bodyB", most);
+  if (!of_a || !of_b) return;
+  const int a = *of_a, b = *of_b;
   if (a == b) return value.wrong("joins body " + std::to_string(a) + " to itself", "give two bodies");
   if (item.custom("ductile.N", {"float", "int", "string"}) ||
       item.custom("ductile.M", {"float", "int", "string"}))

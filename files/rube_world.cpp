@@ -139,8 +139,10 @@ void World::check(const Body& body) {
 
 void World::check(const Item& item) {
   const int most = static_cast<int>(bodies_.size()) - 1;
-  const int a = item.integer("bodyA", 0, most), b = item.integer("bodyB", 0, most);
-  if (a == b) item.value().wrong("joins body " + std::to_string(a) + " to itself", "give two bodies");
+  const std::optional<int> of_a = item.index("bodyA", most), of_b = item.index("bodyB", most);
+  const int a = of_a.value_or(0), b = of_b.value_or(0);
+  if (of_a && of_b && a == b)
+    item.value().wrong("joins body " + std::to_string(a) + " to itself", "give two bodies");
   const std::string type = item.text("type");
   if (type == "prismatic" || type == "wheel") {
     const Point axis = item.vector(item.has("localAxisA") ? "localAxisA" : "localAxis1");

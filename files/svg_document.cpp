@@ -198,6 +198,9 @@ Document::Document(std::string_view data, std::string file) : name(std::move(fil
            "encoding=\"windows-1252\"?>, iso-8859-1 or UTF-16");
   }
   root = xml.document_element();
+  if (local_name(root) == "map")
+    refuse("1:1", "is a map of Tiled, whose polygons are no bodies yet",
+           "make a scene of them, as docs/files/starting.md shows");
   if (local_name(root) != "svg") {
     refuse("1:1", "has <" + std::string(root.name()) + "> where <svg> should stand", "name an SVG drawing");
   }

@@ -15,6 +15,8 @@
 namespace ductile::picture {
 namespace {
 
+using diagram::Station, diagram::Strip, diagram::strips;
+
 // Ordinates: tension, and moments; compression.
 constexpr Colour positive{0x2b, 0x7b, 0xba}, negative{0xd9, 0x6a, 0x1e};
 

@@ -157,7 +157,7 @@ std::string table(const Plan& plan, const std::string& scene) {
   }
   for (std::size_t i = 0; i < plan.reasons.size(); ++i)
     text += fmt::format("[{}] {}\n", i + 1, one_line(plan.reasons[i]));
-  if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
+  if (const std::string notes = profile_lines(plan) + lines(remarks(plan)); !notes.empty())
     text += '\n' + notes;
   return text;
 }

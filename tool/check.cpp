@@ -26,11 +26,18 @@ struct Found {
   CriticalLoad critical;
   FirstFibre fibre;
   Reached hinge;
+  std::vector<MissedMoment> missed;
 };
 
 Json json(const Plan& plan, const Reached& reached) {
   return {{"joint", reached.joint < 0 ? Json(nullptr) : Json(joint_name(plan, reached.joint))},
           {"factor", number(reached.factor)}};
+}
+
+Json json(const Plan& plan, const FirstFibre& fibre) {
+  Json result = json(plan, static_cast<const Reached&>(fibre));
+  if (fibre.piece >= 0) result["piece"] = piece_name(plan, fibre.piece);
+  return result;
 }
 
 Json json(const Plan& plan, const Found& found) {
@@ -55,7 +62,7 @@ Json json(const Plan& plan, const Found& found) {
           {"first_fibre", json(plan, found.fibre)},
           {"first_hinge", json(plan, found.hinge)},
           {"profiles", profiles_json(plan)},
-          {"remarks", remarks(plan)},
+          {"remarks", remarks(plan, found.critical, found.missed)},
           {"time", check.time},
           {"loose", loose_names(plan)}};
 }
@@ -71,9 +78,10 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
   } else {
     text += "no load of this kind makes a joint yield";
   }
-  if (found.fibre.joint >= 0)
-    text += fmt::format("\nfirst fibre at {:.6g} times the loads, in {}", found.fibre.factor,
-                        joint_name(plan, found.fibre.joint));
+  if (found.fibre.factor < unlimited)
+    text += fmt::format(
+        "\nfirst fibre at {:.6g} times the loads, in {}", found.fibre.factor,
+        found.fibre.joint >= 0 ? joint_name(plan, found.fibre.joint) : piece_name(plan, found.fibre.piece));
   text += '\n' + buckling_line(options.second_order, found.critical.factor);
   if (options.second_order && found.critical.factor <= 1)
     text += ": these loads leave it no state to tell of";
@@ -89,7 +97,8 @@ std::string table(const Plan& plan, const Found& found, const Options& options) 
                         percent(j.usage.N), percent(j.usage.Q), percent(j.usage.M),
                         shown(found.fibre.joints[i]), shown(j.yields_at));
   }
-  if (const std::string notes = profile_lines(plan) + remark_lines(plan); !notes.empty())
+  if (const std::string notes = profile_lines(plan) + lines(remarks(plan, found.critical, found.missed));
+      !notes.empty())
     text += '\n' + notes;
   if (check.time > 0) text += fmt::format("\nthe loads are those from {:g} s on\n", check.time);
   const std::string loose = loose_line(plan);
@@ -133,6 +142,7 @@ std::string run(const Options& options) {
   const Found found = in_file(options.scene, [&] {
     Found all{.check = static_check(plan, order), .critical = critical_load(plan)};
     all.fibre = first_fibre(plan, all.check, order);
+    all.missed = missed_moments(plan, all.check, order);
     if (!all.check.first_to_yield.empty()) {
       const int first = all.check.first_to_yield.front();
       all.hinge = {first, all.check.joints[static_cast<std::size_t>(first)].yields_at};

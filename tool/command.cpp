@@ -135,7 +135,8 @@ std::string joint_name(const Plan& plan, int joint) {
 
 std::string buckling_line(bool second_order, double critical_load_factor) {
   return std::string(second_order ? "second order" : "first order") +
-         (critical_load_factor < unlimited
+         (critical_load_factor == 0 ? "; unstable under any multiple of the loads"
+          : critical_load_factor < unlimited
               ? fmt::format("; buckles at {:.6g} times the loads", critical_load_factor)
               : "; does not buckle");
 }

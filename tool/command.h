@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ductile/calibrate.h"
+#include "ductile/design.h"
 #include "ductile/files.h"
 
 namespace ductile::tool {
@@ -115,10 +116,16 @@ Json number(double value);
 /// The same for a table: "-" where it is unlimited or does not exist.
 std::string shown(double value);
 
+/// Names in the order in which they came, the first few of them.
+std::string list_of(const std::vector<std::string>& names);
+
 /// What one has to know of a plan's capacities, a remark each: which bodies break before a hinge turns, or
 /// whether a drawing seems to be in millimetres, for two. As lines of a table and for --json.
 std::vector<std::string> remarks(const Plan& plan);
-std::string remark_lines(const Plan& plan);
+/// And of what may become of it under its loads.
+std::vector<std::string> remarks(const Plan& plan, const CriticalLoad& critical,
+                                 const std::vector<MissedMoment>& missed);
+std::string lines(const std::vector<std::string>& remarks);
 /// What no joint holds, by name: statics leaves it out with its weight. And as a line of a table, where there
 /// is something.
 std::vector<std::string> loose_names(const Plan& plan);

@@ -224,7 +224,7 @@ std::string run(const Options& options) {
         {{options.scene.name + ":file", "is a level of R.U.B.E.",
           "design works on scene files and drawings; give the scene that the level was made of"}});
   const Outputs outputs{{"--out", {options.out}}};
-  if (is_drawing(text)) keep_inputs({options.scene.name}, outputs);
+  keep_inputs({options.scene.name}, outputs);
   if (options.by == "profile") keep_inputs(options.among, outputs);
   const SceneDef scene = scene_of(options.scene, text, outputs);
   const std::vector<std::size_t> bodies = bodies_of(scene, options);
@@ -235,7 +235,10 @@ std::string run(const Options& options) {
   warn_of_splits(plan, options.scene);
   const double mass = measured(plan, Measure::mass);
   const bool all_counts = target.measure == Measure::mass;  // what is loose weighs, and does nothing else
-  const double critical = has_order ? critical_load(plan).factor : unlimited;
+  const CriticalLoad critical = has_order ? critical_load(plan) : CriticalLoad{};
+  const bool yields = target.measure == Measure::reserve || target.measure == Measure::collapse;
+  const std::vector<std::string> notes = remarks(
+      plan, critical, yields ? missed_moments(plan, static_check(plan)) : std::vector<MissedMoment>{});
   if (!options.out.empty()) {
     const std::filesystem::path folder = std::filesystem::path(options.out).parent_path();
     files.write(options.out, edited_scene(text, answer.reach.scene, folder));
@@ -243,8 +246,8 @@ std::string run(const Options& options) {
   files.keep();
   if (options.json) {
     Json result{{"value", answer.value}, {"reached", answer.reach.reached}, {"mass", mass}};
-    if (has_order) result["critical_load_factor"] = number(critical);
-    result["remarks"] = remarks(plan);
+    if (has_order) result["critical_load_factor"] = number(critical.factor);
+    result["remarks"] = notes;
     result["loose"] = all_counts ? std::vector<std::string>{} : loose_names(plan);
     return result.dump() + "\n";
   }
@@ -254,8 +257,8 @@ std::string run(const Options& options) {
   return fmt::format("{}: {} {}{}\n{} of {:.6g}{}{}\n{}{}", options.scene.name, options.by, answer.shown, of,
                      target.name, answer.reach.reached, target.unit,
                      target.measure == Measure::mass ? "" : fmt::format(", mass {:.6g} kg", mass),
-                     has_order ? buckling_line(options.second_order, critical) + '\n' : "",
-                     remark_lines(plan) + (all_counts ? "" : loose_line(plan)));
+                     has_order ? buckling_line(options.second_order, critical.factor) + '\n' : "",
+                     lines(notes) + (all_counts ? "" : loose_line(plan)));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Found {
   LimitAnalysis limit;
   CriticalLoad critical;
   Pushover pushover;  // of second order
+  std::vector<MissedMoment> missed;
 };
 
 /// Whether supports that are displaced are all that grows.
@@ -49,7 +50,7 @@ Json json(const Plan& plan, const Found& found, const Options& options) {
               {"hinges", std::move(hinges)},
               {"time", found.limit.time},
               {"critical_load_factor", number(found.critical.factor)},
-              {"remarks", remarks(plan)},
+              {"remarks", remarks(plan, found.critical, found.missed)},
               {"loose", loose_names(plan)}};
   if (options.second_order) {
     result["second_order_load_factor"] = number(found.pushover.load_factor);
@@ -93,7 +94,7 @@ std::string text(const Plan& plan, const Found& found, const Options& options) {
                           shown(N), shown(Q), shown(M));
     }
   }
-  text += remark_lines(plan) + loose_line(plan);
+  text += lines(remarks(plan, found.critical, found.missed)) + loose_line(plan);
   if (found.limit.time > 0) text += fmt::format("the loads are those from {:g} s on\n", found.limit.time);
   return text;
 }
@@ -129,7 +130,7 @@ std::string run(const Options& options) {
   const Plan plan = plan_of(options.scene, NotInPlan::left_out, outputs);
   NewFiles files(outputs);
   const Found found = in_file(options.scene, [&] {
-    Found all{.critical = critical_load(plan)};
+    Found all{.critical = critical_load(plan), .missed = missed_moments(plan, static_check(plan))};
     if (!options.second_order || !is_displaced_only(plan, options))
       all.limit = limit_analysis(plan, options.fixed_gravity);
     if (options.second_order) all.pushover = second_order_limit(plan, options.fixed_gravity);

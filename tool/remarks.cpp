@@ -23,15 +23,14 @@ double ductility(const Material& material) {
              : std::numeric_limits<double>::infinity();
 }
 
-namespace {
-
-/// Names in the order in which they came, the first few of them.
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 5;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
   return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
+
+namespace {
 
 /// Of a body's section; without one, as of bodies without material, infinite.
 double least_ductile(const BodyDef& body) {
@@ -50,12 +49,12 @@ bool bends_sideways(const BodyDef& body) {
   return (I_max - I_min) * std::abs(axes.strong.x * axes.strong.y) > 1e-6 * I_max;
 }
 
-/// Bars of one piece that joints hold in several places: such a piece is rigid.
+/// Bars of one piece that joints hold in several places or against turning: such a piece is rigid.
 std::vector<std::string> rigid_bars(const Plan& plan) {
   std::vector<int> joints(plan.pieces.size()), pieces(plan.bodies.size());
   for (const PlannedJoint& joint : plan.joints)
     for (const int piece : {joint.a, joint.b})
-      if (piece >= 0) ++joints[static_cast<std::size_t>(piece)];
+      if (piece >= 0) joints[static_cast<std::size_t>(piece)] += joint.M > 0 || joint.M_reverse > 0 ? 2 : 1;
   for (const Piece& piece : plan.pieces) ++pieces[static_cast<std::size_t>(piece.body)];
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
@@ -189,14 +188,13 @@ std::vector<std::string> remarks(const Plan& plan) {
   }
   if (const std::vector<std::string> rigid = rigid_bars(plan); !rigid.empty())
     result.push_back(list_of(rigid) +
-                     ": one piece is rigid: between its joints it neither bends nor yields nor buckles; "
+                     ": one piece is rigid: beyond its joints it neither bends nor yields nor buckles; "
                      "split it into several");
   if (const std::vector<std::string> clamped = clamped_at_cuts(plan); !clamped.empty())
     result.push_back(
         list_of(clamped) +
         ": a node holds it at one of its cuts, and the piece on one side takes the whole moment: "
-        "elastic forces and displacements are off, the less the shorter its pieces are; put a "
-        "piece's middle there, as an odd number of pieces does in the middle of a bar");
+        "elastic forces and displacements are off, the less the shorter its pieces are; split it into more");
   if (const Askew askew = cuts_askew(plan); !askew.names.empty()) {
     const double longer = askew.height / askew.width;
     result.push_back(fmt::format(
@@ -233,9 +231,9 @@ std::string loose_line(const Plan& plan) {
   return names.empty() ? "" : "loose, and not looked at: " + list_of(names) + '\n';
 }
 
-std::string remark_lines(const Plan& plan) {
+std::string lines(const std::vector<std::string>& remarks) {
   std::string text;
-  for (const std::string& remark : remarks(plan)) text += remark + '\n';
+  for (const std::string& remark : remarks) text += remark + '\n';
   return text;
 }
 

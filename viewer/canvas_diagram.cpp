@@ -15,13 +15,13 @@ namespace ductile::viewer {
 void Canvas::diagram() {
   const Plan& plan = bench_->plan();
   const Frame& frame = bench_->frame();
-  const std::vector<picture::Strip> all = picture::strips(plan, frame.joints);
-  const auto value = [this](const picture::Station& s) {
+  const std::vector<diagram::Strip> all = diagram::strips(plan, frame.joints);
+  const auto value = [this](const diagram::Station& s) {
     return *look_.diagram == axial ? s.N : *look_.diagram == shear ? s.Q : s.M;
   };
   double largest = 0;
-  for (const picture::Strip& strip : all)
-    for (const picture::Station& station : strip.stations)
+  for (const diagram::Strip& strip : all)
+    for (const diagram::Station& station : strip.stations)
       largest = std::max(largest, std::abs(value(station)));
   if (!(largest > 0)) return;
   const double height = 60 * ui_ / largest;  // px per unit
@@ -31,13 +31,13 @@ void Canvas::diagram() {
     double value;
   };
   std::vector<Ordinate> most(plan.bodies.size());  // of each body
-  for (const picture::Strip& strip : all) {
+  for (const diagram::Strip& strip : all) {
     const auto piece = static_cast<std::size_t>(strip.piece);
     Point aside = left(strip.axis);
     const bool up = aside.y > 1e-9 || (aside.y > -1e-9 && aside.x < 0);
     if (*look_.diagram == rotation || !up) aside = -aside;
     aside = Rotation(frame.pieces[piece].angle) * aside;
-    const auto ordinate = [&](const picture::Station& station) {
+    const auto ordinate = [&](const diagram::Station& station) {
       const Point at = camera_.to_screen(carried(plan, strip.piece, station.at, frame));
       const double v = value(station);
       return Ordinate{at, at + height * v * Point{aside.x, -aside.y}, v};

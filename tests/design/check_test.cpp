@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "ductile/design.h"
 #include "ductile/files.h"
@@ -310,6 +313,75 @@ TEST(StaticCheck, RoundingIsNoForce) {
     EXPECT_EQ(check.joints[i].Q, 0) << plan.joints[i].name;
     EXPECT_EQ(check.joints[i].M, 0) << plan.joints[i].name;
     EXPECT_NEAR(check.joints[i].N / -P, 1, 1e-12);
+  }
+}
+
+// A beam on two supports in seven pieces, P in its middle: PL/4 there, of which the cuts beside it, at 3L/7,
+// see 6/7. The first fibre yields at W f_y/(PL/4), M_p/1.5 of a rectangle.
+TEST(MissedMoments, OfALoadWithinAPiece) {
+  const Plan plan = calibrate(simply_supported(7, 1e6));
+  const StaticCheck check = static_check(plan);
+  const std::vector<MissedMoment> missed = missed_moments(plan, check);
+  ASSERT_EQ(missed.size(), 1u);
+  EXPECT_EQ(plan.pieces[static_cast<std::size_t>(missed[0].piece)].name, "beam/3");
+  EXPECT_NEAR(missed[0].factor, 7. / 6, 1e-9);
+  for (const Order order : {Order::first, Order::second}) {
+    const FirstFibre fibre = first_fibre(plan, check, order);
+    EXPECT_EQ(fibre.joint, -1);
+    EXPECT_EQ(fibre.piece, missed[0].piece);
+    // Of second order turned pieces carry some of the load along them: 1e-6 with a slope of 1e-3.
+    EXPECT_NEAR(fibre.factor / (plastic_moment / 1.5 / (1e6 * 20 / 4)), 1,
+                order == Order::first ? 1e-9 : 1e-5);
+  }
+  const Plan even = calibrate(simply_supported(8, 1e6));
+  EXPECT_TRUE(missed_moments(even, static_check(even)).empty());
+  EXPECT_EQ(even.joints[static_cast<std::size_t>(first_fibre(even, static_check(even)).joint)].name,
+            "beam/3-beam/4");
+}
+
+// Its own weight, w: wL²/8 in the middle of three pieces, whose cuts see wL²/9.
+TEST(MissedMoments, OfItsOwnWeight) {
+  SceneDef scene = simply_supported(3, 0);
+  scene.gravity = {0, -10};
+  const Plan plan = calibrate(scene);
+  const std::vector<MissedMoment> missed = missed_moments(plan, static_check(plan));
+  ASSERT_EQ(missed.size(), 1u);
+  EXPECT_NEAR(missed[0].factor, 9. / 8, 1e-9);
+}
+
+// It goes on beyond its second support, at 12 m in the middle of the third of five pieces of 5 m, by 13 m to
+// P: 13 P over the support, 10/12 of it at the cut before.
+TEST(MissedMoments, OfASupportWithinAPiece) {
+  SceneDef scene = simply_supported(5, 1e6);
+  scene.bodies[0] = beam(5, 25);
+  scene.supports[1].at.x = 12;
+  scene.loads[0].at.x = 25;
+  const Plan plan = calibrate(scene);
+  const std::vector<MissedMoment> missed = missed_moments(plan, static_check(plan));
+  ASSERT_EQ(missed.size(), 1u);
+  EXPECT_NEAR(missed[0].factor, 1.2, 1e-9);
+  const FirstFibre fibre = first_fibre(plan, static_check(plan));
+  EXPECT_EQ(fibre.joint, joint_named(plan, "support/1"));
+  EXPECT_NEAR(fibre.factor, plastic_moment / 1.5 / 13e6, 1e-9);
+}
+
+// A mast with an arm welded to its top: the corner has all of the moment, whichever number of pieces there
+// are, and the thinner of the two yields first, at W f_y/(P l).
+TEST(FirstFibre, OfAWeldedCorner) {
+  for (const int pieces : {2, 8}) {
+    SceneDef scene = cantilever(pieces, 0);
+    scene.bodies.push_back(beam(pieces, 10, 0.5));
+    scene.bodies[2].name = "arm";
+    scene.bodies[2].at = {20, 0};
+    scene.bodies[2].angle = std::numbers::pi / 2;
+    scene.joints.push_back({.a = "beam", .b = "arm", .at = Point{20, 0}, .welded = true});
+    scene.loads = {{.body = "arm", .at = {20, 10}, .force = {1e6, 0}}};
+    const Plan plan = calibrate(scene);
+    const FirstFibre fibre = first_fibre(plan, static_check(plan));
+    const double expected = plastic_moment * 0.25 / 1.5 / 1e7;
+    EXPECT_EQ(fibre.joint, joint_named(plan, "beam/" + std::to_string(pieces - 1) + "-arm/0"));
+    EXPECT_NEAR(fibre.factor, expected, 1e-9 * expected);
+    EXPECT_LT(fibre.factor, static_check(plan).reserve);
   }
 }
 

@@ -280,6 +280,88 @@ TEST(CriticalLoad, ALeaningColumn) {
   }
 }
 
+// A prop on two pins that leans on nothing: it turns without strain, and any load on it pushes it over.
+// The same with a hinge in the middle, and of a portal with pins at its corners.
+TEST(CriticalLoad, WhatMovesWithoutStrainFallsUnderAnyLoad) {
+  const Frame f;
+  SceneDef prop = on_two_pins();
+  prop.supports.pop_back();
+  SceneDef hinged = on_two_pins();
+  BodyDef half = beam(n / 2, L / 2);
+  hinged.bodies = {half, half};
+  hinged.bodies[1].name = "upper";
+  hinged.bodies[1].at = {L / 2, 0};
+  hinged.joints = {{.a = "beam", .b = "upper", .at = Point{L / 2, 0}}};
+  hinged.supports[1].body = hinged.loads[0].body = "upper";
+  SceneDef portal = bending_only();
+  portal.bodies = {f.member("left", rectangle(-f.t / 2, 0, f.t / 2, f.h), {0, 0}, {0, f.h}),
+                   f.member("right", rectangle(f.l - f.t / 2, 0, f.l + f.t / 2, f.h), {f.l, 0}, {f.l, f.h}),
+                   f.member("girder", rectangle(0, f.h - f.t / 2, f.l, f.h + f.t / 2), {0, f.h}, {f.l, f.h})};
+  for (const double x : {0., f.l}) {
+    const std::string column = x == 0 ? "left" : "right";
+    portal.joints.push_back({.a = column, .b = "girder", .at = Point{x, f.h}});
+    portal.supports.push_back({.body = column, .at = {x, 0}, .fix_x = true, .fix_y = true});
+  }
+  portal.loads = {{.body = "girder", .at = {f.l / 2, f.h}, .force = {0, -1e-3}}};
+  for (const SceneDef& scene : {prop, hinged, portal}) {
+    const Plan plan = calibrate(scene);
+    const CriticalLoad load = critical_load(plan);
+    EXPECT_EQ(load.factor, 0);
+    ASSERT_EQ(load.mechanism.size(), plan.pieces.size());
+    EXPECT_EQ(static_check(plan, Order::second).reserve, 0);
+    const Pushover pushed = second_order_limit(plan);
+    EXPECT_EQ(pushed.load_factor, 0);
+    EXPECT_EQ(pushed.mechanism.size(), plan.pieces.size());
+    SceneDef pulled = scene;
+    Point& force = pulled.loads[0].force;
+    force = {-force.x, -force.y};
+    const CriticalLoad held = critical_load(calibrate(pulled));
+    EXPECT_TRUE(held.mechanism.empty()) << "the loads hold it, as they hold a pendulum";
+    EXPECT_GT(held.factor, 1);
+  }
+  // The girder moves on a level, and the columns turn about their feet.
+  const Plan plan = calibrate(portal);
+  const CriticalLoad load = critical_load(plan);
+  const double way = load.mechanism.back().along.x;
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+    const double share = plan.pieces[i].body == 2 ? 1 : plan.pieces[i].center.y / f.h;
+    EXPECT_NEAR(load.mechanism[i].along.x / way, share, 1e-9);
+    EXPECT_NEAR(load.mechanism[i].turn * f.h / way, plan.pieces[i].body == 2 ? 0 : -1, 1e-9);
+  }
+}
+
+// A weight that hangs from a column's top on a bar with a pin follows it wherever it goes: Euler's column
+// with the load on its top. What stands there on such a pin falls at once.
+TEST(CriticalLoad, AWeightThatHangsFromAColumn) {
+  SceneDef scene = cantilever(n, 0);
+  BodyDef bob = beam(1, 3);
+  bob.name = "bob";
+  bob.at = {L - 3, 0};
+  scene.bodies.push_back(bob);
+  scene.joints.push_back({.a = "beam", .b = "bob", .at = Point{L, 0}});
+  scene.loads = {{.body = "bob", .at = {L - 3, 0}, .force = {-1, 0}}};
+  EXPECT_NEAR(critical(scene) / (pi * pi * EI / (4 * L * L)), 1, within);
+  EXPECT_TRUE(critical_load(slender(scene)).mechanism.empty());
+  scene.bodies.back().at.x = L;
+  scene.loads[0].at.x = L + 3;
+  EXPECT_EQ(critical(scene), 0);
+}
+
+// A bar on rollers alone, pressed from both ends, buckles at Euler's load, and nothing keeps it in its place.
+TEST(CriticalLoad, WhatIsAdriftBucklesAllTheSame) {
+  SceneDef scene = on_two_pins();
+  scene.supports[0].fix_x = false;
+  scene.loads.push_back({.body = "beam", .at = {0, 0}, .force = {1, 0}});
+  const Plan plan = slender(scene);
+  const CriticalLoad load = critical_load(plan);
+  EXPECT_NEAR(load.factor / (pi * pi * EI / (L * L)), 1, within);
+  ASSERT_EQ(load.mechanism.size(), plan.pieces.size());
+  for (const Motion& m : load.mechanism) {
+    EXPECT_NEAR(std::abs(m.along.x), 1, 1e-9);
+    EXPECT_NEAR(m.along.y, 0, 1e-9);
+  }
+}
+
 TEST(CriticalLoad, TheModeIsTheDisplacementOfThePieces) {
   const CriticalLoad load = critical_load(slender(on_two_pins()));
   for (int i = 0; i < n; ++i) {

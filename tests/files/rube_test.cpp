@@ -481,6 +481,16 @@ TEST(Rube, SupportsAndProfilesSurvive) {
 
 // --- what is wrong with a file ---
 
+TEST(Rube, AWrongIndexIsOneError) {
+  for (const json& wrong : {json(7), json(1.5)}) {
+    json scene = level();
+    scene["joint"][0]["bodyB"] = wrong;
+    const std::string error = error_of(scene.dump());
+    EXPECT_NE(error.find("joint[0].bodyB: is " + wrong.dump()), std::string::npos) << error;
+    EXPECT_EQ(error.find("to itself"), std::string::npos) << error;
+  }
+}
+
 struct Spoilt {
   const char* name;
   std::function<void(json&)> spoil;

@@ -410,6 +410,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"empty", " \n", "2:1: is empty; save it anew"},
         Bad{"latin1", "{\"bodies\": [\n{\"name\": \"B\xE4r\"}]}", "2:12: has a byte that is no UTF-8"},
         Bad{"utf16", std::string("\xFF\xFE{\0}\0", 6), "1:1: is in UTF-16"},
+        Bad{"nul", std::string("{\"bodies\": []}\n\0x", 16), "2:1: has a NUL byte"},
         Bad{"map_of_tiled", R"({"type": "map", "layers": [], "tilewidth": 32})", "top level: has \"layers\""},
         Bad{"no_bodies", "{}", "top level: has no \"bodies\""},
         Bad{"bodies_is_no_list", R"({"bodies": {}})", "bodies: "},

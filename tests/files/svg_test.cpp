@@ -346,6 +346,17 @@ INSTANTIATE_TEST_SUITE_P(
             "half transparent"}),
     [](const auto& info) { return info.param.name; });
 
+TEST(Svg, AMapOfTiledIsToldSo) {
+  try {
+    const Drawing drawing("<?xml version='1.0'?><map version='1.10'><tileset/></map>", "level.tmx");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_EQ(error.problems()[0].place, "level.tmx:1:1");
+    EXPECT_EQ(error.problems()[0].what, "is a map of Tiled, whose polygons are no bodies yet");
+  }
+}
+
 TEST(Svg, ADrawingWithoutSizeNeedsAScale) {
   for (const char* attributes :
        {"viewBox='0 0 100 100'", "width='100' height='100' viewBox='0 0 100 100'",

@@ -349,8 +349,8 @@ TEST(Picture, ARopePullsWhereItIsFixed) {
   }
   joints.back() = {.N = 4e3 * std::hypot(1, 0.6) / 0.6};
   std::size_t stations = 0;
-  for (const picture::Strip& strip : picture::strips(plan, joints))
-    for (const picture::Station& s : strip.stations) {
+  for (const diagram::Strip& strip : diagram::strips(plan, joints))
+    for (const diagram::Station& s : strip.stations) {
       ++stations;
       EXPECT_NEAR(s.M, -2e3 * (4 - s.at.x) + 4e3 * std::max(0., fixed.x - s.at.x), 1) << s.at.x;
     }
@@ -373,10 +373,10 @@ TEST(Picture, DiagramsOfPiecesThatHaveTurned) {
                       .Q = -2e3 * std::cos(of_axis),
                       .M = -2e3 * std::cos(turn) * (4 - joint.anchor.x)});
   }
-  const std::vector<picture::Strip> strips = picture::strips(plan, joints, gone);
+  const std::vector<diagram::Strip> strips = diagram::strips(plan, joints, gone);
   ASSERT_EQ(strips.size(), 4u);
-  for (const picture::Strip& strip : strips)
-    for (const picture::Station& s : strip.stations) {
+  for (const diagram::Strip& strip : strips)
+    for (const diagram::Station& s : strip.stations) {
       if (s.at.x > 4 - 1e-9) continue;  // beyond the load
       EXPECT_NEAR(s.N, -2e3 * std::sin(turn), 1e-6) << s.at.x;
       EXPECT_NEAR(s.Q, -2e3 * std::cos(turn), 1e-6) << s.at.x;

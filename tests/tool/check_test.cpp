@@ -36,6 +36,60 @@ TEST(CheckCommand, ACantileverWithALoadAtItsTip) {
       << table.out;
 }
 
+// A mast on a pin, pressed down: any load pushes it over, which every command says that looks at stability.
+TEST(CheckCommand, AMechanismIsNotCalledStable) {
+  const Folder folder;
+  const auto scene = [&](const std::string& support) {
+    return folder.write("scene.json",
+                        R"({"gravity": [0,0], "bodies": [{"name": "mast",
+      "outline": [[-0.05,0],[0.05,0],[0.05,6],[-0.05,6]], "depth": 0.1, "material": "S355", "split": {"pieces": 4}}],
+      "supports": [{"body": "mast", "at": [0,0], "fix": ["x","y"]})" +
+                            support + R"(], "loads": [{"body": "mast", "at": [0,6], "force": [0,-1e4]}]})");
+  };
+  const std::string file = scene("");
+  const std::string remark =
+      "mast: can move without strain, a mechanism that these loads push over, however small they are; brace "
+      "it, "
+      "support it, or weld a joint that turns freely";
+  for (const std::string command :
+       {"check", "check --second-order", "limit", "limit --second-order", "design --for reserve=2 --by fy"}) {
+    const Ran ran = run(command + " " + file + " --json");
+    ASSERT_EQ(ran.exit, 0) << command << ran.err;
+    EXPECT_EQ(ran.json()["critical_load_factor"], 0) << command;
+    EXPECT_EQ(ran.json()["remarks"], json{remark}) << command;
+    const std::string text = run(command + " " + file).out;
+    EXPECT_NE(text.find("unstable under any multiple of the loads"), std::string::npos) << text;
+    EXPECT_NE(text.find(remark), std::string::npos) << text;
+  }
+  EXPECT_EQ(run("limit --second-order " + file + " --json").json()["second_order_load_factor"], 0);
+  expect_bad_input(run("design --second-order --for collapse=2 --by fy " + file));
+  const json rolls = run("check --json " + scene(R"(, {"body": "mast", "at": [0,6], "fix": ["x"]})")).json();
+  EXPECT_GT(rolls["critical_load_factor"], 1);
+  EXPECT_EQ(rolls["remarks"], json::array());
+}
+
+// P in the middle of seven pieces: P L/4, of which the joints at 3 L/7 see 6/7.
+TEST(CheckCommand, TellsOfMomentsWithinAPiece) {
+  const Folder folder;
+  const auto beam = [&](int pieces) {
+    return folder.write("scene.json", R"({"gravity": [0,0], "bodies": [{"name": "b",
+      "outline": [[0,-0.15],[8,-0.15],[8,0.15],[0,0.15]], "depth": 0.1, "material": "S355", "split": {"pieces": )" +
+                                          std::to_string(pieces) + R"(}}],
+      "supports": [{"body": "b", "at": [0,0], "fix": ["x","y"]}, {"body": "b", "at": [8,0], "fix": ["y"]}],
+      "loads": [{"body": "b", "at": [4,0], "force": [0,-1e5]}]})");
+  };
+  const std::string said = "b/3: the moment inside is 1.17 times what its joints see";
+  for (const std::string command : {"check", "limit", "design --for collapse=1.5 --by depth"}) {
+    EXPECT_NE(run(command + " " + beam(7)).out.find(said), std::string::npos) << command;
+    EXPECT_NE(run(command + " --json " + beam(7)).json()["remarks"].dump().find(said), std::string::npos);
+    EXPECT_EQ(run(command + " --json " + beam(8)).json()["remarks"], json::array()) << command;
+  }
+  const json fibre = run("check --json " + beam(7)).json()["first_fibre"];
+  EXPECT_EQ(fibre["piece"], "b/3");
+  EXPECT_EQ(fibre["joint"], nullptr);
+  EXPECT_NEAR(fibre["factor"].get<double>(), 0.1 * 0.09 / 6 * 355e6 / 2e5, 1e-9);
+}
+
 // IPE 300 of S355: class 4 in compression (web 248.6/7.1 = 35.0 > 34.2), 1 in bending; P L = W_el f_y and
 // W_pl f_y.
 TEST(CheckCommand, ProfilesHaveTheirClassAndJointsTheirFirstFibre) {
@@ -181,6 +235,24 @@ TEST(CheckCommand, TellsOfBarsThatAreRigid) {
   EXPECT_EQ(remarks(0.6, 1), json::array());
 }
 
+// Its joints alone give: a column of one piece is told to bear more than Euler has it, or never to buckle.
+TEST(CheckCommand, TellsOfAClampedBarOfOnePiece) {
+  const Folder folder;
+  const auto remarks = [&](const std::string& holds) {
+    return run("check --json " + folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "c", "outline": [[0,-0.1],[4,-0.1],[4,0.1],[0,0.1]], "depth": 0.1, "material": "S355"}],
+      "loads": [{"body": "c", "at": [4,0], "force": [-1e5,-1e3]}], )" +
+                                                                holds + "}"))
+        .json()["remarks"];
+  };
+  const std::string said = "c: one piece is rigid";
+  EXPECT_NE(remarks(R"("joints": [{"between": ["wall","c"]}])").dump().find(said), std::string::npos);
+  EXPECT_NE(
+      remarks(R"("supports": [{"body": "c", "at": [0,0], "fix": ["x","y","angle"]}])").dump().find(said),
+      std::string::npos);
+}
+
 // A beam clamped at both ends, with a moment of 20 kN m in its middle: a quarter of it at either end, by
 // symmetry. Over a cut the piece on one side takes it all.
 TEST(CheckCommand, TellsOfNodesAtCuts) {
@@ -218,6 +290,30 @@ TEST(CheckCommand, TellsOfNodesAtCuts) {
   EXPECT_NEAR(ends(odd)[0] / ends(odd)[1], 1, 1e-6);
   EXPECT_TRUE(odd.json()["remarks"].empty()) << odd.out;
   EXPECT_EQ(run("calibrate " + beam(20, "[4.01,0], \"moment\": 0")).out.find(said), std::string::npos);
+}
+
+// What stands still feels nothing, and a load right over a support goes into it.
+TEST(CheckCommand, LoadsThatDoNothing) {
+  const Folder folder;
+  const auto check = [&](const std::string& rest) {
+    return run("check --json " + folder.write("scene.json", R"({"gravity": [0,0], "bodies": [
+      {"name": "wall", "type": "static", "outline": [[-1,-1],[0,-1],[0,1],[-1,1]]},
+      {"name": "beam", "outline": [[0,-0.1],[6,-0.1],[6,0.1],[0,0.1]], "depth": 0.1, "material": "S355",
+       "split": {"pieces": 6}}], "joints": [{"between": ["wall","beam"]}], )" +
+                                                                rest + "}"))
+        .json();
+  };
+  const json idle{
+      "wall: does not move, so a load or a support on it does nothing; give it to a body that does"};
+  EXPECT_EQ(check(R"("loads": [{"body": "wall", "at": [-0.5,0], "force": [0,-1e4]}])")["remarks"], idle);
+  EXPECT_EQ(check(R"("loads": [{"body": "beam", "at": [6,0], "force": [0,-1e4]}],
+                     "supports": [{"body": "wall", "at": [-0.5,0], "fix": ["x"]}])")["remarks"],
+            idle);
+  const json over = check(R"("loads": [{"body": "beam", "at": [6,0], "force": [0,-1e4]}],
+    "supports": [{"body": "beam", "at": [6,0], "fix": ["y"]}, {"body": "beam", "at": [6,0], "fix": ["y"]}])");
+  EXPECT_EQ(over["first_hinge"]["joint"], nullptr);
+  EXPECT_EQ(over["first_fibre"]["joint"], nullptr);
+  EXPECT_EQ(over["remarks"], json::array());
 }
 
 TEST(CheckCommand, TellsOfADrawingInMillimetres) {

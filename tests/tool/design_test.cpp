@@ -58,6 +58,21 @@ TEST_F(DesignCommand, PiecesAndNumbers) {
   EXPECT_NE(design("--for frequency=5 --by E").out.find("frequency of 5 Hz"), std::string::npos);
 }
 
+// A single piece is rigid and never yields. Of two, the joint under the load is at 4 M_p/L.
+TEST_F(DesignCommand, NumbersOfPiecesThatCannotYieldArePassedOver) {
+  const std::string beam = folder.write("beam.scene.json", R"({"gravity": [0,0],
+  "bodies": [{"name": "b", "outline": [[0,-0.15],[8,-0.15],[8,0.15],[0,0.15]], "depth": 0.1, "material": "S355"}],
+  "supports": [{"body": "b", "at": [0,0], "fix": ["x","y"]}, {"body": "b", "at": [8,0], "fix": ["y"]}],
+  "loads": [{"body": "b", "at": [4,0], "force": [0,-100e3]}]})");
+  const double M_p = 0.1 * 0.3 * 0.3 / 4 * 355e6;
+  for (const std::string target : {"reserve", "collapse"}) {
+    const json found = run("design " + beam + " --for " + target + "=1.5 --by pieces --json").json();
+    EXPECT_EQ(found["value"], 2) << target;
+    EXPECT_NEAR(found["reached"].get<double>(), 4 * M_p / 8 / 100e3, 1e-7) << target;
+  }
+  expect_bad_input(run("design " + beam + " --for reserve=1.5 --by pieces --among 1"), "yield");
+}
+
 // Where bars are welded, one of them needs a joint of its own that the weld is as strong as.
 TEST_F(DesignCommand, NumbersOfPiecesThatASceneCannotHaveArePassedOver) {
   const std::string portal = folder.write("portal.scene.json", R"({"gravity": [0,0],
@@ -97,6 +112,19 @@ TEST_F(DesignCommand, AMemberOfAListThatIsJustEnough) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   EXPECT_EQ(ran.json()["value"], "oak");
   expect_bad_input(design("--for damping=0.10000001 --by material --among oak"), "the best comes to 0.1");
+}
+
+// As every command refuses to.
+TEST_F(DesignCommand, DoesNotWriteOverItsScene) {
+  const std::string before = slurp(scene);
+  expect_bad_input(design("--for reserve=1.5 --by depth --out " + scene), "is the file that is read");
+  EXPECT_EQ(slurp(scene), before);
+}
+
+// Of a bar of one depth its own mass and stiffness both are, and its frequency is not.
+TEST_F(DesignCommand, SaysWhereANumberChangesNothing) {
+  expect_bad_input(design("--for frequency=50 --by depth"), "the same whatever that number is");
+  expect_bad_input(design("--for frequency=50 --by fy"), "the same whatever that number is");
 }
 
 TEST_F(DesignCommand, BadInput) {

@@ -252,6 +252,7 @@ TEST(SceneRope, ShortOnesAreStrainedInCheckAndLongOnesAreNot) {
   const json loose = of("check", guyed(drawn + short_by, k, F))["joints"];
   EXPECT_NEAR(loose[1]["N"], std::sqrt(2.) * F, 1e-6 * F);
   EXPECT_EQ(loose[2]["N"], 0);
+  EXPECT_NEAR(of("check", guyed(drawn + short_by, k, F))["reserve"], 100e3 / (std::sqrt(2.) * F), 1e-6);
 }
 
 // Two rigid links of 4 m and 2 m, upright, the upper one a line, with a spring k across their hinge:

@@ -26,12 +26,14 @@ struct StaticJoint {
   double N = 0, Q = 0, M = 0;  ///< N, N, N m; NaN in a loose structure
   JointReading::Usage usage;   ///< |value| / cap of its sign; NaN where unlimited, 0 where the row is free
   /// The factor on all loads and gravity at which the joint yields: 1 / its largest usage, or with
-  /// Plan::interaction where the ray from the origin leaves the yield surface. Unlimited where it never does.
+  /// Plan::interaction where the ray from the origin leaves the yield surface; from prestress on, where lines
+  /// are not as long as they are drawn. Unlimited where it never does.
   double yields_at = unlimited;
 };
 
 /// Elastic forces under the plan's loads, gravity and prescribed displacements of supports (settlement), each
-/// at its full value whatever its ramp; factors are on all of them. Where loads
+/// at its full value whatever its ramp; factors are on all of them. What lines strain that are not as long as
+/// they are drawn is there at the factor 0 and stays, while they go slack and taut as they must. Where loads
 /// start and end, those that act at one time are taken together, and the time of least reserve is reported.
 struct StaticCheck {
   double time = 0;                  ///< s
@@ -68,14 +70,18 @@ StaticCheck static_check(const Plan& plan, Order order = Order::first);
 
 /// Elastic buckling.
 struct CriticalLoad {
-  double factor = unlimited;  ///< on all loads and gravity; unlimited: no factor makes it buckle
-  std::vector<Motion> mode;   ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
-  double time = 0;            ///< s, from when on these loads act (as in StaticCheck)
+  double factor = unlimited;      ///< on all loads and gravity; unlimited: no factor makes it buckle; 0: the
+                                  ///< loads push on a motion without strain, however small they are
+  std::vector<Motion> mode;       ///< by Plan::pieces: the largest displacement is 1 m; empty: no mode
+  double time = 0;                ///< s, from when on these loads act (as in StaticCheck)
+  std::vector<Motion> mechanism;  ///< such a motion, or one that loads neither push on nor hold; empty: none
 };
 
 /// The least factor at which the structure, elastic, has a state of equilibrium beside its own: K + α K_g is
-/// singular for the first-order forces of the loads. Bars bend as in static_check() of second order: within
-/// 1e-4 of Euler's loads with eight pieces to a half wave. Throws InvalidInput as static_check() does.
+/// singular for the first-order forces of the loads. What moves without strain is held by loads alone, as a
+/// pendulum is: where these push it on, there is no stable state at any factor. Bars bend as in
+/// static_check() of second order: within 1e-4 of Euler's loads with eight pieces to a half wave. Throws
+/// InvalidInput as static_check() does.
 CriticalLoad critical_load(const Plan& plan);
 
 /// A joint, and the factor on all loads that brings it there.
@@ -84,15 +90,30 @@ struct Reached {
   double factor = unlimited;
 };
 
-/// The joint whose section's first fibre yields first, and the factor for each.
+/// Where the first fibre yields first, and the factor for each joint.
 struct FirstFibre : Reached {
+  int piece = -1;              ///< in whose length it does, where `joint` is −1; −1: in none
   std::vector<double> joints;  ///< by Plan::joints; unlimited: it never does
 };
 
-/// The joint in whose section the first fibre yields, of N and M: N E/EA + M E y/EI = f_y. A section bears
-/// more, up to its plastic moment, which is what joints yield at (StaticCheck::first_to_yield). Of second
-/// order when the check is. Joints without a section, as supports, are passed over.
+/// Where the first fibre of a section yields, of N and M: N E/EA + M E y/EI = f_y. A section bears more, up
+/// to its plastic moment, which is what joints yield at (StaticCheck::first_to_yield). In a straight piece,
+/// at its nodes and supports it is looked for between its cuts, whose sections the piece has. Of second order
+/// when the check is. What is not cut has no section, and is passed over.
 FirstFibre first_fibre(const Plan& plan, const StaticCheck& check, Order order = Order::first);
+
+/// A piece that bears more within its length than where it is cut.
+struct MissedMoment {
+  int piece = -1;
+  double factor =
+      1;  ///< the most that it uses of M within, over the most that its joints use; may be infinite
+};
+
+/// Joints alone yield: where a load, a support or a node stands within a piece, or its own weight is large,
+/// yield and collapse come too late by as much. The straight pieces of which a moment of more than 2 % is
+/// missed, the worst first, but for those with less than a third of the largest moment.
+std::vector<MissedMoment> missed_moments(const Plan& plan, const StaticCheck& check,
+                                         Order order = Order::first);
 
 /// What it takes to collapse.
 struct LimitAnalysis {

@@ -102,7 +102,8 @@ Reach reach(const SceneDef& scene, const std::vector<std::size_t>& bodies, Prope
             double target, Order order = Order::first);
 
 /// The first of the scenes with at least that reserve, collapse load, frequency or damping; at most that
-/// displacement, rotation or mass; those that calibrate() refuses are passed over. Throws InvalidInput where
+/// displacement, rotation or mass; those that calibrate() refuses, and those of which nothing ever
+/// yields, are passed over. Throws InvalidInput where
 /// none is, and what is wrong with the last one where all are refused.
 Reach first_to_reach(const std::vector<SceneDef>& candidates, Measure measure, double target,
                      Order order = Order::first);

@@ -1,12 +1,13 @@
 // What pieces carry between their joints: the ordinates of axial, shear and moment diagrams.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "ductile/calibrate.h"
 #include "ductile/simulation.h"
 
-namespace ductile::picture {
+namespace ductile::diagram {
 
 /// A section through a piece, and what it carries there.
 struct Station {
@@ -18,6 +19,7 @@ struct Station {
 struct Strip {
   int piece = 0;
   Point axis;                     ///< unit
+  bool whole = false;             ///< the piece from end to end
   std::vector<Station> stations;  ///< along the axis; two at one place where something acts there
 };
 
@@ -28,4 +30,13 @@ struct Strip {
 std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints,
                           const std::vector<Motion>& motions = {});
 
-}  // namespace ductile::picture
+/// What is there to be in equilibrium with.
+struct State {
+  std::function<JointReading(std::size_t joint)> carries;
+  std::function<Motion(int piece)> gone;  ///< null: as drawn
+  double factor = 1;                      ///< on loads and weights
+};
+/// Of one piece.
+std::vector<Strip> strips(const Plan& plan, int piece, const State& state);
+
+}  // namespace ductile::diagram

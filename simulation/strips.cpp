@@ -6,7 +6,7 @@
 #include "ductile/moments.h"
 #include "ductile/plane.h"
 
-namespace ductile::picture {
+namespace ductile::diagram {
 namespace {
 
 constexpr int intervals = 4;     // between two places where something acts
@@ -21,10 +21,9 @@ struct Action {
 };
 
 // What a joint's axis has turned by: that of a support stays, that of a line goes with its ends.
-double turned(const Plan& plan, const PlannedJoint& joint, const std::vector<Motion>& motions) {
-  if (motions.empty() || joint.a < 0) return 0;
-  const Motion &a = motions[static_cast<std::size_t>(joint.a)],
-               &b = motions[static_cast<std::size_t>(joint.b)];
+double turned(const Plan& plan, const PlannedJoint& joint, const std::function<Motion(int)>& gone) {
+  if (!gone || joint.a < 0) return 0;
+  const Motion a = gone(joint.a), b = gone(joint.b);
   if (!joint.end) return (a.turn + b.turn) / 2;
   const auto end = [&](int piece, const Motion& motion, Point at) {
     return motion.along + motion.turn * left(at - plan.pieces[static_cast<std::size_t>(piece)].center);
@@ -41,22 +40,22 @@ Action of_joint(const PlannedJoint& joint, const JointReading& carries, double s
 
 class PieceStrips {
  public:
-  PieceStrips(const Plan& plan, int index, const std::vector<JointReading>& joints,
-              const std::vector<Motion>& motions)
+  PieceStrips(const Plan& plan, int index, const State& state)
       : piece_(plan.pieces[static_cast<std::size_t>(index)]), index_(index) {
-    const double turn = motions.empty() ? 0 : motions[static_cast<std::size_t>(index)].turn;
+    const double turn = state.gone ? state.gone(index).turn : 0;
     const Rotation turn_of_piece(turn);
     for (std::size_t i = 0; i < plan.joints.size(); ++i) {
       const PlannedJoint& joint = plan.joints[i];
       if (joint.a != index && joint.b != index) continue;
-      actions_.push_back(
-          of_joint(joint, joints[i], joint.a == index ? 1 : -1, turned(plan, joint, motions) - turn));
+      actions_.push_back(of_joint(joint, state.carries(i), joint.a == index ? 1 : -1,
+                                  turned(plan, joint, state.gone) - turn));
       if (joint.height > 0) cuts_.push_back(&joint);
     }
     for (const Plan::Load& load : plan.loads)
       if (load.piece == index)
-        actions_.push_back({load.at, turn_of_piece.inverse(load.def.force), load.def.moment});
-    weight_ = turn_of_piece.inverse(piece_.mass * plan.gravity);
+        actions_.push_back(
+            {load.at, state.factor * turn_of_piece.inverse(load.def.force), state.factor * load.def.moment});
+    weight_ = state.factor * turn_of_piece.inverse(piece_.mass * plan.gravity);
   }
 
   void add_to(std::vector<Strip>& strips) const {
@@ -102,8 +101,10 @@ class PieceStrips {
     if (first && !last) to = from + dot(to - from, axis) * axis;
     if (last && !first) from = to + dot(from - to, axis) * axis;
     const double length_ = length(to - from);
-    if (!(length_ > 0)) return {index_, axis, {}};
-    return along(from, to, (1 / length_) * weight_);
+    if (!(length_ > 0)) return {index_, axis};
+    Strip strip = along(from, to, (1 / length_) * weight_);
+    strip.whole = true;
+    return strip;
   }
 
   /// From a cut as far as the piece's middle is from it; the piece's weight is left to the rest of it.
@@ -117,7 +118,7 @@ class PieceStrips {
   /// behind one of its cuts.
   Strip along(Point from, Point to, Point weight_per_metre, const PlannedJoint* only = nullptr) const {
     const double span = length(to - from);
-    Strip strip{index_, span > 0 ? (1 / span) * (to - from) : Point{1, 0}, {}};
+    Strip strip{index_, span > 0 ? (1 / span) * (to - from) : Point{1, 0}};
     if (!(span > 0)) return strip;
     struct Placed {
       double s;
@@ -136,6 +137,14 @@ class PieceStrips {
     }
     std::sort(breaks.begin(), breaks.end());
     breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    double most_force = span * length(weight_per_metre), most_moment = most_force * span;
+    for (const Placed& each : placed) {
+      most_force += length(each.action->force);
+      most_moment += std::abs(each.action->moment) + span * length(each.action->force);
+    }
+    const auto sure = [](double value, double most) {  // not what the joints' own rounding leaves
+      return std::abs(value) > 1e-9 * most ? value : 0;
+    };
     const auto station = [&](double s, bool before) {
       const Point at = from + s * strip.axis;
       Point force = (span - s) * weight_per_metre;
@@ -145,7 +154,8 @@ class PieceStrips {
         force = force + each.action->force;
         moment += each.action->moment + cross(each.action->at - at, each.action->force);
       }
-      strip.stations.push_back({at, dot(force, strip.axis), dot(force, left(strip.axis)), moment});
+      strip.stations.push_back({at, sure(dot(force, strip.axis), most_force),
+                                sure(dot(force, left(strip.axis)), most_force), sure(moment, most_moment)});
     };
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       for (int k = 0; k <= intervals; ++k)
@@ -162,13 +172,21 @@ class PieceStrips {
 
 }  // namespace
 
-std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints,
-                          const std::vector<Motion>& motions) {
+std::vector<Strip> strips(const Plan& plan, int piece, const State& state) {
   std::vector<Strip> result;
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
-    if (plan.is_dynamic(static_cast<int>(i)) && plan.pieces[i].part_of < 0)
-      PieceStrips(plan, static_cast<int>(i), joints, motions).add_to(result);
+  if (plan.is_dynamic(piece) && plan.pieces[static_cast<std::size_t>(piece)].part_of < 0)
+    PieceStrips(plan, piece, state).add_to(result);
   return result;
 }
 
-}  // namespace ductile::picture
+std::vector<Strip> strips(const Plan& plan, const std::vector<JointReading>& joints,
+                          const std::vector<Motion>& motions) {
+  State state{[&](std::size_t i) { return joints[i]; }};
+  if (!motions.empty()) state.gone = [&](int piece) { return motions[static_cast<std::size_t>(piece)]; };
+  std::vector<Strip> result;
+  for (int i = 0; i < static_cast<int>(plan.pieces.size()); ++i)
+    for (Strip& strip : strips(plan, i, state)) result.push_back(std::move(strip));
+  return result;
+}
+
+}  // namespace ductile::diagram
