@@ -55,7 +55,8 @@ class Fibres {
   std::vector<Corner> corners_;
 };
 
-// Straight pieces between their cuts, where a load, a support or a node may put the most into them.
+// Straight pieces between their cuts, where a load, a support or a node may put the most into them. One that
+// is cut through a hole has several cuts at an end, and no section of its own: it is left out.
 class Inside {
  public:
   Inside(const Plan& plan, double time) : plan_(plan), cuts_(plan.pieces.size()) {
@@ -71,14 +72,16 @@ class Inside {
   template <typename OfCut, typename Visit>
   void visit(int piece, const diagram::State& state, const OfCut& of_cut, const Visit& each) const {
     const auto& cuts = cuts_[static_cast<std::size_t>(piece)];
-    if (cuts.empty()) return;
+    if (cuts.empty() || cuts.size() > 2) return;
     for (const diagram::Strip& strip : diagram::strips(plan_, piece, state)) {
       if (!strip.whole || strip.stations.empty()) continue;
       const auto along = [&](const PlannedJoint* cut) { return dot(cut->anchor, strip.axis); };
       const auto [first, last] = std::minmax_element(
           cuts.begin(), cuts.end(),
           [&](const PlannedJoint* a, const PlannedJoint* b) { return along(a) < along(b); });
-      const double low = along(*first), high = along(*last);
+      const double low = along(*first), high = along(*last),
+                   middle = dot(plan_.pieces[static_cast<std::size_t>(piece)].center, strip.axis);
+      if (cuts.size() == 2 && !(low < middle && middle < high)) continue;
       const double same = 1e-9 * length(strip.stations.back().at - strip.stations.front().at);
       for (const diagram::Station& station : strip.stations) {
         const double s = dot(station.at, strip.axis);

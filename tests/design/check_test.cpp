@@ -1,6 +1,7 @@
 // Static forces against closed forms, and against the simulation at rest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -363,6 +364,22 @@ TEST(MissedMoments, OfASupportWithinAPiece) {
   const FirstFibre fibre = first_fibre(plan, static_check(plan));
   EXPECT_EQ(fibre.joint, joint_named(plan, "support/1"));
   EXPECT_NEAR(fibre.factor, plastic_moment / 1.5 / 13e6, 1e-9);
+}
+
+// A girder with a window over its length between two solid ends, cut through both of its chords: these bear
+// N as well, and no section bears the whole moment.
+TEST(MissedMoments, NoneOfAWindow) {
+  for (const int pieces : {2, 3, 4}) {
+    SceneDef scene = cantilever(pieces, 1e6);
+    scene.bodies[1].outline.holes = {rectangle(1, -0.3, 19, 0.3)};
+    const Plan plan = calibrate(scene);
+    const StaticCheck check = static_check(plan);
+    ASSERT_EQ(plan.joints.size(), 2u * static_cast<std::size_t>(pieces) - 1);
+    EXPECT_TRUE(missed_moments(plan, check).empty());
+    const FirstFibre fibre = first_fibre(plan, check);
+    EXPECT_EQ(fibre.piece, -1);
+    EXPECT_EQ(fibre.factor, *std::min_element(fibre.joints.begin(), fibre.joints.end()));
+  }
 }
 
 // A mast with an arm welded to its top: the corner has all of the moment, whichever number of pieces there
